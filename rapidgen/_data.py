@@ -1,0 +1,11 @@
+"""Where the shipped data lies: `_data` in a wheel, the top level in a checkout."""
+
+from pathlib import Path
+
+_PACKAGE = Path(__file__).resolve().parent
+
+
+def data_folder(name: str) -> Path:
+    """Folder `templates` or `robots`, wherever this copy of rapidgen keeps it."""
+    packaged = _PACKAGE / "_data" / name
+    return packaged if packaged.is_dir() else _PACKAGE.parent / name

@@ -1,0 +1,1 @@
+"""Units, joint maps, limits, kinematics and timing of axes."""

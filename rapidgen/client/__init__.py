@@ -1,0 +1,1 @@
+"""The paired Python client: sync and async."""

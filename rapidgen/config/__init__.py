@@ -1,0 +1,1 @@
+"""YAML and URDF become one frozen, checked model of the robot."""

@@ -1,0 +1,161 @@
+"""The checked configuration of one robot controller: frozen, complete, in SI units.
+
+Everything after `config` reads this and nothing else. Angles are rad, lengths m, times s
+unless a name says otherwise; `limits` are those of the controller's axis (after sign, offset
+and, for coupled robots, in ABB's coupled sense), rounded inwards.
+"""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal
+
+AxisKind = Literal["revolute", "prismatic"]
+Generation = Literal[5, 6, 7, 8]
+
+
+@dataclass(frozen=True, slots=True)
+class Joint:
+    """One joint: its URDF name and the controller axis that it drives.
+
+    Controller value = sign * URDF value + offset (rad or m). `axis` is `rax_1`..`rax_6` or
+    `eax_a`..`eax_f`; `rad`/`m` become deg/mm only in RAPID.
+    """
+
+    name: str
+    axis: str
+    kind: AxisKind
+    lower: float
+    upper: float
+    speed: float
+    acceleration: float
+    sign: int = 1
+    offset: float = 0.0
+    source: str = ""
+    unsure: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """One step of the kinematic chain: fixed transform to the joint, then the joint's axis.
+
+    `xyz` m, `rpy` rad (fixed axes x, y, z as in URDF), `axis` unit vector; `joint` is the
+    URDF joint name or empty for a fixed step.
+    """
+
+    joint: str
+    xyz: tuple[float, float, float]
+    rpy: tuple[float, float, float]
+    axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Load:
+    """Mass kg, centre of gravity m, orientation of the axes (q1..q4), inertia kg m2."""
+
+    mass: float = 0.0
+    centre: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    axes: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+    inertia: tuple[float, float, float] = (0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Position in m and unit quaternion q1..q4 (q1 the scalar)."""
+
+    position: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    orientation: tuple[float, float, float, float] = (1.0, 0.0, 0.0, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class Tool:
+    """A tool; `name` is `tool0` or the PERS that the generated module declares."""
+
+    name: str = "tool0"
+    held: bool = True
+    frame: Frame = field(default_factory=Frame)
+    load: Load = field(default_factory=Load)
+
+
+@dataclass(frozen=True, slots=True)
+class WorkObject:
+    """A work object; `name` is `wobj0` or the PERS that the generated module declares."""
+
+    name: str = "wobj0"
+    held: bool = False
+    user_frame: Frame = field(default_factory=Frame)
+    object_frame: Frame = field(default_factory=Frame)
+
+
+@dataclass(frozen=True, slots=True)
+class Ports:
+    """TCP ports of one motion group; `control` is the paired client's own connection."""
+
+    motion: int = 11000
+    control: int = 11001
+    state: int = 11002
+
+
+@dataclass(frozen=True, slots=True)
+class MotionGroup:
+    """One motion task with its mechanical unit: `joints` in wire order (1 to 10)."""
+
+    name: str
+    task: str
+    mechanical_unit: str
+    joints: tuple[Joint, ...]
+    ports: Ports
+    model: str = ""
+    chain: tuple[Link, ...] = ()
+    coupling: float = 0.0
+    """Factor k of controller axis 3 = J3 + k * J2 (0: not coupled)."""
+    tool: Tool = field(default_factory=Tool)
+    work_object: WorkObject = field(default_factory=WorkObject)
+    tcp_speed_limit: float = 5.0
+    """m/s"""
+
+
+@dataclass(frozen=True, slots=True)
+class TrajectoryPolicy:
+    """What the motion server accepts. Tolerances are rad (m for prismatic axes)."""
+
+    capacity: int = 1000
+    zone: str = "z10"
+    start_tolerance: float = 0.00873
+    start_tolerance_linear: float = 0.005
+    too_fast: Literal["refuse", "slow_down"] = "refuse"
+    min_segment: float = 0.1
+    approach_speed: float = 0.1
+    """Fraction of the axis speeds for the first point's approach, where one is allowed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Signal:
+    """A signal that the driver exposes to the client."""
+
+    name: str
+    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+    access: Literal["read", "write"]
+
+
+@dataclass(frozen=True, slots=True)
+class RobotConfig:
+    """One controller with its motion groups."""
+
+    name: str
+    path: Path
+    controller: Literal["irc5", "irc5_compact", "omnicore", "virtual"]
+    robotware: tuple[int, int]
+    groups: tuple[MotionGroup, ...]
+    trajectory: TrajectoryPolicy = field(default_factory=TrajectoryPolicy)
+    state_period: float = 0.1
+    bind: str = "lan"
+    """`lan` (the controller's LAN address), `service`, or an address."""
+    allowed_clients: tuple[str, ...] = ()
+    receive_timeout: float = 0.0
+    commissioning: bool = False
+    """Background tasks NORMAL instead of SEMISTATIC, so that they can be stopped and edited."""
+    call_main: bool = True
+    """False: the motion task's own `main` calls the driver's entry routine."""
+    signals: tuple[Signal, ...] = ()
+    inputs: tuple[tuple[str, bytes], ...] = ()
+    """Texts the configuration was made from (name, bytes): BUILD_ID hashes them."""

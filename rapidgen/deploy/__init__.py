@@ -1,0 +1,1 @@
+"""Plan, apply, verify and roll back what lies on a controller."""

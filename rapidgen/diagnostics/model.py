@@ -1,0 +1,76 @@
+"""The one shape of a finding. Nothing here formats text for a terminal: see render.py."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from enum import StrEnum
+
+
+class Severity(StrEnum):
+    """How much a finding weighs. Only `ERROR` makes a command fail."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    INFO = "info"
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """A place in a text: lines and columns from 1, in code points; the end is exclusive.
+
+    `end_line` and `end_column` of 0 mean a point: one character is marked.
+    """
+
+    path: str
+    line: int
+    column: int
+    end_line: int = 0
+    end_column: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A second place that explains the first ("declared here")."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding.
+
+    `message` is a terse phrase without a full stop; `label` says what is wrong at the
+    marked place; `help` says what to do; `notes` add facts, such as the rule's source.
+    """
+
+    code: str
+    severity: Severity
+    message: str
+    span: Span | None = None
+    label: str = ""
+    help: str = ""
+    notes: tuple[str, ...] = ()
+    related: tuple[Label, ...] = ()
+
+
+class DiagnosticError(Exception):
+    """A user's fault that ends what was under way. The only exception commands show.
+
+    `exit_code` is 2 for bad input or usage and 1 for a refusal or a failure.
+    """
+
+    def __init__(
+        self, diagnostics: Diagnostic | Iterable[Diagnostic], *, exit_code: int = 2
+    ) -> None:
+        found = (diagnostics,) if isinstance(diagnostics, Diagnostic) else tuple(diagnostics)
+        super().__init__("; ".join(f"{d.code}: {d.message}" for d in found))
+        self.diagnostics: tuple[Diagnostic, ...] = found
+        self.exit_code = exit_code
+
+
+def suggest(word: str, known: Sequence[str]) -> str:
+    """A "did you mean" sentence for `word`, or an empty text when nothing is close."""
+    folded = {name.casefold(): name for name in known}
+    close = get_close_matches(word.casefold(), list(folded), n=1, cutoff=0.6)
+    return f"did you mean '{folded[close[0]]}'?" if close else ""

@@ -1,0 +1,1 @@
+"""The robot model becomes RAPID modules, controller configuration and a manifest."""

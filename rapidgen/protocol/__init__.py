@@ -1,0 +1,1 @@
+"""simple_message as data, and what is derived from it. No I/O."""

@@ -1,0 +1,1 @@
+"""The driver's own test suite, on the virtual controller."""

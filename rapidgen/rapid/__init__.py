@@ -1,0 +1,1 @@
+"""RAPID: text, tokens, tree, checked program, formatted text."""

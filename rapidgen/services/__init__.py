@@ -1,0 +1,1 @@
+"""FTP and SFTP faces of a virtual controller."""

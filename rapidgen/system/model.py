@@ -1,0 +1,118 @@
+"""What a controller is made of, whatever it was read from: frozen data, no I/O.
+
+Names and values are those of ABB's cfg files (facts: the SYS and EIO domains).
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+TaskType = Literal["NORMAL", "STATIC", "SEMISTATIC"]
+TrustLevel = Literal["SysFail", "SysHalt", "SysStop", "NoSafety"]
+SignalType = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
+
+
+@dataclass(frozen=True, slots=True)
+class ModuleFile:
+    """One module file as bytes. `path` is for messages; `target` is its HOME: path, if any."""
+
+    name: str
+    path: str
+    data: bytes
+    target: str = ""
+    origin: tuple[tuple[int, str, int], ...] = ()
+    """Line map of a generated file: (RAPID line, template, template line), ascending."""
+
+
+@dataclass(frozen=True, slots=True)
+class TaskSpec:
+    """One RAPID task (CAB_TASKS) with the modules loaded into it, in loading order."""
+
+    name: str
+    type: TaskType = "NORMAL"
+    trust: TrustLevel = "SysFail"
+    entry: str = "main"
+    motion: bool = False
+    mechanical_unit_group: str = ""
+    modules: tuple[ModuleFile, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class MechanicalUnitGroup:
+    """MECHANICAL_UNIT_GROUP: a robot, further units and the planner that moves them."""
+
+    name: str
+    robot: str = ""
+    units: tuple[str, ...] = ()
+    planner: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SignalSpec:
+    """EIO_SIGNAL. A signal without a device is a virtual one."""
+
+    name: str
+    type: SignalType
+    access: str = "Default"
+    default: float = 0.0
+    device: str = ""
+    size: int = 1
+    """Bits of a group signal."""
+
+
+@dataclass(frozen=True, slots=True)
+class SystemOutput:
+    """SYSSIG_OUT: a status of the controller that drives a DO."""
+
+    status: str
+    signal: str
+    argument: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class SystemInput:
+    """SYSSIG_IN: a DI that makes the controller act."""
+
+    action: str
+    signal: str
+    argument: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CrossConnection:
+    """EIO_CROSS: result := actor (op actor ...); `operators` has one less than `actors`."""
+
+    name: str
+    result: str
+    actors: tuple[tuple[str, bool], ...]
+    """(signal, inverted)"""
+    operators: tuple[Literal["AND", "OR"], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class EventRoutine:
+    """CAB_EXEC_HOOKS: a routine run at POWER_ON, START, STOP, QSTOP, RESTART, RESET or STEP."""
+
+    routine: str
+    event: str
+    task: str = ""
+    all_motion_tasks: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class System:
+    """A whole controller: tasks in order, I/O, mechanical units, RobotWare, HOME:."""
+
+    name: str
+    tasks: tuple[TaskSpec, ...]
+    signals: tuple[SignalSpec, ...] = ()
+    outputs: tuple[SystemOutput, ...] = ()
+    inputs: tuple[SystemInput, ...] = ()
+    cross: tuple[CrossConnection, ...] = ()
+    events: tuple[EventRoutine, ...] = ()
+    groups: tuple[MechanicalUnitGroup, ...] = ()
+    robotware: tuple[int, int] = (6, 0)
+    home: Path | None = None
+    """Folder whose files HOME: starts with; it is copied, never written."""
+    build_id: str = ""
+    """BUILD_ID of a generated folder, else empty."""

@@ -1,0 +1,1 @@
+"""A virtual controller that executes RAPID."""
