@@ -1,0 +1,54 @@
+# One environment (.venv), made on first use and again when pyproject.toml changes.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.made
+
+.PHONY: demo test lint types contract unit wheel bench clean
+
+demo: $(STAMP)
+	$(BIN)/rapidgen demo
+
+test: lint types contract wheel unit
+
+$(STAMP): pyproject.toml
+	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev --editable .
+	touch $@
+
+lint: $(STAMP)
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+
+types: $(STAMP)
+	$(BIN)/mypy
+
+contract: $(STAMP)
+	$(BIN)/lint-imports
+
+# The wheel, in an environment of its own, does the demo: templates/ and robots/ travel. What it
+# depends on is kept from run to run; the wheel itself is always new.
+WHEEL := build/wheel
+wheel: $(STAMP) $(WHEEL)/env/.made
+	rm -rf $(WHEEL)/dist $(WHEEL)/demo
+	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
+	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(WHEEL)/dist/*.whl
+	cd $(WHEEL) && env/bin/rapidgen demo --output demo
+
+$(WHEEL)/env/.made: pyproject.toml $(STAMP)
+	rm -rf $(WHEEL)/env $(WHEEL)/dist && mkdir -p $(WHEEL)
+	$(PYTHON) -m venv $(WHEEL)/env
+	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
+	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check $(WHEEL)/dist/*.whl
+	touch $@
+
+# Last, so that pytest's own summary closes the output.
+unit: $(STAMP)
+	$(BIN)/python -m pytest -n auto
+
+bench: $(STAMP)
+	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+
+clean:
+	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache

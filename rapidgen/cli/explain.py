@@ -1,0 +1,29 @@
+"""`rapidgen explain`: the page of a diagnostic's code."""
+
+from typing import Annotated
+
+import typer
+
+
+def explain(
+    code: Annotated[str, typer.Argument(help="A code such as RG012; `all` lists them.")],
+) -> None:
+    """Explain what a diagnostic's code means, with a bad and a good example."""
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+    from rapidgen.diagnostics.pages import codes, page, title
+
+    if code == "all":
+        for known in codes():
+            typer.echo(f"{known}  {title(known)}")
+        return
+    wanted = code.upper()
+    if wanted not in codes():
+        raise DiagnosticError(
+            Diagnostic(
+                code="RG902",
+                severity=Severity.ERROR,
+                message=f"no diagnostic has the code '{code}'",
+                help=suggest(wanted, codes()) or "`rapidgen explain all` lists them",
+            )
+        )
+    typer.echo(page(wanted), nl=False)

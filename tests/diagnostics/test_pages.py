@@ -1,0 +1,43 @@
+"""Every code that the source uses has a page with both examples, and no page is left over."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import rapidgen
+from rapidgen.diagnostics.pages import codes, page, title
+
+PACKAGE = Path(rapidgen.__file__).parent
+
+
+def used_codes():
+    found = {}
+    for path in PACKAGE.rglob("*.py"):
+        for code in re.findall(r"[\"'](RG\d{3,4})[\"']", path.read_text(encoding="utf-8")):
+            found.setdefault(code, path)
+    return found
+
+
+def test_every_used_code_has_a_page():
+    missing = {
+        code: str(path.relative_to(PACKAGE))
+        for code, path in used_codes().items()
+        if code not in codes()
+    }
+    assert not missing
+
+
+def test_no_page_is_without_a_use():
+    assert not set(codes()) - set(used_codes())
+
+
+@pytest.mark.parametrize("code", codes())
+def test_a_page_has_a_title_a_reason_and_both_examples(code):
+    text = page(code)
+    assert re.match(rf"# {code}: \S", text)
+    assert title(code)
+    head, bad, good = re.split(r"^## (?:Bad|Good)$", text, flags=re.MULTILINE)
+    assert len(head.split("\n", 1)[1].strip()) > 40
+    for example in (bad, good):
+        assert re.search(r"```\w+\n.+?\n```", example, re.DOTALL), text
