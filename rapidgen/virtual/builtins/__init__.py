@@ -1,0 +1,1 @@
+"""Built-in routines by theme; every module here is loaded by registry.py."""
