@@ -1,1 +1,65 @@
-"""ABB's cfg text, backups, generated folders and loose files as one frozen System."""
+"""cfg text, a backup, a generated folder or loose files become one frozen `System`; and back."""
+
+from pathlib import Path
+
+from rapidgen.diagnostics import Diagnostic
+from rapidgen.system.backup import is_backup, read_backup
+from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
+from rapidgen.system.folder import is_generated, read_folder, read_manifest
+from rapidgen.system.interpret import eio_cfg, sys_cfg
+from rapidgen.system.loose import read_files
+from rapidgen.system.model import (
+    CrossConnection,
+    EventRoutine,
+    MechanicalUnitGroup,
+    ModuleFile,
+    SignalSpec,
+    System,
+    SystemInput,
+    SystemOutput,
+    TaskSpec,
+)
+from rapidgen.system.paths import refusal
+
+__all__ = [
+    "Attribute",
+    "CfgText",
+    "CrossConnection",
+    "EventRoutine",
+    "Instance",
+    "MechanicalUnitGroup",
+    "ModuleFile",
+    "Section",
+    "SignalSpec",
+    "System",
+    "SystemInput",
+    "SystemOutput",
+    "TaskSpec",
+    "eio_cfg",
+    "is_backup",
+    "is_generated",
+    "parse_cfg",
+    "read_backup",
+    "read_files",
+    "read_folder",
+    "read_manifest",
+    "read_system",
+    "sys_cfg",
+    "write_cfg",
+]
+
+
+def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> System:
+    """Whatever lies at `path`: a generated folder, a backup, a folder of modules, or a module.
+
+    Raises DiagnosticError RG701..RG712.
+    """
+    path = Path(path)
+    if path.is_dir():
+        if is_generated(path):
+            return read_folder(path)
+        if is_backup(path):
+            return read_backup(path, notes=notes)
+    elif not path.exists():
+        raise refusal("RG704", f"there is no {path}")
+    return read_files([path], name=path.resolve().stem)

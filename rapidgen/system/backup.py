@@ -1,0 +1,134 @@
+"""An ABB backup folder: BACKINFO, HOME, RAPID/TASKn/{PROGMOD,SYSMOD}, SYSPAR.
+
+CAB_TASKS of SYSPAR/SYS.cfg in order are TASK1..n, unless BACKINFO/backinfo.txt names the tasks
+of the folders (`>>TASK1: (T_ROB1,...)`) [code]. RobotWare is the version in backinfo.txt or
+system.xml, else the one in the cfg header.
+"""
+
+import re
+from pathlib import Path
+
+from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.system.cfg import CfgText, parse_cfg
+from rapidgen.system.interpret import (
+    ModuleEntry,
+    crosses_of,
+    events_of,
+    groups_of,
+    inputs_of,
+    modules_of,
+    outputs_of,
+    signals_of,
+    tasks_of,
+)
+from rapidgen.system.loading import load_entries, load_module
+from rapidgen.system.model import ModuleFile, System, TaskSpec
+from rapidgen.system.paths import inside, module_files, read_limited, refusal
+
+_TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
+_VERSIONS = (
+    re.compile(rb"RobotWare[^0-9\r\n]{0,40}(\d+)\.(\d+)", re.I),
+    re.compile(rb">>PRODUCTS_ID:\s*\D{0,80}?(\d+)\.(\d+)", re.I),
+)
+_INFO_FILES = ("BACKINFO/backinfo.txt", "BACKINFO/version.xml", "system.xml", "BACKINFO/system.xml")
+
+
+def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) -> System:
+    """The system in a backup; `notes` collects what could not be taken over.
+
+    Raises DiagnosticError: RG701..RG708 for damaged or hostile content, RG712 when the folder
+    is no backup.
+    """
+    folder = Path(folder)
+    collected: list[Diagnostic] = [] if notes is None else notes
+    if not is_backup(folder):
+        raise refusal(
+            "RG712",
+            f"{folder} is not an ABB backup: it has no SYSPAR/SYS.cfg",
+            help="give the folder that holds BACKINFO, HOME, RAPID and SYSPAR",
+        )
+    sys_cfg = _cfg(folder, "SYS.cfg")
+    eio_path = inside(folder, "SYSPAR/EIO.cfg")
+    eio_cfg = parse_cfg(read_limited(eio_path), path=str(eio_path)) if eio_path.exists() else None
+    if eio_cfg is None:
+        eio_cfg = CfgText("EIO", sys_cfg.version, ())
+    info = _info(folder)
+    numbers = {
+        name.decode("latin-1").casefold(): int(number) for number, name in _TASK_LINE.findall(info)
+    }
+    entries = modules_of(sys_cfg)
+    home = inside(folder, "HOME")
+    tasks = tuple(
+        _with_modules(
+            folder, home, task, numbers.get(task.name.casefold(), n), entries, sys_cfg, collected
+        )
+        for n, task in enumerate(tasks_of(sys_cfg), 1)
+    )
+    return System(
+        name=folder.resolve().name,
+        tasks=tasks,
+        signals=signals_of(eio_cfg),
+        outputs=outputs_of(eio_cfg),
+        inputs=inputs_of(eio_cfg),
+        cross=crosses_of(eio_cfg),
+        events=events_of(sys_cfg),
+        groups=groups_of(sys_cfg),
+        robotware=_robotware(info, sys_cfg, collected),
+        home=home if home.is_dir() else None,
+    )
+
+
+def is_backup(folder: Path) -> bool:
+    """Whether `folder` looks like an ABB backup."""
+    return inside(folder, "SYSPAR/SYS.cfg").is_file()
+
+
+def _with_modules(
+    folder: Path,
+    home: Path,
+    task: TaskSpec,
+    number: int,
+    entries: tuple[ModuleEntry, ...],
+    sys_cfg: CfgText,
+    notes: list[Diagnostic],
+) -> TaskSpec:
+    loaded: list[ModuleFile] = []
+    # System modules are there before a program is loaded [K §9].
+    for place in ("SYSMOD", "PROGMOD"):
+        for path in module_files(inside(folder, f"RAPID/TASK{number}/{place}")):
+            loaded.append(load_module(path))
+    return TaskSpec(
+        task.name,
+        task.type,
+        task.trust,
+        task.entry,
+        task.motion,
+        task.mechanical_unit_group,
+        load_entries(task, entries, home, tuple(loaded), sys_cfg.path, notes),
+    )
+
+
+def _cfg(folder: Path, name: str) -> CfgText:
+    path = inside(folder, f"SYSPAR/{name}")
+    return parse_cfg(read_limited(path), path=str(path))
+
+
+def _info(folder: Path) -> bytes:
+    found = [path for name in _INFO_FILES if (path := inside(folder, name)).is_file()]
+    return b"\n".join(read_limited(path) for path in found)
+
+
+def _robotware(info: bytes, cfg: CfgText, notes: list[Diagnostic]) -> tuple[int, int]:
+    for pattern in _VERSIONS:
+        match = pattern.search(info)
+        if match and 5 <= int(match[1]) <= 9:
+            return int(match[1]), int(match[2])
+    notes.append(
+        Diagnostic(
+            "RG713",
+            Severity.WARNING,
+            f"the backup does not say its RobotWare; {cfg.version[0]}.0 is taken from SYS.cfg",
+            help="name it with --robotware",
+        )
+    )
+    return cfg.version[0], 0

@@ -1,0 +1,209 @@
+"""ABB's cfg text (SYS, EIO, SIO, MOC, ...): parse to frozen data and write it back.
+
+Layout as real controllers save it: a header line `DOMAIN:CFG_1.0:<major>:<minor>::`, `#` lines
+between sections, `SECTION:` on a line of its own, instances of `-Attribute value` pairs that a
+`\\` at the end of a line continues, text in double quotes, numbers bare, and a true boolean as a
+bare `-Flag` (a false one is left out).
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+
+Scalar = str | int | float
+
+_HEADER = re.compile(r"([A-Za-z]+):CFG_1\.0:(\d+):(\d+)::\s*$")
+_SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9_]*):\s*$")
+_TOKEN = re.compile(r'\s*(?:(-[A-Za-z_][A-Za-z0-9_]*)(?=\s|$)|"([^"]*)"|([^\s"]+))')
+_NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?$")
+_LINE_END = re.compile(r"\r\n|\n|\r")
+_LINE_LENGTH = 80
+_INDENT = " " * 6
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """`-name value ...`; a flag has no values."""
+
+    name: str
+    values: tuple[Scalar, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Instance:
+    """One instance of a section; `line` is where it starts (0 when it was not read)."""
+
+    attributes: tuple[Attribute, ...]
+    line: int = 0
+
+    def text(self, name: str, default: str = "") -> str:
+        """First value of an attribute as text; a flag gives an empty text."""
+        for attribute in self.attributes:
+            if attribute.name.casefold() == name.casefold():
+                return str(attribute.values[0]) if attribute.values else ""
+        return default
+
+    def number(self, name: str, default: float = 0.0) -> float:
+        """First value of an attribute as a number, also when it is written in quotes."""
+        text = self.text(name)
+        return float(text) if _NUMBER.match(text) else default
+
+    def flag(self, name: str) -> bool:
+        """Whether a boolean is set: a bare flag, or a written TRUE."""
+        for attribute in self.attributes:
+            if attribute.name.casefold() == name.casefold():
+                return not attribute.values or str(attribute.values[0]).upper() in ("TRUE", "1")
+        return False
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """Instances under one `NAME:` line."""
+
+    name: str
+    instances: tuple[Instance, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CfgText:
+    """One cfg file."""
+
+    domain: str
+    version: tuple[int, int]
+    sections: tuple[Section, ...]
+    path: str = ""
+
+    def instances(self, name: str) -> Iterator[Instance]:
+        """Instances of every section with this name, in order."""
+        for section in self.sections:
+            if section.name == name:
+                yield from section.instances
+
+
+def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
+    """The cfg file in `data`.
+
+    Raises DiagnosticError: RG701 (no header), RG702 (text that is no cfg).
+    """
+    text = data if isinstance(data, str) else _decode(data)
+    lines = _LINE_END.split(text)
+    start = next((i for i, line in enumerate(lines) if line.strip()), 0)
+    header = _HEADER.match(lines[start].strip("\ufeff"))
+    if header is None:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG701",
+                Severity.ERROR,
+                "not a cfg file: the header line is missing",
+                Span(path, start + 1, 1),
+                help="the first line of a cfg file reads like 'SYS:CFG_1.0:6:0::'",
+            )
+        )
+    sections: list[tuple[str, list[Instance]]] = []
+    for number, line in _logical_lines(lines, start + 1):
+        stripped = line.strip()
+        if not stripped or stripped.startswith("#"):
+            continue
+        section = _SECTION.match(line)
+        if section:
+            sections.append((section[1], []))
+        elif sections and stripped.startswith("-"):
+            sections[-1][1].append(Instance(_attributes(line, path, number), number))
+        else:
+            raise _unreadable(path, number, "expected a section ('NAME:') or '-Attribute value'")
+    return CfgText(
+        header[1].upper(),
+        (int(header[2]), int(header[3])),
+        tuple(Section(name, tuple(instances)) for name, instances in sections),
+        path,
+    )
+
+
+def write_cfg(cfg: CfgText) -> str:
+    """The file as text with LF line ends; reading it gives the same sections back.
+
+    Raises DiagnosticError RG703 for a text that the format cannot hold (quote, line end).
+    """
+    out = [f"{cfg.domain}:CFG_1.0:{cfg.version[0]}:{cfg.version[1]}::"]
+    for section in cfg.sections:
+        out += ["#", f"{section.name}:"]
+        for instance in section.instances:
+            out.append("")
+            line = _INDENT
+            for attribute in instance.attributes:
+                words = " ".join([f"-{attribute.name}", *map(_written, attribute.values)])
+                if line.strip() and len(line) + 1 + len(words) > _LINE_LENGTH:
+                    out.append(line + "\\")
+                    line = _INDENT
+                line += (" " if line.strip() else "") + words
+            out.append(line)
+    return "\n".join(out) + "\n"
+
+
+def _decode(data: bytes) -> str:
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("latin-1")
+
+
+def _logical_lines(lines: list[str], start: int) -> Iterator[tuple[int, str]]:
+    """Lines with their continuations joined, numbered from 1."""
+    index = start
+    while index < len(lines):
+        number = index + 1
+        line = lines[index].rstrip()
+        while line.endswith("\\") and index + 1 < len(lines):
+            index += 1
+            line = line[:-1] + " " + lines[index].strip()
+        yield number, line.removesuffix("\\")
+        index += 1
+
+
+def _attributes(line: str, path: str, number: int) -> tuple[Attribute, ...]:
+    found: list[tuple[str, list[Scalar]]] = []
+    line = line.rstrip()
+    at = 0
+    while at < len(line):
+        token = _TOKEN.match(line, at)
+        if token is None or (token[1] is None and not found):
+            raise _unreadable(path, number, "a quote is not closed, or a value has no attribute")
+        at = token.end()
+        if token[1] is not None:
+            found.append((token[1][1:], []))
+        elif token[2] is not None:
+            found[-1][1].append(token[2])
+        else:
+            found[-1][1].append(_scalar(token[3]))
+    return tuple(Attribute(name, tuple(values)) for name, values in found)
+
+
+def _scalar(word: str) -> Scalar:
+    if not _NUMBER.match(word):
+        return word
+    return int(word) if re.fullmatch(r"[+-]?\d{1,18}", word) else float(word)
+
+
+def _written(value: Scalar) -> str:
+    if not isinstance(value, str):
+        return repr(value)
+    if '"' in value or "\n" in value or "\r" in value:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG703",
+                Severity.ERROR,
+                f"a cfg file cannot hold the text {value!r}",
+                help="leave out quotes and line ends",
+            )
+        )
+    return f'"{value}"'
+
+
+def _unreadable(path: str, number: int, label: str) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            "RG702", Severity.ERROR, "unreadable line in a cfg file", Span(path, number, 1), label
+        )
+    )

@@ -1,0 +1,91 @@
+"""Module files as bytes, with the name that they declare."""
+
+import re
+from pathlib import Path
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.system.interpret import ModuleEntry
+from rapidgen.system.model import ModuleFile, TaskSpec
+from rapidgen.system.paths import home_file, module_files, read_limited, refusal
+
+# The head of a module; text before it (a %%% header, comments) is skipped.
+_MODULE = re.compile(rb"^[ \t]*MODULE\s+([A-Za-z\xc0-\xff][\w\xc0-\xff]*)", re.I | re.M)
+_PROGRAM = re.compile(rb"<Module>\s*([^<>]{1,260}?)\s*</Module>", re.I)
+
+Origin = tuple[tuple[int, str, int], ...]
+
+
+def module_name(data: bytes, fallback: str) -> str:
+    """Name in the module's own text, else `fallback`."""
+    found = _MODULE.search(data)
+    return found[1].decode("latin-1") if found else fallback
+
+
+def load_module(path: Path, *, target: str = "", origin: Origin = ()) -> ModuleFile:
+    """One module file. Raises RG704 or RG705."""
+    data = read_limited(path)
+    return ModuleFile(module_name(data, path.stem), str(path), data, target, origin)
+
+
+def expand(path: Path) -> list[Path]:
+    """Module files that `path` stands for: itself, those of a folder, or those of a program.
+
+    Raises RG704 (nothing there) and RG709 (no modules in it).
+    """
+    if path.is_dir():
+        programs = sorted(path.glob("*.pgf"))
+        found = expand(programs[0]) if len(programs) == 1 else list(module_files(path))
+    elif path.suffix.casefold() == ".pgf":
+        named = [name.decode("latin-1") for name in _PROGRAM.findall(read_limited(path))]
+        home = path.parent
+        found = [home_file(home, f"HOME:{name}") for name in named]
+    else:
+        return [path]
+    if not found:
+        raise refusal("RG709", f"no RAPID module in {path}", help="modules end in .mod or .sys")
+    return found
+
+
+def load_entries(
+    task: TaskSpec,
+    entries: tuple[ModuleEntry, ...],
+    home: Path,
+    loaded: tuple[ModuleFile, ...],
+    cfg_path: str,
+    notes: list[Diagnostic] | None,
+    origins: dict[str, Origin] | None = None,
+) -> tuple[ModuleFile, ...]:
+    """`loaded` and then what CAB_TASK_MODULES adds to `task`.
+
+    A file that is not in the folder is a warning RG710 when `notes` collects them (a real
+    backup names options' files that it does not carry), else an error.
+    """
+    modules = list(loaded)
+    known = {module.name.casefold() for module in loaded}
+    for entry in entries:
+        if not entry.loads_into(task):
+            continue
+        place = Span(cfg_path, entry.line, 1) if entry.line else None
+        outside = not entry.file.strip().upper().startswith("HOME:")
+        path = None if outside else home_file(home, entry.file)
+        if path is None or not path.exists():
+            stem = entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
+            if stem.casefold() in known:
+                continue
+            missing = Diagnostic(
+                "RG710",
+                Severity.ERROR if notes is None else Severity.WARNING,
+                f"module file '{entry.file}' of task {task.name} is missing",
+                place,
+                help="put the file into HOME, or take its CAB_TASK_MODULES instance out",
+            )
+            if notes is None:
+                raise DiagnosticError(missing)
+            notes.append(missing)
+            continue
+        origin = (origins or {}).get(path.name, ())
+        module = load_module(path, target=entry.file, origin=origin)
+        if module.name.casefold() not in known:
+            known.add(module.name.casefold())
+            modules.append(module)
+    return tuple(modules)

@@ -1,0 +1,91 @@
+"""Loose module, program and cfg files: one task or several."""
+
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from rapidgen.system.cfg import CfgText, parse_cfg
+from rapidgen.system.interpret import (
+    crosses_of,
+    events_of,
+    groups_of,
+    inputs_of,
+    outputs_of,
+    signals_of,
+    tasks_of,
+)
+from rapidgen.system.loading import expand, load_module
+from rapidgen.system.model import System, TaskSpec
+from rapidgen.system.paths import read_limited, refusal
+
+_MOTION_TASK = re.compile(r"T_ROB(\d|_)", re.I)
+
+
+def read_files(
+    tasks: Mapping[str, Sequence[Path | str]] | Sequence[Path | str],
+    *,
+    cfg: Sequence[Path | str] = (),
+    name: str = "loose",
+    entry: str = "main",
+    robotware: tuple[int, int] = (6, 0),
+    home: Path | None = None,
+) -> System:
+    """A system of loose files: modules, folders of modules, `.pgf` programs and `.cfg` files.
+
+    A plain sequence is one task, T_ROB1. A task that SYS.cfg describes is as described there;
+    of the others every task named like T_ROB1 (or the first, when none is) has a robot.
+
+    Raises DiagnosticError: RG701..RG709.
+    """
+    given = dict(tasks) if isinstance(tasks, Mapping) else {"T_ROB1": tasks}
+    cfg_files = [Path(path) for path in cfg]
+    sources: dict[str, list[Path]] = {}
+    for task, paths in given.items():
+        for path in map(Path, paths):
+            if path.suffix.casefold() == ".cfg":
+                cfg_files.append(path)
+            else:
+                sources.setdefault(task, []).extend(expand(path))
+    if not sources:
+        raise refusal("RG709", "no RAPID module was given", help="name a .mod or .sys file")
+    texts = [parse_cfg(read_limited(path), path=str(path)) for path in cfg_files]
+    sys_cfg = _merged(texts, "SYS", robotware)
+    eio_cfg = _merged(texts, "EIO", robotware)
+    described = {task.name.casefold(): task for task in tasks_of(sys_cfg)}
+    motion = {task for task in sources if _MOTION_TASK.match(task)} or {next(iter(sources))}
+    specs = []
+    for task, paths in sources.items():
+        spec = described.get(task.casefold())
+        if spec is None:
+            spec = TaskSpec(task, entry=entry, motion=task in motion)
+        modules = tuple(load_module(path) for path in paths)
+        specs.append(
+            TaskSpec(
+                spec.name,
+                spec.type,
+                spec.trust,
+                spec.entry,
+                spec.motion,
+                spec.mechanical_unit_group,
+                modules,
+            )
+        )
+    return System(
+        name=name,
+        tasks=tuple(specs),
+        signals=signals_of(eio_cfg),
+        outputs=outputs_of(eio_cfg),
+        inputs=inputs_of(eio_cfg),
+        cross=crosses_of(eio_cfg),
+        events=events_of(sys_cfg),
+        groups=groups_of(sys_cfg),
+        robotware=robotware,
+        home=home,
+    )
+
+
+def _merged(texts: Sequence[CfgText], domain: str, robotware: tuple[int, int]) -> CfgText:
+    found = [text for text in texts if text.domain == domain]
+    sections = tuple(section for text in found for section in text.sections)
+    path = found[0].path if found else ""
+    return CfgText(domain, (robotware[0], 0), sections, path)

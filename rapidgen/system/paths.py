@@ -1,0 +1,101 @@
+"""Reading files of a folder that somebody else made: nothing outside it, nothing endless."""
+
+import os
+import stat
+from collections.abc import Iterator
+from pathlib import Path, PurePosixPath
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+MAX_FILE = 8 * 1024 * 1024
+MAX_FILES = 20_000
+MODULE_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
+
+
+def refusal(
+    code: str, message: str, *, help: str = "", notes: tuple[str, ...] = ()
+) -> DiagnosticError:
+    """One error without a place in a text."""
+    return DiagnosticError(Diagnostic(code, Severity.ERROR, message, help=help, notes=notes))
+
+
+def read_limited(path: Path) -> bytes:
+    """A regular file's bytes.
+
+    Raises DiagnosticError: RG704 (cannot be read), RG705 (too large or no regular file).
+    """
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
+    except OSError as error:
+        raise refusal("RG704", f"cannot read {path}: {error.strerror}") from error
+    with open(descriptor, "rb") as file:
+        status = os.fstat(descriptor)
+        if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
+            raise refusal(
+                "RG705",
+                f"{path} is not a regular file of at most {MAX_FILE // 2**20} MB",
+                help="a RAPID module or cfg file is far smaller: is it the right file?",
+            )
+        return file.read()
+
+
+def inside(root: Path, relative: str) -> Path:
+    """The file that `relative` (with `/` or `\\`) names under `root`, found without case.
+
+    Raises DiagnosticError RG706 when the way leaves `root`, also through a symbolic link.
+    The file need not exist.
+    """
+    parts = PurePosixPath(relative.replace("\\", "/")).parts
+    if any(part in ("..", "/") or ":" in part or "\0" in part for part in parts):
+        raise refusal(
+            "RG706",
+            f"the path '{relative}' leaves {root}",
+            help="files of a system lie inside its own folder",
+        )
+    path = root
+    for part in parts:
+        path = _entry(path, part)
+    if not path.resolve().is_relative_to(root.resolve()):
+        raise refusal(
+            "RG706",
+            f"'{relative}' is a link that leaves {root}",
+            help="files of a system lie inside its own folder",
+        )
+    return path
+
+
+def home_file(home: Path, target: str) -> Path:
+    """The file of `HOME:/x` (or `HOME:x`) in the folder that stands for HOME:."""
+    head, _, rest = target.partition(":")
+    if head.strip().upper() != "HOME" or not rest:
+        raise refusal(
+            "RG707",
+            f"'{target}' does not lie on HOME:",
+            help="only files of HOME: can be read from a folder",
+        )
+    return inside(home, rest.lstrip("/\\"))
+
+
+def module_files(folder: Path) -> Iterator[Path]:
+    """Module files directly in a folder, sorted without case.
+
+    Raises DiagnosticError: RG705 (too many entries), RG706 (a link that leaves the folder).
+    """
+    if not folder.is_dir():
+        return
+    names = sorted(os.listdir(folder), key=str.casefold)
+    if len(names) > MAX_FILES:
+        raise refusal("RG705", f"{folder} holds more than {MAX_FILES} files")
+    for name in names:
+        if name.casefold().endswith(MODULE_SUFFIXES):
+            yield inside(folder, name)
+
+
+def _entry(folder: Path, name: str) -> Path:
+    """`name` in `folder`; controllers compare names without case, most file systems do not."""
+    exact = folder / name
+    if not exact.exists() and folder.is_dir():
+        for entry in os.listdir(folder):
+            if entry.casefold() == name.casefold():
+                return folder / entry
+    return exact

@@ -1,0 +1,272 @@
+"""Backups, loose files and hostile folders become a System, or a diagnostic."""
+
+import json
+import os
+
+import pytest
+
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system import (
+    CrossConnection,
+    EventRoutine,
+    MechanicalUnitGroup,
+    SignalSpec,
+    System,
+    SystemInput,
+    SystemOutput,
+    TaskSpec,
+    eio_cfg,
+    read_backup,
+    read_files,
+    read_folder,
+    read_system,
+    sys_cfg,
+    write_cfg,
+)
+from rapidgen.system.cfg import parse_cfg
+from rapidgen.system.interpret import (
+    crosses_of,
+    events_of,
+    groups_of,
+    inputs_of,
+    modules_of,
+    outputs_of,
+    signals_of,
+    tasks_of,
+)
+
+MODULE = b"MODULE %s\n  PROC main()\n  ENDPROC\nENDMODULE\n"
+
+
+def put(path, data):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(data if isinstance(data, bytes) else data.encode("latin-1"))
+    return path
+
+
+def code_of(caught):
+    return [d.code for d in caught.value.diagnostics]
+
+
+@pytest.fixture
+def backup(tmp_path):
+    root = tmp_path / "cell_backup"
+    put(
+        root / "SYSPAR/SYS.cfg",
+        """SYS:CFG_1.0:5:0::
+#
+CAB_TASKS:
+
+      -Name "T_ROB1" -Type "NORMAL" -UseMechanicalUnitGroup "rob1" -MotionTask
+
+      -Name "T_BACK" -TrustLevel "SysHalt"
+#
+CAB_TASK_MODULES:
+
+      -File "HOME:/Shared.sys" -AllTask
+
+      -File "RELEASE:/options/dispense.sys" -Task "T_ROB1"
+#
+CAB_EXEC_HOOKS:
+
+      -Routine "OnStart" -Shelf "START" -Task "T_ROB1"
+""",
+    )
+    put(
+        root / "SYSPAR/EIO.cfg",
+        """EIO:CFG_1.0:5:0::
+#
+EIO_SIGNAL:
+
+      -Name "goProgram" -SignalType "GO" -Unit "d651" -UnitMap "8-15"
+#
+SYSSIG_OUT:
+
+      -Status "TaskExecuting" -Signal "goProgram" -Arg2 "T_ROB1"
+#
+EIO_CROSS:
+
+      -Res "doA" -Act1 "diB" -Act1_invert -Oper1 "OR" -Act2 "diC"
+""",
+    )
+    put(
+        root / "BACKINFO/backinfo.txt",
+        ">>SYSTEM_ID:\ncell\n>>PRODUCTS_ID:\nRobotWare Version: 5.15\n",
+    )
+    put(root / "RAPID/TASK1/PROGMOD/Work.mod", MODULE % b"Work")
+    put(root / "RAPID/TASK1/SYSMOD/user.sys", MODULE % b"user")
+    put(root / "RAPID/TASK2/PROGMOD/Back.mod", MODULE % b"Back")
+    put(root / "HOME/shared.SYS", MODULE % b"Shared")
+    return root
+
+
+def test_backup(backup):
+    notes = []
+    system = read_backup(backup, notes=notes)
+    robot, back = system.tasks
+    assert system.name == "cell_backup"
+    assert system.robotware == (5, 15)
+    assert (robot.motion, robot.type, back.type, back.trust) == (
+        True,
+        "NORMAL",
+        "SEMISTATIC",
+        "SysHalt",
+    )
+    assert [m.name for m in robot.modules] == ["user", "Work", "Shared"]
+    assert [m.name for m in back.modules] == ["Back", "Shared"]
+    assert [n.code for n in notes] == ["RG710"]
+    assert system.signals == (SignalSpec("goProgram", "GO", device="d651", size=8),)
+    assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", "T_ROB1"),)
+    assert system.cross == (CrossConnection("", "doA", (("diB", True), ("diC", False)), ("OR",)),)
+    assert system.events == (EventRoutine("OnStart", "START", "T_ROB1"),)
+    assert read_system(backup) == system
+
+
+def test_task_folders_by_backinfo(backup):
+    """[code] backinfo.txt names the task of each folder; it wins over the order of CAB_TASKS."""
+    put(
+        backup / "BACKINFO/backinfo.txt",
+        "RobotWare Version: 6.08.01\n>>TASK2: (T_ROB1,prog,)\n>>TASK1: (T_BACK,,)\n",
+    )
+    system = read_backup(backup)
+    assert [m.name for m in system.tasks[0].modules] == ["Back", "Shared"]
+    assert system.robotware == (6, 8)
+
+
+def test_a_backup_without_version_says_so(backup):
+    os.remove(backup / "BACKINFO/backinfo.txt")
+    notes = []
+    assert read_backup(backup, notes=notes).robotware == (5, 0)
+    assert "RG713" in [n.code for n in notes]
+
+
+@pytest.mark.parametrize("file", ["HOME:/../secret.sys", "HOME:/sub/../../secret.sys"])
+def test_paths_must_not_leave_the_backup(backup, file):
+    put(backup.parent / "secret.sys", MODULE % b"Secret")
+    text = (backup / "SYSPAR/SYS.cfg").read_text().replace("HOME:/Shared.sys", file)
+    put(backup / "SYSPAR/SYS.cfg", text)
+    with pytest.raises(DiagnosticError) as caught:
+        read_backup(backup)
+    assert code_of(caught) == ["RG706"]
+
+
+def test_links_must_not_leave_the_backup(backup):
+    secret = put(backup.parent / "secret.sys", MODULE % b"Secret")
+    (backup / "RAPID/TASK1/PROGMOD/evil.mod").symlink_to(secret)
+    with pytest.raises(DiagnosticError) as caught:
+        read_backup(backup)
+    assert code_of(caught) == ["RG706"]
+
+
+def test_pipes_and_monsters_are_not_read(backup, tmp_path):
+    pipe = tmp_path / "pipe.mod"
+    os.mkfifo(pipe)
+    with pytest.raises(DiagnosticError) as caught:
+        read_files([pipe])
+    assert code_of(caught) == ["RG705"]
+    monster = tmp_path / "monster.mod"
+    with monster.open("wb") as file:
+        file.truncate(9 * 1024 * 1024)
+    with pytest.raises(DiagnosticError) as caught:
+        read_files([monster])
+    assert code_of(caught) == ["RG705"]
+
+
+def test_a_wrong_word_names_the_right_one(backup):
+    text = (backup / "SYSPAR/SYS.cfg").read_text().replace('"SysHalt"', '"SysHlt"')
+    put(backup / "SYSPAR/SYS.cfg", text)
+    with pytest.raises(DiagnosticError) as caught:
+        read_backup(backup)
+    (found,) = caught.value.diagnostics
+    assert (found.code, found.span.line) == ("RG708", 7)
+    assert "SysHalt" in found.help
+
+
+def test_loose_files(tmp_path):
+    put(tmp_path / "b.mod", MODULE % b"Bee")
+    put(tmp_path / "a.sys", b"%%%\nVERSION:1\nLANGUAGE:ENGLISH\n%%%\n" + MODULE % b"Aye")
+    put(tmp_path / "readme.txt", b"no module")
+    system = read_system(tmp_path)
+    (task,) = system.tasks
+    assert (task.name, task.type, task.motion) == ("T_ROB1", "NORMAL", True)
+    assert [m.name for m in task.modules] == ["Aye", "Bee"]
+
+
+def test_several_tasks_and_a_program_file(tmp_path):
+    put(tmp_path / "work.mod", MODULE % b"Work")
+    put(tmp_path / "back.mod", MODULE % b"Back")
+    put(tmp_path / "work.pgf", "<?xml version='1.0'?><Program><Module>work.mod</Module></Program>")
+    put(
+        tmp_path / "EIO.cfg",
+        'EIO:CFG_1.0:6:1::\n#\nEIO_SIGNAL:\n\n  -Name "di1" -SignalType "DI"\n',
+    )
+    system = read_files(
+        {"T_BG": [tmp_path / "back.mod", tmp_path / "EIO.cfg"], "T_ROB1": [tmp_path / "work.pgf"]}
+    )
+    assert [(t.name, t.motion) for t in system.tasks] == [("T_BG", False), ("T_ROB1", True)]
+    assert system.signals == (SignalSpec("di1", "DI"),)
+
+
+@pytest.mark.parametrize("paths", [[], ["nothing.mod"], ["folder"]])
+def test_nothing_to_load(tmp_path, paths):
+    (tmp_path / "folder").mkdir()
+    with pytest.raises(DiagnosticError) as caught:
+        read_files([tmp_path / path for path in paths])
+    assert code_of(caught)[0] in ("RG704", "RG709")
+
+
+@pytest.mark.parametrize(
+    "manifest",
+    ["", "[]", '{"format": 99}', '{"format": 1}', "[" * 100_000, '{"format": 1, "robotware": [6]}'],
+)
+def test_a_damaged_manifest(tmp_path, manifest):
+    put(tmp_path / "manifest.json", manifest)
+    with pytest.raises(DiagnosticError) as caught:
+        read_folder(tmp_path)
+    assert code_of(caught) == ["RG711"]
+
+
+def test_a_generated_folder_must_be_whole(tmp_path):
+    manifest = {
+        "format": 1, "robotware": [6, 15], "name": "x", "build_id": "0", "files": [], "lines": {},
+    }  # fmt: skip
+    put(tmp_path / "manifest.json", json.dumps(manifest))
+    put(tmp_path / "EIO.cfg", "EIO:CFG_1.0:6:1::\n")
+    put(
+        tmp_path / "SYS.cfg",
+        'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n -Name "T_ROB1"\n#\nCAB_TASK_MODULES:\n\n'
+        ' -File "HOME:/a.sys" -Task "T_ROB1"\n',
+    )
+    with pytest.raises(DiagnosticError) as caught:
+        read_folder(tmp_path)
+    assert code_of(caught) == ["RG710"]
+    put(tmp_path / "HOME/a.sys", MODULE % b"Aye")
+    assert [m.name for m in read_folder(tmp_path).tasks[0].modules] == ["Aye"]
+
+
+def test_model_to_text_and_back():
+    system = System(
+        "cell",
+        (
+            TaskSpec("T_ROB1", motion=True, mechanical_unit_group="rob1"),
+            TaskSpec("T_SRV", "SEMISTATIC", "SysStop", "serve"),
+            TaskSpec("T_LOG", "STATIC", "NoSafety"),
+        ),
+        signals=(SignalSpec("doA", "DO", "ReadOnly"), SignalSpec("goB", "GO", size=8, default=3)),
+        outputs=(SystemOutput("MotorOn", "doA"), SystemOutput("TaskExecuting", "doA", "T_ROB1")),
+        inputs=(SystemInput("Start", "diA", "CONT"),),
+        cross=(CrossConnection("c", "doA", (("diA", True), ("diB", False)), ("AND",)),),
+        events=(EventRoutine("OnStop", "STOP", "T_ROB1"),),
+        groups=(MechanicalUnitGroup("rob1", "ROB_1", ("TRACK_1",), "motion_planner_1"),),
+        robotware=(6, 15),
+    )
+    sys_text = parse_cfg(write_cfg(sys_cfg(system)))
+    eio_text = parse_cfg(write_cfg(eio_cfg(system)))
+    assert tasks_of(sys_text) == system.tasks
+    assert modules_of(sys_text) == ()
+    assert events_of(sys_text) == system.events
+    assert groups_of(sys_text) == system.groups
+    assert signals_of(eio_text) == system.signals
+    assert outputs_of(eio_text) == system.outputs
+    assert inputs_of(eio_text) == system.inputs
+    assert crosses_of(eio_text) == system.cross
