@@ -240,7 +240,7 @@ class Reply:
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """One message type. `repeats` is a group that fills the rest of the frame n times.
+    """One message type.
 
     `since` is the protocol version that brought it (0: standard simple_message); `sender` is
     `client` or `controller`; `ports` are those on which it travels.
@@ -252,18 +252,17 @@ class Message:
     sender: str
     ports: tuple[Port, ...]
     fields: tuple[Field, ...] = ()
-    repeats: tuple[Field, ...] = ()
     replies: tuple[Reply, ...] = ()
     text: str = ""
 
     @property
     def size(self) -> int:
-        """Bytes of the data without the repeated group."""
+        """Bytes of the data."""
         return sum(field.size for field in self.fields)
 
     @property
     def length(self) -> int:
-        """Value of the length field, without the repeated group."""
+        """Value of the length field."""
         return HEADER_BYTES + self.size
 
 
@@ -277,7 +276,7 @@ def _real(name: str, unit: str, text: str = "", count: int = 1) -> Field:
 
 _REFUSAL = (
     _int("reason", "number of the refusal, see the table of reasons"),
-    _int("index", "point at fault, from 0; -1 none"),
+    _int("point", "point at fault, from 0; -1 none"),
     _int("joint", "joint at fault, from 1; 0 none"),
 )
 _POSITIONS = _real("positions", "rad, m", count=MAX_JOINTS)

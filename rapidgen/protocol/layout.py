@@ -1,0 +1,79 @@
+"""Fields of the specification as packed bytes, and back. Knows no message."""
+
+from collections.abc import Sequence
+from struct import Struct
+from struct import error as StructError
+
+from rapidgen.protocol.frames import ContentError
+from rapidgen.protocol.spec import Field, Wire
+
+Value = int | float | str | tuple[int, ...] | tuple[float, ...]
+"""One field's value: a scalar, a text, or a tuple of `count` numbers."""
+
+_CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s"}
+
+
+class Layout:
+    """Packs and unpacks the values of some fields, in their order."""
+
+    def __init__(self, fields: Sequence[Field]) -> None:
+        self.fields = tuple(fields)
+        codes = (f"{f.count}{_CODES[f.type]}" for f in self.fields)
+        self._struct = Struct("<" + "".join(codes))
+        self.size = self._struct.size
+        self._scalars_only = all(f.count == 1 and f.type is not Wire.CHAR for f in self.fields)
+
+    def pack(self, values: Sequence[Value]) -> bytes:
+        """The values as bytes. Raises ContentError when one does not fit its field."""
+        flat: list[object] = []
+        for field, value in zip(self.fields, values, strict=True):
+            if field.type is Wire.CHAR:
+                flat.append(_text_bytes(field, value))
+            elif field.count == 1:
+                flat.append(value)
+            else:
+                flat.extend(_numbers(field, value))
+        try:
+            return self._struct.pack(*flat)
+        except (StructError, OverflowError) as error:
+            raise ContentError(f"{self._names()}: {error}") from error
+
+    def unpack(self, data: bytes, at: int = 0) -> tuple[Value, ...]:
+        """The values in `data` from byte `at` on; the caller has checked the length."""
+        flat = self._struct.unpack_from(data, at)
+        if self._scalars_only:
+            return flat
+        values: list[Value] = []
+        position = 0
+        for field in self.fields:
+            if field.type is Wire.CHAR:
+                values.append(flat[position].rstrip(b"\0").decode("latin-1"))
+                position += 1
+            elif field.count == 1:
+                values.append(flat[position])
+                position += 1
+            else:
+                values.append(flat[position : position + field.count])
+                position += field.count
+        return tuple(values)
+
+    def _names(self) -> str:
+        return ", ".join(field.name for field in self.fields)
+
+
+def _numbers(field: Field, value: Value) -> Sequence[object]:
+    if not isinstance(value, tuple) or len(value) != field.count:
+        raise ContentError(f"{field.name}: {field.count} values are needed")
+    return value
+
+
+def _text_bytes(field: Field, value: Value) -> bytes:
+    if not isinstance(value, str):
+        raise ContentError(f"{field.name}: a text is needed")
+    try:
+        data = value.encode("latin-1")
+    except UnicodeEncodeError as error:
+        raise ContentError(f"{field.name}: {error}") from error
+    if len(data) > field.count:
+        raise ContentError(f"{field.name}: {len(data)} bytes, at most {field.count}")
+    return data
