@@ -58,6 +58,8 @@ class Network(ABC):
     """What a socket built-in can ask for. Every method returns at once; NetworkFault otherwise."""
 
     def __init__(self) -> None:
+        self.address = "127.0.0.1"
+        """The controller's LAN address, as GetSysInfo tells it."""
         self.listeners: dict[int, Address] = {}
         """Port that the program asked for: where its clients find it, for all that listen now."""
         self.listening = WaitSet()

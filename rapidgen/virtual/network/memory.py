@@ -109,8 +109,9 @@ class MemoryNetwork(Network):
 
     def accept(self, endpoint: Endpoint) -> MemoryEndpoint | None:
         """See `Network.accept`."""
-        backlog = _mine(endpoint).backlog
-        return backlog.popleft() if backlog else None
+        own = _mine(endpoint)
+        _check(own)
+        return own.backlog.popleft() if own.backlog else None
 
     def connect(self, host: str, port: int) -> MemoryEndpoint:
         """See `Network.connect`."""

@@ -68,6 +68,7 @@ class SystemNetwork(Network):
 
     def __init__(self, kernel: Kernel, *, host: str = "127.0.0.1", ports: PortMap = 0) -> None:
         super().__init__()
+        self.address = host
         self._kernel = kernel
         self._host = host
         self._loopback = ipaddress.IPv4Address(host).is_loopback
@@ -110,6 +111,7 @@ class SystemNetwork(Network):
     def accept(self, endpoint: Endpoint) -> SystemEndpoint | None:
         """See `Network.accept`."""
         own = _mine(endpoint)
+        _check(own)
         try:
             client, peer = own.socket.accept()
         except BlockingIOError:
