@@ -1,1 +1,6 @@
 """RAPID: text, tokens, tree, checked program, formatted text."""
+
+from rapidgen.rapid.dialect import Dialect
+from rapidgen.rapid.parser import parse
+
+__all__ = ["Dialect", "parse"]

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 Scope = Literal["", "LOCAL", "TASK"]
 Mode = Literal["", "VAR", "PERS", "INOUT", "REF"]
+DataKind = Literal["VAR", "PERS", "CONST"]
+RoutineKind = Literal["PROC", "FUNC", "TRAP"]
 
 
 @dataclass(slots=True, eq=False)
@@ -191,7 +193,7 @@ class DataDeclaration(Node):
     """`VAR`, `PERS` or `CONST` in a module or a routine."""
 
     scope: Scope
-    kind: Literal["VAR", "PERS", "CONST"]
+    kind: DataKind
     type: str
     name: str
     dimensions: list[Expression]
@@ -236,7 +238,7 @@ class RoutineDeclaration(Node):
     """A PROC, FUNC or TRAP."""
 
     scope: Scope
-    kind: Literal["PROC", "FUNC", "TRAP"]
+    kind: RoutineKind
     type: str | None
     name: str
     parameters: list[Parameter]

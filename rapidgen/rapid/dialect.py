@@ -1,0 +1,20 @@
+"""Which RobotWare a text is for."""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """The RobotWare version that decides what exists: (major, minor)."""
+
+    robotware: tuple[int, int] = (6, 0)
+
+    @property
+    def has_radix(self) -> bool:
+        """0x, 0o and 0b numbers: not in K (RobotWare 5.0)."""
+        return self.robotware >= (6, 0)
+
+    @property
+    def has_dnum(self) -> bool:
+        """The type dnum came within RobotWare 5."""
+        return self.robotware >= (5, 12)

@@ -1,0 +1,89 @@
+"""What is wrong with a text as a whole: too large, binary, encoded, empty, no module."""
+
+import re
+from collections.abc import Sequence
+from typing import Final
+
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.rapid import faults
+from rapidgen.rapid.lexer import MAX_NAME, NAME, Tokens
+from rapidgen.rapid.source import Source
+
+MAX_BYTES: Final = 8_000_000
+_BINARY: Final = re.compile(rb"[\x00-\x08\x0e-\x1f]")
+_BINARY_TEXT: Final = re.compile(r"[\x00-\x08\x0e-\x1f]")
+_UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
+
+
+def refuse(source: str | bytes, path: str) -> Diagnostic | None:
+    """The one diagnostic of a text that is not worth reading, or None."""
+    span = Span(path, 1, 1)
+    if len(source) > MAX_BYTES:
+        return faults.error(
+            "RG209",
+            f"the file has {len(source):,} bytes; {MAX_BYTES:,} is the limit",
+            span,
+            help="split the module, or keep positions in a file that the program reads",
+        )
+    if not source.strip():
+        return faults.error(
+            "RG208", "the file is empty", span, help="a module is MODULE name ... ENDMODULE"
+        )
+    if isinstance(source, bytes) and source.startswith(_UTF16):
+        return faults.error(
+            "RG218", "the file is UTF-16 text", span, help="save it as UTF-8 or Latin-1"
+        )
+    # An encoded module starts readable and goes on in bytes that no text has.
+    binary = _BINARY.search(source) if isinstance(source, bytes) else _BINARY_TEXT.search(source)
+    if binary is None:
+        return None
+    head = source[:4096]
+    text = head.decode("latin-1") if isinstance(head, bytes) else head
+    module = re.search(r"(?im)^\s*MODULE\b", text[: binary.start()])
+    if module or re.search(r"(?i)encoded|%%%", text[:200]):
+        return faults.error(
+            "RG219",
+            "the module is encoded: only a controller can read it",
+            span,
+            help="ask its maker for the source, or leave it out",
+        )
+    return faults.error("RG218", "the file is binary, not RAPID text", span)
+
+
+def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
+    """The text does not start with MODULE."""
+    if not source.tokens:
+        return faults.error(
+            "RG208",
+            "the file has no module, only comments",
+            faults.place(source, 0),
+            help="a module is MODULE name ... ENDMODULE",
+        )
+    return faults.error(
+        "RG208",
+        f"met {faults.met(source, kinds, 0)}, expected MODULE",
+        faults.place(source, 0),
+        label="expected MODULE",
+        help="a module is MODULE name ... ENDMODULE",
+    )
+
+
+def long_names(tokens: Tokens) -> list[Diagnostic]:
+    """One finding for each name that is longer than K allows, at its first place."""
+    found = []
+    folded = set()
+    for text, kind in tokens.spellings.items():
+        if kind is NAME and len(text) > MAX_NAME and text.lower() not in folded:
+            folded.add(text.lower())
+            at = tokens.source.tokens.index(text)
+            found.append(
+                faults.error(
+                    "RG220",
+                    f"the name '{text}' has {len(text)} characters; {MAX_NAME} is the limit",
+                    tokens.source.span(at, at),
+                    help="shorten it",
+                    notes=("all characters of a name count [K §2.3]",),
+                    severity=Severity.ERROR,
+                )
+            )
+    return found
