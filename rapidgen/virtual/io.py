@@ -11,8 +11,10 @@ from dataclasses import dataclass
 from typing import Final
 
 from rapidgen.system.model import CrossConnection, SignalSpec, System
+from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
+from rapidgen.virtual.values import register_type
 
 # How a status is spelled in SYSSIG_OUT. First of each row: the name used by `report`. "Error",
 # "TaskExecuting" are seen in public cfg files; the other spellings are remembered or taken from
@@ -72,6 +74,11 @@ class Signal:
         return self.spec.name
 
     @property
+    def signal(self) -> "Signal":
+        """This signal; of an alias the one behind it."""
+        return self
+
+    @property
     def largest(self) -> float:
         """The largest value that fits; infinite for an analogue signal."""
         if self.spec.type in ("AI", "AO"):
@@ -87,6 +94,35 @@ class Signal:
         if value != int(value) or not 0 <= value <= self.largest:
             raise ValueError(f"{value:g} does not fit {self.name} (0 to {self.largest:g})")
         return int(value)
+
+
+class SignalAlias:
+    """A signal that a program declares: nothing until AliasIO connects it."""
+
+    __slots__ = ("target", "type")
+
+    def __init__(self, type: str) -> None:
+        self.type = type
+        self.target: Signal | None = None
+
+    @property
+    def signal(self) -> Signal:
+        """The signal behind the alias; ERR_NO_ALIASIO_DEF when there is none."""
+        if self.target is None:
+            raise RapidError("ERR_NO_ALIASIO_DEF")
+        return self.target
+
+    @property
+    def value(self) -> float:
+        """Its value, for expressions such as `IF di1 = 1`."""
+        return self.signal.value
+
+
+AnySignal = Signal | SignalAlias
+"""What a VAR signalxx argument is: both have `.signal` and `.value`."""
+
+for _type in ("DI", "DO", "GI", "GO", "AI", "AO"):
+    register_type(f"signal{_type}", lambda type=_type: SignalAlias(type), "semivalue")  # type: ignore[misc]
 
 
 @dataclass(frozen=True, slots=True)
