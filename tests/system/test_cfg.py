@@ -65,7 +65,7 @@ def test_a_quote_cannot_be_written():
 
 
 NAMES = st.from_regex(r"[A-Za-z][A-Za-z0-9_]{0,30}", fullmatch=True)
-TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=255, exclude_characters=""))
+TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=255, exclude_characters='"'))
 VALUES = TEXTS | st.integers(-(10**17), 10**17) | st.floats(allow_nan=False, allow_infinity=False)
 ATTRIBUTES = st.builds(Attribute, NAMES, st.lists(VALUES, max_size=2).map(tuple))
 INSTANCES = st.lists(ATTRIBUTES, min_size=1, max_size=8).map(lambda a: Instance(tuple(a)))
