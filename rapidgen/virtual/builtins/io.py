@@ -22,9 +22,11 @@ def _io(task: Task) -> IOSystem:
     return io
 
 
-def dionum(value: float) -> int:
-    """A digital value: anything but 0 and 1 is an error [S4 dionum]."""
+def dionum(task: Task, value: float) -> int:
+    """A digital value: anything but 0 and 1 is an error [S4 dionum], or counts as 1 (dialect)."""
     if value not in (0, 1):
+        if task.controller.dialect.dionum == "nonzero":
+            return 1
         raise RapidError("ERR_ARGVALERR", f"{value:g} is no dionum")
     return int(value)
 
@@ -54,7 +56,7 @@ def set_do(
     task: Task, delay: float | None, _sync: bool | None, signal: AnySignal, value: float
 ) -> None:
     """Set a digital output, at once or after \\SDelay."""
-    _io(task).set(_writable(signal), dionum(value), delay=_delay(delay))
+    _io(task).set(_writable(signal), dionum(task, value), delay=_delay(delay))
 
 
 @builtin("Set")
@@ -202,7 +204,7 @@ def _wait_digital(name: str) -> None:
         time_flag: Ref | None,
         *_visual: object,
     ) -> None:
-        signal, wanted = target.signal, dionum(value)
+        signal, wanted = target.signal, dionum(task, value)
         _wait(task, signal, lambda: signal.value == wanted, max_time, time_flag)
 
 
