@@ -1,0 +1,58 @@
+"""What both faces share: the handle that the caller keeps, and the loopback rule."""
+
+import ipaddress
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+
+@dataclass(frozen=True, slots=True)
+class Service:
+    """A running server. `host_key` is the `known_hosts` line of an SFTP face, else empty."""
+
+    host: str
+    port: int
+    user: str
+    password: str = field(repr=False)
+    host_key: str
+    _stop: Callable[[], None] = field(repr=False)
+
+    def close(self) -> None:
+        """Close the port and every connection; a second call does nothing."""
+        self._stop()
+
+
+def loopback(host: str) -> str:
+    """`host` as a numeric loopback address.
+
+    Raises DiagnosticError RG560: a virtual controller's files are never offered to a network.
+    """
+    name = "127.0.0.1" if host == "localhost" else host
+    try:
+        address = ipaddress.ip_address(name)
+    except ValueError:
+        address = None
+    if address is None or not address.is_loopback:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG560",
+                Severity.ERROR,
+                f"the file servers of a virtual controller listen on loopback only, not on {host}",
+                help="use --host 127.0.0.1, or leave out --ftp and --sftp",
+            )
+        )
+    return name
+
+
+def in_use(host: str, port: int, error: OSError) -> DiagnosticError:
+    """RG561: the port could not be had."""
+    return DiagnosticError(
+        Diagnostic(
+            "RG561",
+            Severity.ERROR,
+            f"cannot serve files at {host}:{port}: {error.strerror or error}",
+            help="name another port, or 0 for any free one",
+        ),
+        exit_code=1,
+    )
