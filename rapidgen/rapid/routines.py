@@ -268,18 +268,16 @@ class RoutineParser(StatementParser):
             return found, i + 1
         groups = 0
         while True:
-            if kinds[i] == "\\":
-                alternatives = [self._parameter(i, i + 1, optional=True)]
-                while kinds[alternatives[-1].last + 1] == "|":
-                    at = alternatives[-1].last + 2
-                    alternatives.append(self._parameter(at, at, optional=True))
-                if len(alternatives) > 1:
-                    for parameter in alternatives:
-                        parameter.group = groups
-                    groups += 1
-                found += alternatives
-            else:
-                found.append(self._parameter(i, i, optional=False))
+            optional = kinds[i] == "\\"
+            alternatives = [self._parameter(i, i + 1 if optional else i, optional=optional)]
+            while kinds[alternatives[-1].last + 1] == "|" and (optional or self.builtin):
+                at = alternatives[-1].last + 2
+                alternatives.append(self._parameter(at, at, optional=optional))
+            if len(alternatives) > 1:
+                for parameter in alternatives:
+                    parameter.group = groups
+                groups += 1
+            found += alternatives
             i = found[-1].last + 1
             kind = kinds[i]
             if kind == ")":
