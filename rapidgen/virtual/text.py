@@ -11,7 +11,7 @@ from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal
 from typing import Any
 
 from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.values import DNUM, NUM, STRING_LIMIT, Record, Type, single
+from rapidgen.virtual.values import DNUM, STRING_LIMIT, Record, Type, single
 
 NUM_DIGITS = 6
 DNUM_DIGITS = 15
@@ -51,11 +51,6 @@ def value_text(value: Any, type_: Type | None = None) -> str:  # noqa: ANN401 - 
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"'
     return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS)
-
-
-def number_type(value: float) -> Type:
-    """num or dnum, as far as a bare number tells: what a num cannot hold is a dnum."""
-    return NUM if single(value) == value else DNUM
 
 
 def to_places(value: float, places: int, *, truncate: bool = False) -> Decimal:

@@ -265,6 +265,20 @@ class Cell(WaitSet):
         self.dims = dims
         self.v = value
 
+    @property
+    def cell(self) -> "Cell":
+        """Itself: a cell stands wherever a built-in wants a `Ref`."""
+        return self
+
+    @property
+    def whole(self) -> bool:
+        """A cell is a whole PERS."""
+        return True
+
+    def get(self) -> Any:  # noqa: ANN401
+        """The current value itself, not a copy. As of any `Ref`."""
+        return self.v
+
     def set(self, value: Any) -> None:  # noqa: ANN401
         """Store a value (taken over by value) and wake IPers, WaitUntil and whoever waits."""
         store(self, value)

@@ -18,7 +18,7 @@ from rapidgen.virtual.files import Directory, FileSystem, IODevice
 from rapidgen.virtual.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
-from rapidgen.virtual.text import NotALiteral, number_type, parse_value
+from rapidgen.virtual.text import NotALiteral, parse_value
 from rapidgen.virtual.values import NUM, STRING_LIMIT, Record, Ref, Type, dimensions, single
 
 _EOF_TEXT = "EOF"
@@ -173,14 +173,10 @@ def write_raw_bytes(task: Task, device: IODevice, raw: RawBytes, count: float | 
 
 
 @builtin("WriteAnyBin", cost="socket")
-def write_any_bin(task: Task, device: IODevice, value: Any) -> None:  # noqa: ANN401 - anytype
+def write_any_bin(task: Task, device: IODevice, datum: Ref) -> None:
     """Write a value of any type so that ReadAnyBin reads it back."""
-    if isinstance(value, Ref):
-        type_, value = value.type, value.get()
-    else:
-        type_ = _type_of(value)
-    body = _encoded(value, type_)
-    label = _label(type_, dimensions(value)).encode("latin-1")
+    body = _encoded(datum.get(), datum.type)
+    label = _label(datum.type, dimensions(datum.get())).encode("latin-1")
     _put(task, device, struct.pack("<BI", len(label), len(body)) + label + body, binary=True)
 
 
@@ -199,16 +195,6 @@ def read_any_bin(_task: Task, device: IODevice, target: Ref, _time: float | None
         raise RapidError("ERR_RANYBIN_CHK", f"the file has {label.decode('latin-1')}")
     value, _ = _decoded(body, 0, target.type, target.dims)
     target.set(value)
-
-
-def _type_of(value: Any) -> Type:  # noqa: ANN401
-    while value.__class__ is dict:
-        value = value[1]
-    if isinstance(value, Record):
-        return value.rapid_type
-    if isinstance(value, bool):
-        return Type("bool", "bool")
-    return Type("string", "string") if isinstance(value, str) else number_type(value)
 
 
 def _label(type_: Type, dims: tuple[int, ...]) -> str:

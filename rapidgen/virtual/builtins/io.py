@@ -146,9 +146,9 @@ def input_is_high(_task: Task, signal: AnySignal) -> bool:
 
 
 @builtin("AliasIO")
-def alias_io(task: Task, source: Ref | str | AnySignal, target: SignalAlias) -> None:
+def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     """Connect a declared signal with one of the configuration, given itself or by name."""
-    given: str | AnySignal = source.get() if isinstance(source, Ref) else source
+    given: str | AnySignal = source if isinstance(source, Signal | SignalAlias) else source.get()
     found = _io(task).get(given) if isinstance(given, str) else given.signal
     if found is None:
         raise RapidError("ERR_ALIASIO_DEF", f"no signal '{given}'")

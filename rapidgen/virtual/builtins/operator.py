@@ -386,11 +386,6 @@ def ui_msg_write(
         _operator(task).write(task.name, line)
 
 
-@builtin("UIMsgWriteAbort", cost="string")
-def ui_msg_write_abort(_task: Task) -> None:
-    """Take the message away again: the window only scrolls."""
-
-
 @builtin("UIShow", cost="string")
 def ui_show(task: Task, assembly: str, *_arguments: object) -> None:
     """Start an application on the FlexPendant: there is none here that could."""

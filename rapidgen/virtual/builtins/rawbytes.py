@@ -5,7 +5,6 @@ empty container.
 """
 
 from collections.abc import Callable
-from typing import Any
 
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.rawbytes import (
@@ -29,7 +28,7 @@ _MASK = (1 << DNUM_BITS) - 1
 @builtin("PackRawBytes", cost="string")
 def pack_raw_bytes(
     _task: Task,
-    value: Any,  # noqa: ANN401 - num, dnum, byte or string
+    datum: Ref,
     raw: RawBytes,
     network: bool | None,
     start: float,
@@ -39,8 +38,7 @@ def pack_raw_bytes(
     ascii_: bool | None,
 ) -> None:
     """Write one value into a container."""
-    if isinstance(value, Ref):
-        value = value.get()
+    value = datum.get()
     index = whole(start, "ERR_OUTOFBND")
     if isinstance(value, str):
         if not ascii_ or not value:

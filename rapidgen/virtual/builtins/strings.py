@@ -4,8 +4,6 @@ Sources: the S4 reference's page of each name for the edges (positions from 1, a
 outside is an error); which error number that is, is remembered only [mem].
 """
 
-from typing import Any
-
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.rawbytes import byte_value, whole
 from rapidgen.virtual.registry import builtin
@@ -15,11 +13,10 @@ from rapidgen.virtual.text import (
     exponent_text,
     fixed_text,
     limited,
-    number_type,
     parse_value,
     value_text,
 )
-from rapidgen.virtual.values import Record, Ref, single
+from rapidgen.virtual.values import Ref, single
 
 _LARGEST_STRDIG = 4_294_967_295
 _LARGEST_DECIMAL = 9_223_372_036_854_775_807
@@ -102,13 +99,9 @@ def str_to_val(_task: Task, text: str, target: Ref) -> bool:
 
 
 @builtin("ValToStr", cost="string")
-def val_to_str(_task: Task, value: Any) -> str:  # noqa: ANN401 - anytype
+def val_to_str(_task: Task, value: Ref) -> str:
     """The text of any value; ERR_STRTOOLNG over 80 characters."""
-    if isinstance(value, Ref):
-        return limited(value_text(value.get(), value.type))
-    if isinstance(value, (bool, str, dict, Record)):
-        return limited(value_text(value))
-    return limited(value_text(value, number_type(value)))
+    return limited(value_text(value.get(), value.type))
 
 
 def _decimals(decimals: float) -> int:
