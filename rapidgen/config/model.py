@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal
 
+from rapidgen.diagnostics import Diagnostic
+
 AxisKind = Literal["revolute", "prismatic"]
 Generation = Literal[5, 6, 7, 8]
 
@@ -39,13 +41,15 @@ class Link:
     """One step of the kinematic chain: fixed transform to the joint, then the joint's axis.
 
     `xyz` m, `rpy` rad (fixed axes x, y, z as in URDF), `axis` unit vector; `joint` is the
-    URDF joint name or empty for a fixed step.
+    URDF joint name or empty for a fixed step. A passive step has no joint but `follows`:
+    its angle (URDF sense, rad) is the sum of factor * joint, as in a palletiser's wrist.
     """
 
     joint: str
     xyz: tuple[float, float, float]
     rpy: tuple[float, float, float]
     axis: tuple[float, float, float] = (0.0, 0.0, 1.0)
+    follows: tuple[tuple[str, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,6 +116,8 @@ class MotionGroup:
     work_object: WorkObject = field(default_factory=WorkObject)
     tcp_speed_limit: float = 5.0
     """m/s"""
+    external_units: tuple[str, ...] = ()
+    """Mechanical units of the external axes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +148,7 @@ class RobotConfig:
     """One controller with its motion groups."""
 
     name: str
-    path: Path
+    path: Path = field(compare=False)
     controller: Literal["irc5", "irc5_compact", "omnicore", "virtual"]
     robotware: tuple[int, int]
     groups: tuple[MotionGroup, ...]
@@ -157,5 +163,9 @@ class RobotConfig:
     call_main: bool = True
     """False: the motion task's own `main` calls the driver's entry routine."""
     signals: tuple[Signal, ...] = ()
-    inputs: tuple[tuple[str, bytes], ...] = ()
+    generations: tuple[Generation, ...] = ()
+    """RobotWare generations that the robot exists for; empty: not known."""
+    inputs: tuple[tuple[str, bytes], ...] = field(default=(), compare=False)
     """Texts the configuration was made from (name, bytes): BUILD_ID hashes them."""
+    diagnostics: tuple[Diagnostic, ...] = field(default=(), compare=False)
+    """Warnings and notes found while loading (unsure figures among them), to be shown."""

@@ -1,0 +1,382 @@
+"""The validated file becomes the frozen model: units, defaults, and what the schema cannot see."""
+
+import math
+from pathlib import Path
+
+from rapidgen.config import model, schema
+from rapidgen.config.draft import GroupDraft, JointDraft, Report
+from rapidgen.config.draft import Path as KeyPath
+from rapidgen.diagnostics import Severity
+
+GENERATIONS = {
+    "irc5": (5, 6),
+    "irc5_compact": (5, 6),
+    "omnicore": (7, 8),
+    "virtual": (5, 6, 7, 8),
+}
+MAX_JOINTS = 10
+DEFAULT_PORTS = (11000, 11001, 11002)
+PORT_STEP = 10
+_PLAIN_PORTS_END = 4999
+
+
+def build(
+    configuration: schema.Configuration,
+    drafts: list[GroupDraft],
+    path: Path,
+    report: Report,
+) -> model.RobotConfig | None:
+    """The model, or None when `report` holds errors; `path` is the file it is named after."""
+    _check_controller(configuration, report)
+    _check_network(configuration, report)
+    if not configuration.groups and not report.is_faulty(("groups",)):
+        report.error(
+            "RG013",
+            "no motion group",
+            (),
+            help="give `model:` (see `rapidgen robots`), or `urdf:` and `joints:`",
+        )
+    groups = [
+        _group(index, configuration.groups[draft.name], draft, report)
+        for index, draft in enumerate(drafts)
+    ]
+    _check_ports(configuration, groups, report)
+    _check_tasks(groups, report)
+    if report.failed:
+        return None
+    settings = configuration.trajectory
+    return model.RobotConfig(
+        name=configuration.name or _name_of(path),
+        path=path,
+        controller=configuration.controller.type,
+        robotware=configuration.controller.robotware,
+        groups=tuple(groups),
+        trajectory=model.TrajectoryPolicy(
+            capacity=settings.capacity,
+            zone=settings.zone,
+            start_tolerance=math.radians(settings.start_tolerance),
+            start_tolerance_linear=settings.start_tolerance_linear / 1000,
+            too_fast=settings.too_fast,
+            min_segment=settings.min_segment,
+            approach_speed=settings.approach_speed,
+        ),
+        state_period=1 / configuration.state.rate,
+        bind=configuration.network.bind,
+        allowed_clients=tuple(configuration.network.allowed_clients),
+        receive_timeout=configuration.network.receive_timeout,
+        commissioning=configuration.commissioning,
+        call_main=configuration.main == "driver",
+        signals=tuple(
+            model.Signal(name, signal.kind, signal.access)
+            for name, signal in configuration.signals.items()
+        ),
+        generations=tuple(configuration.generations),
+    )
+
+
+def _name_of(path: Path) -> str:
+    kept = "".join(c if c.isascii() and (c.isalnum() or c in "_-") else "_" for c in path.stem)
+    return (kept if kept[:1].isalpha() else f"robot_{kept}")[:40]
+
+
+def _check_controller(configuration: schema.Configuration, report: Report) -> None:
+    controller = configuration.controller
+    main = controller.robotware[0]
+    path: KeyPath = ("controller", "robotware")
+    if main not in GENERATIONS[controller.type]:
+        fits = " and ".join(str(n) for n in GENERATIONS[controller.type])
+        report.error(
+            "RG011",
+            f"controller '{controller.type}' does not run RobotWare {main}",
+            path,
+            f"'{controller.type}' runs RobotWare {fits}",
+            "IRC5 runs RobotWare 5 and 6, OmniCore 7 and 8; set controller.type or "
+            "controller.robotware",
+        )
+    elif configuration.generations and main not in configuration.generations:
+        known = ", ".join(str(n) for n in configuration.generations)
+        report.add(
+            "RG017",
+            Severity.WARNING,
+            f"this robot is not known to exist with RobotWare {main}",
+            path,
+            f"known: RobotWare {known}",
+            "check the version on the FlexPendant (Settings or System Info)",
+        )
+
+
+def _check_network(configuration: schema.Configuration, report: Report) -> None:
+    addresses: list[tuple[KeyPath, str]] = [
+        (("network", "allowed_clients", index), address)
+        for index, address in enumerate(configuration.network.allowed_clients)
+    ]
+    if configuration.network.bind not in ("lan", "service"):
+        addresses.append((("network", "bind"), configuration.network.bind))
+    for path, address in addresses:
+        parts = address.split(".")
+        if len(parts) != 4 or not all(
+            p.isascii() and p.isdigit() and len(p) <= 3 and int(p) <= 255 for p in parts
+        ):
+            report.error("RG006", f"'{address}' is not an IPv4 address", path)
+    for name, signal in configuration.signals.items():
+        if signal.access == "write" and signal.kind.endswith("I"):
+            report.error(
+                "RG006",
+                f"signal '{name}' is an input and cannot be written",
+                ("signals", name, "access"),
+                "",
+                "RAPID sets outputs only: DO, GO, AO",
+            )
+
+
+def _group(
+    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: Report
+) -> model.MotionGroup:
+    path: KeyPath = ("groups", draft.name)
+    joints = _joints(keys, draft, path, report)
+    names = {joint.name for joint in joints}
+    for number, step in enumerate(draft.chain):
+        for name in (step.joint, *(joint for joint, _ in step.follows)):
+            if name and name not in names:
+                report.error(
+                    "RG014",
+                    f"chain step {number + 1} names the joint '{name}', which is not in `joints`",
+                    (*path, "chain", number, "joint"),
+                )
+    ports = keys.ports
+    return model.MotionGroup(
+        name=draft.name,
+        task=keys.task or f"T_ROB{index + 1}",
+        mechanical_unit=keys.mechanical_unit or f"ROB_{index + 1}",
+        joints=joints,
+        ports=model.Ports(
+            *(
+                given if given is not None else default + PORT_STEP * index
+                for given, default in zip(
+                    (ports.motion, ports.control, ports.state), DEFAULT_PORTS, strict=True
+                )
+            )
+        ),
+        model=draft.model,
+        chain=tuple(draft.chain),
+        coupling=draft.coupling or 0.0,
+        tool=_tool(keys.tool, (*path, "tool"), report),
+        work_object=_work_object(keys.work_object, (*path, "work_object"), report),
+        tcp_speed_limit=keys.tcp_speed_limit / 1000,
+        external_units=tuple(keys.external_units),
+    )
+
+
+def _joints(
+    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: Report
+) -> tuple[model.Joint, ...]:
+    where: KeyPath = (*path, "joints")
+    if not draft.joints:
+        report.error(
+            "RG013",
+            f"group '{draft.name}' has no joints",
+            where,
+            help="give `model:` (see `rapidgen robots`), `urdf:` or `joints:`",
+        )
+    elif len(draft.joints) > MAX_JOINTS:
+        report.error(
+            "RG013",
+            f"group '{draft.name}' has {len(draft.joints)} joints; the wire carries {MAX_JOINTS}",
+            where,
+            help="a message of simple_message holds 10 joint values: make two groups",
+        )
+    seen: dict[str, str] = {}
+    joints = []
+    for joint in draft.joints:
+        here: KeyPath = (*where, joint.name)
+        if not joint.axis:
+            if not report.is_faulty((*here, "axis")):
+                report.error(
+                    "RG007",
+                    f"joint '{joint.name}' lacks 'axis'",
+                    here,
+                    "which controller axis?",
+                    "add `axis: rax_1` (to rax_6) or `axis: eax_a` (to eax_f)",
+                    key=True,
+                )
+        elif joint.axis in seen:
+            report.error(
+                "RG013",
+                f"joints '{seen[joint.axis]}' and '{joint.name}' both drive {joint.axis}",
+                (*here, "axis"),
+                "second time",
+            )
+        seen.setdefault(joint.axis, joint.name)
+        made = _joint(joint, keys.acceleration_time, here, report)
+        if made:
+            joints.append(made)
+    return tuple(joints)
+
+
+def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Report) -> model.Joint | None:
+    missing = [name for name in ("lower", "upper", "speed") if getattr(draft, name) is None]
+    for name in missing:
+        report.error(
+            "RG007",
+            f"joint '{draft.name}' lacks '{name}'",
+            (*path, name),
+            "here",
+            f"add `{name}:` in {'mm' if draft.unit == 'mm' else 'deg'}"
+            f"{'/s' if name == 'speed' else ''}, from the robot's data sheet",
+            key=True,
+        )
+    if draft.lower is None or draft.upper is None or draft.speed is None:
+        return None
+    if draft.lower >= draft.upper:
+        report.error(
+            "RG014",
+            f"joint '{draft.name}': lower limit {draft.lower:g} is not below the upper limit "
+            f"{draft.upper:g}",
+            (*path, "upper"),
+        )
+        return None
+    lower, upper = inwards(draft.lower, draft.upper)
+    factor = 0.001 if draft.unit == "mm" else math.pi / 180
+    acceleration = draft.acceleration if draft.acceleration else draft.speed / ramp
+    return model.Joint(
+        name=draft.name,
+        axis=draft.axis,
+        kind="prismatic" if draft.unit == "mm" else "revolute",
+        lower=_si(lower, draft.unit),
+        upper=_si(upper, draft.unit),
+        speed=_si(draft.speed, draft.unit),
+        acceleration=acceleration * factor,
+        sign=draft.sign,
+        offset=_si(draft.offset, draft.unit),
+        source=draft.source,
+        unsure=bool(draft.unsure),
+    )
+
+
+def _si(value: float, unit: str) -> float:
+    return value / 1000 if unit == "mm" else math.radians(value)
+
+
+def inwards(lower: float, upper: float) -> tuple[float, float]:
+    """Limits rounded inwards to 0.01 (deg or mm); noise below 1e-9 does not count."""
+    return math.ceil(lower * 100 - 1e-7) / 100, math.floor(upper * 100 + 1e-7) / 100
+
+
+def _unit_quaternion(
+    values: list[float], path: KeyPath, report: Report
+) -> tuple[float, float, float, float]:
+    norm = math.sqrt(sum(v * v for v in values))
+    if abs(norm - 1) > 1e-3:
+        report.error(
+            "RG014",
+            f"{values} is not a unit quaternion (its length is {norm:.4g})",
+            path,
+            help="q1 is the scalar; [1, 0, 0, 0] turns nothing",
+        )
+        return (1.0, 0.0, 0.0, 0.0)
+    exact = abs(norm - 1) < 1e-12
+    q1, q2, q3, q4 = (v if exact else v / norm for v in values)
+    return (q1, q2, q3, q4)
+
+
+def _metres(values: list[float]) -> tuple[float, float, float]:
+    x, y, z = (v / 1000 for v in values)
+    return (x, y, z)
+
+
+def _frame(frame: schema.Frame, path: KeyPath, report: Report) -> model.Frame:
+    return model.Frame(
+        _metres(frame.position),
+        _unit_quaternion(frame.orientation, (*path, "orientation"), report),
+    )
+
+
+def _tool(tool: schema.Tool, path: KeyPath, report: Report) -> model.Tool:
+    load = tool.load
+    if tool.name == "tool0" and tool != schema.Tool():
+        report.error(
+            "RG014",
+            "tool0 is the controller's own and cannot be described",
+            path,
+            help="give the tool another `name:`",
+            key=True,
+        )
+    elif tool.name != "tool0" and load.mass <= 0:
+        report.error(
+            "RG014",
+            f"tool '{tool.name}' weighs nothing",
+            (*path, "load", "mass"),
+            help="a controller refuses to move with a tool without mass: add `load: {mass: ...}`",
+        )
+    x, y, z = load.inertia
+    return model.Tool(
+        tool.name,
+        tool.held,
+        _frame(tool.frame, (*path, "frame"), report),
+        model.Load(
+            load.mass,
+            _metres(load.centre),
+            _unit_quaternion(load.axes, (*path, "load", "axes"), report),
+            (x, y, z),
+        ),
+    )
+
+
+def _work_object(given: schema.WorkObject, path: KeyPath, report: Report) -> model.WorkObject:
+    if given.name == "wobj0" and given != schema.WorkObject():
+        report.error(
+            "RG014",
+            "wobj0 is the controller's own and cannot be described",
+            path,
+            help="give the work object another `name:`",
+            key=True,
+        )
+    return model.WorkObject(
+        given.name,
+        given.held,
+        _frame(given.user_frame, (*path, "user_frame"), report),
+        _frame(given.object_frame, (*path, "object_frame"), report),
+    )
+
+
+def _check_ports(
+    configuration: schema.Configuration, groups: list[model.MotionGroup], report: Report
+) -> None:
+    users: dict[int, str] = {}
+    for group in groups:
+        given = configuration.groups[group.name].ports
+        for name in ("motion", "control", "state"):
+            port = getattr(group.ports, name)
+            path: KeyPath = ("groups", group.name, "ports", name)
+            if port in users:
+                report.error(
+                    "RG012",
+                    f"port {port} is used twice: {users[port]} and {group.name}.{name}",
+                    path,
+                )
+            users.setdefault(port, f"{group.name}.{name}")
+            if getattr(given, name) is not None and port > _PLAIN_PORTS_END:
+                report.add(
+                    "RG018",
+                    Severity.INFO,
+                    f"port {port} is above {_PLAIN_PORTS_END}",
+                    path,
+                    "",
+                    "controllers in the field serve 11000 and 11002; only if SocketBind fails, "
+                    "take one of 1025-4999, the range of an older manual",
+                )
+
+
+def _check_tasks(groups: list[model.MotionGroup], report: Report) -> None:
+    for name in ("task", "mechanical_unit"):
+        users: dict[str, str] = {}
+        for group in groups:
+            value = str(getattr(group, name)).upper()
+            if value in users:
+                report.error(
+                    "RG012",
+                    f"groups '{users[value]}' and '{group.name}' share the {name} {value}",
+                    ("groups", group.name, name),
+                    help=f"each group needs a `{name}:` of its own",
+                )
+            users.setdefault(value, group.name)

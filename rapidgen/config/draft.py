@@ -1,0 +1,95 @@
+"""A group while it is put together: YAML and URDF both fill it, `build.py` judges it.
+
+Figures are in the units of the controller: deg, mm, deg/s, mm/s (and /s²).
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from rapidgen.config.model import Link
+from rapidgen.config.tree import Mapping, error, place_of
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(slots=True)
+class JointDraft:
+    """One joint, as far as it is known."""
+
+    name: str
+    axis: str = ""
+    unit: str = ""
+    lower: float | None = None
+    upper: float | None = None
+    speed: float | None = None
+    acceleration: float | None = None
+    sign: int = 1
+    offset: float = 0.0
+    source: str = ""
+    unsure: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class GroupDraft:
+    """One group, as far as it is known."""
+
+    name: str
+    model: str = ""
+    joints: list[JointDraft] = field(default_factory=list)
+    chain: list[Link] = field(default_factory=list)
+    coupling: float | None = None
+
+
+class Report:
+    """Collects findings with places; what lies in a part already found faulty is not repeated."""
+
+    def __init__(self, root: Mapping, removed: Iterable[Path]) -> None:
+        self.root = root
+        self.found: list[Diagnostic] = []
+        self._removed = set(removed)
+
+    def is_faulty(self, path: Path) -> bool:
+        """True when `path`, a part around it or its own value has been reported."""
+        return any(path[: len(known)] == known for known in self._removed)
+
+    def span(self, path: Path, *, key: bool = False) -> Span:
+        """Place of the value (or key) at `path` or of the nearest part that exists."""
+        at_key, at_value = place_of(self.root, path)
+        return at_key if key else at_value
+
+    def add(
+        self,
+        code: str,
+        severity: Severity,
+        message: str,
+        path: Path,
+        label: str = "",
+        help: str = "",
+        *,
+        key: bool = False,
+        notes: tuple[str, ...] = (),
+    ) -> None:
+        """One finding at a path of the configuration."""
+        if not self.is_faulty(path):
+            span = self.span(path, key=key)
+            self.found.append(Diagnostic(code, severity, message, span, label, help, notes))
+
+    def error(
+        self,
+        code: str,
+        message: str,
+        path: Path,
+        label: str = "",
+        help: str = "",
+        *,
+        key: bool = False,
+    ) -> None:
+        """One error at a path of the configuration."""
+        if not self.is_faulty(path):
+            self.found.append(error(code, message, self.span(path, key=key), label, help))
+
+    @property
+    def failed(self) -> bool:
+        """True when an error was found."""
+        return any(d.severity is Severity.ERROR for d in self.found)

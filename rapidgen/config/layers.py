@@ -1,0 +1,201 @@
+"""One tree out of several: a shipped model, the user's file over it, overrides over both.
+
+Group keys at the top of a file belong to its only group; here they move under `groups`. A key
+without a value counts as absent, so that a section whose lines are all comments does no harm.
+"""
+
+import re
+from collections.abc import Mapping as MappingType
+from collections.abc import Sequence as SequenceType
+from dataclasses import dataclass, field
+
+from rapidgen.config.schema import GROUP_KEYS
+from rapidgen.config.tree import Mapping, Node, Scalar, Sequence, error, from_python, parse
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+
+Overrides = MappingType[str, object] | SequenceType[str]
+
+DEFAULT_GROUP = "rob1"
+_SHARED_KEYS = ("model",)  # a key of a file as well as of a group: at the top it is the file's
+_KEY = re.compile(r'"([^"]*)"|([^."]+)')
+
+
+@dataclass(slots=True)
+class Layer:
+    """A tree in canonical form (`groups` only) and what was found on the way."""
+
+    root: Mapping
+    found: list[Diagnostic] = field(default_factory=list)
+
+
+def prune(node: Node) -> Node:
+    """The tree without keys that have no value."""
+    if isinstance(node, Mapping):
+        return Mapping(
+            {
+                key: (place, prune(value))
+                for key, (place, value) in node.entries.items()
+                if not (isinstance(value, Scalar) and value.value is None)
+            },
+            node.span,
+        )
+    if isinstance(node, Sequence):
+        return Sequence(tuple(prune(item) for item in node.items), node.span)
+    return node
+
+
+def group_names(root: Mapping) -> tuple[str, ...]:
+    """Names of the groups of a canonical tree."""
+    entry = root.entries.get("groups")
+    return tuple(entry[1].entries) if entry and isinstance(entry[1], Mapping) else ()
+
+
+def canonical(root: Node, known: tuple[str, ...]) -> Layer:
+    """`root` with its group keys moved under `groups`; `known` are the groups below it."""
+    if isinstance(root, Scalar) and root.value is None:
+        root = Mapping({}, root.span)
+    if not isinstance(root, Mapping):
+        raise DiagnosticError(
+            error("RG006", "a configuration is a mapping of keys", root.span, "not a mapping")
+        )
+    pruned = prune(root)
+    assert isinstance(pruned, Mapping)
+    top = {k: v for k, v in pruned.entries.items() if k not in GROUP_KEYS or k in _SHARED_KEYS}
+    own = {k: v for k, v in pruned.entries.items() if k in GROUP_KEYS and k not in _SHARED_KEYS}
+    if not own:
+        return Layer(Mapping(top, pruned.span))
+    given = top.get("groups")
+    names = tuple(dict.fromkeys((*known, *group_names(Mapping(top, pruned.span)))))
+    if len(names) > 1 or (given and not known):
+        shown = names[0] if names else DEFAULT_GROUP
+        found = [
+            error(
+                "RG010",
+                f"'{key}' belongs to a group",
+                place,
+                f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
+                f"write it as groups.{shown}.{key}",
+            )
+            for key, (place, _) in own.items()
+        ]
+        return Layer(Mapping(top, pruned.span), found)
+    name = names[0] if names else DEFAULT_GROUP
+    first = next(iter(own.values()))[0]
+    group = Mapping({name: (first, Mapping(own, pruned.span))}, pruned.span)
+    moved = Mapping({"groups": (first, group)}, pruned.span)
+    return Layer(merge(Mapping(top, pruned.span), moved))
+
+
+def merge(base: Mapping, over: Mapping, path: tuple[str, ...] = ()) -> Mapping:
+    """`over` upon `base`: mappings are joined key by key, everything else is replaced."""
+    entries = dict(base.entries)
+    if len(path) == 3 and path[0] == "groups" and path[2] == "joints":
+        entries = _adopt(entries, over)
+    for key, (place, value) in over.entries.items():
+        below = entries.get(key)
+        if below and isinstance(below[1], Mapping) and isinstance(value, Mapping):
+            value = merge(below[1], value, (*path, key))
+        entries[key] = (place, value)
+    if len(path) == 4 and path[0] == "groups" and path[2] == "joints":
+        entries = _settle(entries, over)
+    return Mapping(entries, over.span)
+
+
+def _adopt(entries: dict[str, tuple[Span, Node]], over: Mapping) -> dict[str, tuple[Span, Node]]:
+    """A joint of a new name on an axis that the model has is that joint, renamed."""
+    by_axis = {axis: key for key, (_, value) in entries.items() if (axis := _axis(value))}
+    new_names = {
+        by_axis[axis]: key
+        for key, (_, value) in over.entries.items()
+        if key not in entries and (axis := _axis(value)) in by_axis and axis
+    }
+    return {new_names.get(key, key): value for key, value in entries.items()}
+
+
+def _axis(joint: Node) -> str:
+    if isinstance(joint, Mapping) and "axis" in joint.entries:
+        value = joint.entries["axis"][1]
+        if isinstance(value, Scalar) and isinstance(value.value, str):
+            return value.value
+    return ""
+
+
+def _settle(entries: dict[str, tuple[Span, Node]], over: Mapping) -> dict[str, tuple[Span, Node]]:
+    """A figure that the upper layer gives is no longer an unsure one of the lower layer."""
+    if "unsure" not in entries or "unsure" in over.entries:
+        return entries
+    place, unsure = entries["unsure"]
+    if isinstance(unsure, Sequence):
+        left = tuple(
+            item
+            for item in unsure.items
+            if not (isinstance(item, Scalar) and item.value in over.entries)
+        )
+        entries["unsure"] = (place, Sequence(left, unsure.span))
+    return entries
+
+
+def override_tree(overrides: Overrides) -> tuple[Mapping, tuple[tuple[str, bytes], ...]]:
+    """`--set` texts, or a mapping of key paths to values, as one raw tree with its inputs."""
+    root = Mapping({}, Span("--set", 1, 1))
+    inputs: list[tuple[str, bytes]] = []
+    found: list[Diagnostic] = []
+    pairs: SequenceType[tuple[str, object, bool]]
+    if isinstance(overrides, MappingType):
+        pairs = [(key, value, False) for key, value in overrides.items()]
+    else:
+        pairs = []
+        for text in overrides:
+            key, equals, value = text.partition("=")
+            if not equals:
+                found.append(_bad_override(text))
+            else:
+                pairs.append((key, value, True))
+    for key, value, is_text in pairs:
+        span = Span(f"--set {key}={value}", 1, 1)
+        keys = _split(key)
+        if not keys:
+            found.append(_bad_override(f"{key}={value}"))
+            continue
+        try:
+            if is_text:
+                node, faults = parse(str(value), span.path, at=span)
+                found += faults
+            else:
+                node = from_python(value, span)
+        except DiagnosticError as fault:
+            found += fault.diagnostics
+            continue
+        for part in reversed(keys):
+            node = Mapping({part: (span, node)}, span)
+        assert isinstance(node, Mapping)
+        root = merge(root, node)
+        inputs.append(("--set", f"{key}={value}".encode()))
+    if found:
+        raise DiagnosticError(found)
+    return root, tuple(inputs)
+
+
+def _split(key: str) -> list[str]:
+    """`a.b."c.d"` to its parts; nothing when it is not such a path."""
+    parts, at = [], 0
+    while at < len(key):
+        hit = _KEY.match(key, at)
+        if not hit:
+            return []
+        parts.append((hit[1] if hit[1] is not None else hit[2]).strip())
+        at = hit.end()
+        if at < len(key):
+            if key[at] != "." or at + 1 == len(key):
+                return []
+            at += 1
+    return parts
+
+
+def _bad_override(text: str) -> Diagnostic:
+    return error(
+        "RG008",
+        f"'{text}' is not an override",
+        None,
+        help="write key.path=value, such as --set ports.motion=12000",
+    )

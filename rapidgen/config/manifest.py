@@ -1,0 +1,101 @@
+"""The model as plain JSON data and back, exactly: floats keep every bit."""
+
+import dataclasses
+import types
+import typing
+from pathlib import Path
+from typing import Any
+
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+
+def to_manifest(config: RobotConfig) -> dict[str, Any]:
+    """The configuration as dicts, lists, texts and numbers, without its path and inputs."""
+    made = _out(config)
+    assert isinstance(made, dict)
+    return made
+
+
+def _out(value: Any) -> Any:
+    if dataclasses.is_dataclass(value):
+        return {
+            f.name: _out(getattr(value, f.name)) for f in dataclasses.fields(value) if f.compare
+        }
+    if isinstance(value, tuple):
+        return [_out(item) for item in value]
+    return value
+
+
+def from_manifest(data: object, path: Path = Path("manifest.json")) -> RobotConfig:
+    """The configuration that `to_manifest` wrote; anything else raises DiagnosticError (RG019)."""
+    try:
+        made = _in(RobotConfig, data, "configuration", path)
+    except (TypeError, ValueError) as fault:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG019",
+                Severity.ERROR,
+                f"{path}: not a configuration of this version: {fault}",
+                help="build the folder again with `rapidgen build`",
+            )
+        ) from None
+    assert isinstance(made, RobotConfig)
+    return made
+
+
+def _in(hint: Any, value: Any, where: str, path: Path) -> Any:
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
+        return _dataclass(hint, value, where, path)
+    if origin is tuple:
+        if not isinstance(value, list):
+            raise TypeError(f"{where} is not a list")
+        if len(arguments) == 2 and arguments[1] is Ellipsis:
+            arguments = (arguments[0],) * len(value)
+        if len(arguments) != len(value):
+            raise TypeError(f"{where} has {len(value)} entries, not {len(arguments)}")
+        return tuple(
+            _in(a, v, f"{where}[{i}]", path)
+            for i, (a, v) in enumerate(zip(arguments, value, strict=True))
+        )
+    if origin is typing.Literal:
+        if value not in arguments:
+            raise ValueError(f"{where} is {value!r}")
+        return value
+    if origin in (typing.Union, types.UnionType):
+        raise TypeError(f"{where}: unions have no place in the model")
+    if hint is float and type(value) in (int, float):
+        return float(value)
+    if hint is Path:
+        return path
+    if type(value) is not hint:
+        raise TypeError(f"{where} is a {type(value).__name__}")
+    return value
+
+
+def _dataclass(hint: Any, value: Any, where: str, path: Path) -> Any:
+    if not isinstance(value, dict):
+        raise TypeError(f"{where} is not an object")
+    hints = typing.get_type_hints(hint)
+    fields = [f for f in dataclasses.fields(hint) if f.compare]
+    unknown = set(value) - {f.name for f in fields}
+    if unknown:
+        raise ValueError(f"{where} has the unknown key '{min(unknown)}'")
+    missing = [
+        f.name
+        for f in fields
+        if f.name not in value
+        and f.default is dataclasses.MISSING
+        and f.default_factory is dataclasses.MISSING
+    ]
+    if missing:
+        raise ValueError(f"{where} lacks '{missing[0]}'")
+    made = {
+        f.name: _in(hints[f.name], value[f.name], f"{where}.{f.name}", path)
+        for f in fields
+        if f.name in value
+    }
+    if hint is RobotConfig:
+        made["path"] = path
+    return hint(**made)

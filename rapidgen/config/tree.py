@@ -1,0 +1,303 @@
+"""YAML 1.2 text to a tree whose every key and value knows its place.
+
+The events of ruamel.yaml are read one by one, so that duplicate keys, tags, alias bombs and
+other hostile input end with one finding instead of an object graph. Plain scalars follow the
+core schema of YAML 1.2 (§10.3.2): `on` and `1:30` are texts, `9E9` is a number.
+"""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+
+MAX_BYTES = 1_000_000
+MAX_DEPTH = 40
+MAX_NODES = 50_000
+
+_INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
+_FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
+_INF = re.compile(r"[-+]?\.(inf|Inf|INF)")
+_CONSTANTS: dict[str, object] = {
+    **dict.fromkeys(("", "~", "null", "Null", "NULL")),
+    **dict.fromkeys(("true", "True", "TRUE"), True),
+    **dict.fromkeys(("false", "False", "FALSE"), False),
+    **dict.fromkeys((".nan", ".NaN", ".NAN"), float("nan")),
+}
+
+
+class Number(float):
+    """A decimal number with its spelling: RobotWare 6.10 is not 6.1."""
+
+    __slots__ = ("text",)
+    text: str
+
+    def __new__(cls, text: str) -> "Number":
+        self = super().__new__(cls, text)
+        self.text = text
+        return self
+
+
+@dataclass(frozen=True, slots=True)
+class Scalar:
+    """A leaf: None, bool, int, float or str."""
+
+    value: object
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """A list."""
+
+    items: tuple["Node", ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Mapping:
+    """A dictionary in the order of the text; `entries[key]` = (place of the key, value)."""
+
+    entries: dict[str, tuple[Span, "Node"]]
+    span: Span
+
+
+Node = Scalar | Sequence | Mapping
+
+
+def error(
+    code: str, message: str, span: Span | None, label: str = "", help: str = ""
+) -> Diagnostic:
+    """A finding of severity error; most of this room's are."""
+    return Diagnostic(code, Severity.ERROR, message, span, label, help)
+
+
+def read_bytes(path: Path, shown: str) -> bytes:
+    """The file's bytes, or one finding that says why not (RG001, RG002)."""
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        reason = getattr(fault, "strerror", None) or str(fault)
+        raise DiagnosticError(
+            error("RG001", f"cannot read {shown}: {reason}", None, help="give the path of a file")
+        ) from None
+    if len(data) > MAX_BYTES:
+        raise DiagnosticError(
+            error(
+                "RG002",
+                f"{shown} is larger than {MAX_BYTES:,} bytes",
+                None,
+                help="a configuration is a few kilobytes: is this the right file?",
+            )
+        )
+    return data
+
+
+def decode(data: bytes, shown: str) -> str:
+    """UTF-8 text; anything else is one finding with its place (RG002)."""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as fault:
+        line = data.count(b"\n", 0, fault.start) + 1
+        column = fault.start - data.rfind(b"\n", 0, fault.start)
+        raise DiagnosticError(
+            error(
+                "RG002",
+                f"{shown} is not UTF-8 text",
+                Span(shown, line, column),
+                f"byte 0x{data[fault.start]:02x}",
+                "save the file as UTF-8",
+            )
+        ) from None
+
+
+def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[Diagnostic]]:
+    """The tree of one YAML document and the faults that do not hinder it (duplicate keys).
+
+    `at` is the place given to everything when the text is not a file's (an override).
+    Raises DiagnosticError (RG002, RG003) for what is no tree.
+    """
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import YAMLError
+
+    try:
+        return _Builder(YAML(typ="safe", pure=True).parse(text), shown, at).document()
+    except YAMLError as fault:
+        raise DiagnosticError(_syntax(fault, shown, at)) from None
+    except ValueError as fault:  # a directive or escape that ruamel converts without a check
+        raise DiagnosticError(
+            error("RG003", f"not YAML: {fault}", at or Span(shown, 1, 1))
+        ) from None
+
+
+def _syntax(fault: Any, shown: str, at: Span | None) -> Diagnostic:
+    mark = getattr(fault, "problem_mark", None) or getattr(fault, "context_mark", None)
+    problem = getattr(fault, "problem", None) or getattr(fault, "reason", None) or "not YAML"
+    context = getattr(fault, "context", None)
+    span = at or (Span(shown, mark.line + 1, mark.column + 1) if mark else Span(shown, 1, 1))
+    return error(
+        "RG003",
+        f"not YAML: {problem}" + (f" ({context})" if context else ""),
+        span,
+        help="quote a text that holds ': ', '#', '[' or '{'; indent with blanks, never with tabs",
+    )
+
+
+class _Builder:
+    """Events to nodes, with limits. A stack of its own: depth costs no Python frames."""
+
+    def __init__(self, events: Iterator[Any], shown: str, at: Span | None) -> None:
+        self._events = events
+        self._shown = shown
+        self._at = at
+        self._anchors: dict[str, Node] = {}
+        self._weights: dict[str, int] = {}
+        self._nodes = 0
+        self._found: list[Diagnostic] = []
+
+    def document(self) -> tuple[Node, list[Diagnostic]]:
+        root: Node | None = None
+        for event in self._events:
+            kind = type(event).__name__
+            if kind == "DocumentStartEvent":
+                if root is not None:
+                    raise self._refuse("a second document in one file", self._span(event))
+                if event.version not in (None, (1, 2), [1, 2]):
+                    raise self._refuse("only YAML 1.2 is read", self._span(event))
+            elif kind in ("ScalarEvent", "AliasEvent", "SequenceStartEvent", "MappingStartEvent"):
+                root = self._node(event, 0)
+        if root is None:
+            root = Scalar(None, self._at or Span(self._shown, 1, 1))
+        return root, self._found
+
+    def _span(self, event: Any) -> Span:
+        if self._at:
+            return self._at
+        start, end = event.start_mark, event.end_mark
+        return Span(self._shown, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+
+    def _refuse(self, what: str, span: Span) -> DiagnosticError:
+        return DiagnosticError(error("RG002", what, span, help="see `rapidgen explain RG002`"))
+
+    def _node(self, event: Any, depth: int) -> Node:
+        span = self._span(event)
+        kind = type(event).__name__
+        before = self._nodes
+        self._count(1, span)
+        if kind == "AliasEvent":
+            known = self._anchors.get(event.anchor)
+            if known is None:
+                raise self._refuse(f"alias '*{event.anchor}' has no anchor before it", span)
+            self._count(self._weights[event.anchor], span)
+            return known
+        if event.tag is not None:
+            raise self._refuse(f"tag '{event.tag}' is not allowed in a configuration", span)
+        if depth > MAX_DEPTH:
+            raise self._refuse(f"nested deeper than {MAX_DEPTH} levels", span)
+        node: Node
+        if kind == "ScalarEvent":
+            plain = event.style in (None, "")
+            value = self._resolve(event.value, span) if plain else event.value
+            node = Scalar(value, span)
+        elif kind == "SequenceStartEvent":
+            node = self._sequence(span, depth)
+        else:
+            node = self._mapping(span, depth)
+        if event.anchor is not None:
+            self._anchors[event.anchor] = node
+            self._weights[event.anchor] = self._nodes - before
+        return node
+
+    def _count(self, nodes: int, span: Span) -> None:
+        self._nodes += nodes
+        if self._nodes > MAX_NODES:
+            raise self._refuse(f"more than {MAX_NODES:,} values, aliases written out", span)
+
+    def _resolve(self, text: str, span: Span) -> object:
+        if text in _CONSTANTS:
+            return _CONSTANTS[text]
+        if _INT.fullmatch(text):
+            if len(text) > 20:
+                raise self._refuse("a number of more than 20 digits", span)
+            return int(text, 0 if text[:2] in ("0o", "0x") else 10)
+        if _FLOAT.fullmatch(text):
+            return Number(text)
+        if _INF.fullmatch(text):
+            return float(text.replace(".", ""))
+        return text
+
+    def _sequence(self, start: Span, depth: int) -> Sequence:
+        items: list[Node] = []
+        for event in self._events:
+            if type(event).__name__ == "SequenceEndEvent":
+                return Sequence(tuple(items), start)
+            items.append(self._node(event, depth + 1))
+        raise self._refuse("the text ends inside a list", start)
+
+    def _mapping(self, start: Span, depth: int) -> Mapping:
+        entries: dict[str, tuple[Span, Node]] = {}
+        for event in self._events:
+            if type(event).__name__ == "MappingEndEvent":
+                return Mapping(entries, start)
+            place = self._span(event)
+            if type(event).__name__ != "ScalarEvent" or event.tag is not None:
+                raise self._refuse("a key that is not a plain text", place)
+            self._count(1, place)
+            value = self._node(next(self._events), depth + 1)
+            if event.value in entries:
+                self._found.append(_duplicate(event.value, place, entries[event.value][0]))
+            else:
+                entries[event.value] = (place, value)
+        raise self._refuse("the text ends inside a mapping", start)
+
+
+def _duplicate(key: str, place: Span, first: Span) -> Diagnostic:
+    from rapidgen.diagnostics import Label
+
+    return Diagnostic(
+        "RG004",
+        Severity.ERROR,
+        f"duplicate key '{key}'",
+        place,
+        "second time",
+        "keep one of the two",
+        related=(Label(first, "first time"),),
+    )
+
+
+def from_python(value: object, span: Span) -> Node:
+    """A tree for a value given from Python; every part has the one place `span`."""
+    if isinstance(value, dict):
+        entries = {str(k): (span, from_python(v, span)) for k, v in value.items()}
+        return Mapping(entries, span)
+    if isinstance(value, list | tuple):
+        return Sequence(tuple(from_python(v, span) for v in value), span)
+    if value is None or isinstance(value, bool | int | float | str):
+        return Scalar(value, span)
+    raise DiagnosticError(error("RG008", f"an override cannot be a {type(value).__name__}", span))
+
+
+def to_python(node: Node) -> Any:
+    """Plain dicts, lists and scalars."""
+    if isinstance(node, Mapping):
+        return {key: to_python(value) for key, (_, value) in node.entries.items()}
+    if isinstance(node, Sequence):
+        return [to_python(item) for item in node.items]
+    return node.value
+
+
+def place_of(root: Node, path: tuple[str | int, ...]) -> tuple[Span, Span]:
+    """Places (key or item, value) of what `path` leads to, or of the nearest that exists."""
+    node, key = root, root.span
+    for part in path:
+        if isinstance(node, Mapping) and part in node.entries:
+            key, node = node.entries[str(part)]
+        elif isinstance(node, Sequence) and isinstance(part, int) and part < len(node.items):
+            node = node.items[part]
+            key = node.span
+        else:
+            break
+    return key, node.span if isinstance(node, Scalar) else key

@@ -1,0 +1,203 @@
+"""Schema faults with their places: pydantic's findings become diagnostics (RG005..RG007).
+
+A faulty part is taken out and the rest is validated again, so that one fault in a file does not
+hide those that only a later step can see.
+"""
+
+import types
+import typing
+from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic import BaseModel, ValidationError
+
+from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
+from rapidgen.config.tree import Mapping, error, place_of, to_python
+from rapidgen.diagnostics import Diagnostic, suggest
+
+Path = tuple[str | int, ...]
+
+
+@dataclass(slots=True)
+class Validated:
+    """The configuration as far as it is sound; `removed` are the paths taken out as faulty."""
+
+    configuration: Configuration
+    found: list[Diagnostic] = field(default_factory=list)
+    removed: set[Path] = field(default_factory=set)
+
+
+def validate(root: Mapping) -> Validated:
+    """Validate a canonical tree."""
+    data = to_python(root)
+    found: list[Diagnostic] = []
+    removed: set[Path] = set()
+    while True:
+        try:
+            return Validated(Configuration.model_validate(data), found, removed)
+        except ValidationError as fault:
+            faults = fault.errors(include_url=False, include_context=True)
+        paths: set[Path] = set()
+        for item in faults:
+            path, is_key = _real_path(data, item["loc"])
+            if item["type"] == "missing":
+                found.append(_missing(root, item["loc"]))
+                path = path if len(path) < len(item["loc"]) else path[:-1]
+            elif path not in paths:
+                found.append(_translate(root, path, is_key, dict(item)))
+            paths.add(path)
+        removed |= paths
+        for path in sorted(paths, key=len, reverse=True):
+            _remove(data, path)
+
+
+def _real_path(data: Any, loc: tuple[str | int, ...]) -> tuple[Path, bool]:
+    """The part of `loc` that leads through the data (unions and keys add parts of their own)."""
+    node, path = data, []
+    for part in loc:
+        if isinstance(node, dict) and part in node:
+            node = node[part]
+        elif isinstance(node, list) and isinstance(part, int) and part < len(node):
+            node = node[part]
+        else:
+            break
+        path.append(part)
+    return tuple(path), loc[-1] == "[key]"
+
+
+def _remove(data: Any, path: Path) -> None:
+    *parents, last = path
+    for part in parents:
+        try:
+            data = data[part]
+        except (KeyError, IndexError, TypeError):
+            return  # an outer part went already
+    if isinstance(data, dict):
+        data.pop(last, None)
+    elif isinstance(data, list):
+        # An element of a list cannot be missing: the whole list goes with it.
+        data.clear()
+
+
+def shown(path: Path) -> str:
+    """A path as a user writes it."""
+    return ".".join(str(part) for part in path)
+
+
+def _missing(root: Mapping, loc: Path) -> Diagnostic:
+    key, _ = place_of(root, loc[:-1])
+    return error(
+        "RG007",
+        f"'{shown(loc[:-1])}' lacks '{loc[-1]}'",
+        key,
+        "here",
+        f"add `{loc[-1]}:`",
+    )
+
+
+def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
+    key, value = place_of(root, path)
+    if item["type"] == "extra_forbidden":
+        known = keys_at(path[:-1])
+        meant = suggest(str(path[-1]), known)
+        where = f" in '{shown(path[:-1])}'" if len(path) > 1 else ""
+        return error(
+            "RG005",
+            f"unknown key '{path[-1]}'{where}",
+            key,
+            "not a key of the configuration" if len(path) == 1 else "not a key here",
+            meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
+        )
+    return error(
+        "RG006", f"'{shown(path)}': {_reason(item, is_key)}", key if is_key else value, _input(item)
+    )
+
+
+def _input(item: dict[str, Any]) -> str:
+    given = item.get("input")
+    if isinstance(given, dict):
+        return "a mapping"
+    if isinstance(given, list):
+        return "a list"
+    return ""
+
+
+def _reason(item: dict[str, Any], is_key: bool) -> str:
+    kind, context = item["type"], item.get("ctx", {})
+    given = item.get("input")
+    fixed = {
+        "float_type": "must be a number",
+        "int_type": "must be a whole number",
+        "bool_type": "must be true or false",
+        "string_type": "must be a text",
+        "list_type": "must be a list",
+        "dict_type": "must be a mapping",
+        "model_type": "must be a mapping",
+        "model_attributes_type": "must be a mapping",
+        "finite_number": "must be a finite number",
+    }
+    if kind in fixed:
+        tail = f", not '{given}'" if isinstance(given, str) else ""
+        return fixed[kind] + tail
+    if kind == "literal_error":
+        words = [w.strip("'") for w in context["expected"].replace(" or ", ", ").split(", ")]
+        meant = suggest(str(given), words)
+        return f"'{given}' is none of {', '.join(words)}" + (f"; {meant}" if meant else "")
+    bounds = {
+        "greater_than": ("gt", "more than"),
+        "greater_than_equal": ("ge", "at least"),
+        "less_than": ("lt", "less than"),
+        "less_than_equal": ("le", "at most"),
+    }
+    if kind in bounds:
+        name, words = bounds[kind]
+        return f"must be {words} {context[name]:g}, not {given}"
+    if kind in ("too_short", "too_long"):
+        bound = context.get("min_length" if kind == "too_short" else "max_length")
+        words = "at least" if kind == "too_short" else "at most"
+        return f"must have {words} {bound} entries, not {context['actual_length']}"
+    if kind == "string_pattern_mismatch":
+        what = "this name" if is_key else "the text"
+        return f"{what} must match {context['pattern']}"
+    if kind == "value_error":
+        return str(context["error"])
+    return str(item["msg"])
+
+
+def keys_at(path: Path) -> tuple[str, ...]:
+    """Keys that the schema knows at a path of the canonical tree."""
+    if not path:
+        return tuple(dict.fromkeys((*TOP_KEYS, *GROUP_KEYS)))
+    hint: Any = Configuration
+    for part in path:
+        hint = _step(hint, part)
+    model = _model(hint)
+    return tuple(model.model_fields) if model else ()
+
+
+def _model(hint: Any) -> type[BaseModel] | None:
+    for option in _options(hint):
+        if isinstance(option, type) and issubclass(option, BaseModel):
+            return option
+    return None
+
+
+def _options(hint: Any) -> tuple[Any, ...]:
+    if typing.get_origin(hint) is typing.Annotated:
+        return _options(typing.get_args(hint)[0])
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return typing.get_args(hint)
+    return (hint,)
+
+
+def _step(hint: Any, part: str | int) -> Any:
+    model = _model(hint)
+    if model:
+        known = model.model_fields.get(str(part))
+        return known.annotation if known else None
+    for option in _options(hint):
+        if typing.get_origin(option) is dict:
+            return typing.get_args(option)[1]
+        if typing.get_origin(option) is list:
+            return typing.get_args(option)[0]
+    return None
