@@ -46,7 +46,13 @@ RobotWare = Annotated[
 
 
 class _Part(BaseModel):
-    model_config = ConfigDict(strict=True, extra="forbid", frozen=True, allow_inf_nan=False)
+    model_config = ConfigDict(
+        strict=True,
+        extra="forbid",
+        frozen=True,
+        allow_inf_nan=False,
+        defer_build=True,  # one validator for the whole, not one more for each part
+    )
 
 
 class Controller(_Part):
@@ -138,8 +144,8 @@ class Tool(_Part):
 
     name: Identifier = Field("tool0", description="Name of the tooldata.")
     held: bool = Field(True, description="False: a stationary tool.")
-    frame: Frame = Field(Frame(), description="TCP in the flange's frame.")
-    load: Load = Field(Load(), description="Load of the tool.")
+    frame: Frame = Field(default_factory=Frame, description="TCP in the flange's frame.")
+    load: Load = Field(default_factory=Load, description="Load of the tool.")
 
 
 class WorkObject(_Part):
@@ -147,8 +153,10 @@ class WorkObject(_Part):
 
     name: Identifier = Field("wobj0", description="Name of the wobjdata.")
     held: bool = Field(False, description="True: the robot holds the work object.")
-    user_frame: Frame = Field(Frame(), description="User frame in the world.")
-    object_frame: Frame = Field(Frame(), description="Object frame in the user frame.")
+    user_frame: Frame = Field(default_factory=Frame, description="User frame in the world.")
+    object_frame: Frame = Field(
+        default_factory=Frame, description="Object frame in the user frame."
+    )
 
 
 class Ports(_Part):
@@ -180,7 +188,7 @@ class Urdf(_Part):
 
 
 class GroupKeys(_Part):
-    """One motion task with its mechanical unit. A file with one group may write these at its top."""
+    """One motion task with its mechanical unit; a file with one group may write these at its top."""
 
     model: str | None = Field(None, description="A shipped model (`rapidgen robots`).")
     urdf: Urdf | None = Field(None, description="Robot description to read joints from.")
@@ -211,12 +219,14 @@ class GroupKeys(_Part):
         le=1,
         description="k in `controller axis 3 = J3 + k x J2`; 0 for a serial robot, 1 for IRB 2400.",
     )
-    tool: Tool = Field(Tool(), description="Tool of the moves.")
-    work_object: WorkObject = Field(WorkObject(), description="Work object of the moves.")
+    tool: Tool = Field(default_factory=Tool, description="Tool of the moves.")
+    work_object: WorkObject = Field(
+        default_factory=WorkObject, description="Work object of the moves."
+    )
     tcp_speed_limit: float = Field(
         5000.0, gt=0, le=10000, description="Ceiling of the tool's speed, mm/s."
     )
-    ports: Ports = Field(Ports(), description="TCP ports.")
+    ports: Ports = Field(default_factory=Ports, description="TCP ports.")
     source: dict[Literal["limits", "speeds", "chain", "coupling", "mapping"], Text] = Field(
         {}, description="Where the group's figures come from."
     )
@@ -301,13 +311,17 @@ class Configuration(_Part):
     generations: list[Literal[5, 6, 7, 8]] = Field(
         [], description="RobotWare generations that the robot exists for; empty: not known."
     )
-    controller: Controller = Field(Controller(), description="Controller and software.")
+    controller: Controller = Field(
+        default_factory=Controller, description="Controller and software."
+    )
     groups: dict[GroupName, GroupKeys] = Field(
         {}, description="Motion groups by name; for one group its keys may stand at the top."
     )
-    trajectory: Trajectory = Field(Trajectory(), description="What the motion server accepts.")
-    state: State = Field(State(), description="The state server.")
-    network: Network = Field(Network(), description="Who may talk to the driver.")
+    trajectory: Trajectory = Field(
+        default_factory=Trajectory, description="What the motion server accepts."
+    )
+    state: State = Field(default_factory=State, description="The state server.")
+    network: Network = Field(default_factory=Network, description="Who may talk to the driver.")
     commissioning: bool = Field(
         False,
         description="True while setting up: background tasks are NORMAL and can be stopped and "
