@@ -1,0 +1,505 @@
+"""One motion group in time: runs its path, holds the program at the right moments, stops.
+
+The kernel is asked for one event at a time (a release, a deadline, a standstill), so a robot
+costs a few events a move, and nothing at all while it stands.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from math import ceil, inf
+from typing import Protocol
+
+from rapidgen.axes.limits import outside
+from rapidgen.axes.mapping import JointMap
+from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.io import IOSystem
+from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
+from rapidgen.virtual.log import EventLog
+from rapidgen.virtual.motion.legs import Geometry, Leg, joint_way, lever_measure, zone_entry
+from rapidgen.virtual.motion.moves import JointMove, Measure, Posture
+from rapidgen.virtual.motion.path import NOTHING_M, Path, posture_at
+from rapidgen.virtual.motion.pieces import AxisLimits, Piece
+from rapidgen.virtual.motion.settings import MotionSettings
+from rapidgen.virtual.motion.timelaw import TimeLaw, brake, plan
+
+MANUAL_REDUCED = 0.25
+"""m/s of the TCP in manual mode with reduced speed."""
+
+
+TIME_NOT_MET = 59_001
+"""Ours: a controller says nothing when it cannot keep \\T."""
+LATE = 0.002
+"""s by which a move may miss its \\T unreported."""
+
+
+class Waiter(Protocol):
+    """What a task can do for a move."""
+
+    def wait_for(
+        self,
+        predicate: Callable[[], bool],
+        *,
+        on: Iterable[WaitSet] = (),
+        timeout: float | None = None,
+    ) -> bool:
+        """Wait until the predicate holds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A time law over pieces of path from a moment on: all that positions depend on."""
+
+    start: int
+    """Kernel ns"""
+    law: TimeLaw
+    pieces: tuple[Piece, ...]
+    rest: Posture
+    """Where it ends."""
+
+    def posture(self, now: int) -> Posture:
+        """Axis values at a time."""
+        time = (now - self.start) / S
+        if time >= self.law.duration:
+            return self.rest
+        return posture_at(self.pieces, self.law.state(time)[0], self.rest)
+
+
+class MotionGroup:
+    """One mechanical unit group: its path, its position and its stops."""
+
+    def __init__(
+        self,
+        config: GroupConfig,
+        kernel: Kernel,
+        log: EventLog,
+        io: IOSystem,
+        settings: MotionSettings,
+    ) -> None:
+        self.config = config
+        self.name = config.name
+        self.settings = settings
+        self.map = JointMap.of(config)
+        self.changed = WaitSet()
+        """Notified when a move is released or finished, and when motion begins or ends."""
+        self._kernel = kernel
+        self._log = log
+        self._io = io
+        self._limits = AxisLimits(
+            [j.speed for j in config.joints],
+            [j.acceleration for j in config.joints],
+            settings.corner_share,
+        )
+        self._stops: dict[str, None] = {}
+        self._override = 1.0
+        self._refresh = 1.0
+        self._reduced = False
+        self._timer: Timer | None = None
+        self._due = inf
+        self._commit = inf
+        self._release = inf
+        self._was_standing = True
+        self._late = 0.0
+        self._late_moves = 0
+        self._last_passed: float | None = None
+        self._concurrent = 0
+        self._settled = 0
+        self.acceleration = 1.0
+        """Share of the axes' acceleration (AccSet)."""
+        self.observers: list[Callable[[Motion], None]] = []
+        """Called with every new motion (the recorder)."""
+        start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
+        self._path = Path(start)
+        self._motion = Motion(kernel.now, TimeLaw(0.0), (), start)
+        self._report(True)
+
+    # -- where it is ------------------------------------------------------------------------
+
+    def positions(self) -> Posture:
+        """Axis values now: controller axes, rad and m, wire order."""
+        return self._motion.posture(self._kernel.now)
+
+    def joint_target(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """`robax` and `extax` now, deg and mm, 9E9 where there is no axis."""
+        return self.map.to_rapid(self.positions())
+
+    def jump(self, posture: Posture) -> None:
+        """Put the standing robot elsewhere (a test, a restored state). The path is dropped."""
+        self._finish(self._path.cut(self._path.end), cleared=True)
+        self._path = Path(tuple(posture))
+        self._set_motion(TimeLaw(0.0), self._kernel.now)
+        self._settle()
+
+    @property
+    def motion(self) -> Motion:
+        """The motion under way, or the last one."""
+        return self._motion
+
+    @property
+    def is_standing(self) -> bool:
+        """Whether no axis moves."""
+        return self._kernel.now >= self._end
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether it stands and the settling time is over too."""
+        return self._kernel.now >= self._end + round(self.settings.settle * S)
+
+    @property
+    def legs(self) -> tuple[Leg, ...]:
+        """Moves on the path that are not finished; the first is the one under way."""
+        self._settle()
+        return tuple(self._path.legs)
+
+    @property
+    def _end(self) -> int:
+        return self._motion.start + ceil(self._motion.law.duration * S)
+
+    # -- speed ------------------------------------------------------------------------------
+
+    @property
+    def override(self) -> float:
+        """Speed override of the controller, 0 to 1."""
+        return self._override
+
+    @override.setter
+    def override(self, value: float) -> None:
+        if not 0.0 <= value <= 1.0:
+            raise ValueError("the speed override is 0 to 1")
+        self._override = value
+        self._change_speed()
+
+    @property
+    def refresh(self) -> float:
+        """Speed override of the program (SpeedRefresh), 0 to 1."""
+        return self._refresh
+
+    @refresh.setter
+    def refresh(self, value: float) -> None:
+        self._refresh = value
+        self._change_speed()
+
+    @property
+    def reduced(self) -> bool:
+        """Manual mode with reduced speed: the TCP moves at 250 mm/s at most."""
+        return self._reduced
+
+    @reduced.setter
+    def reduced(self, value: bool) -> None:
+        if value != self._reduced:
+            self._reduced = value
+            self._change_speed()
+
+    def _change_speed(self) -> None:
+        if self._override * self._refresh == 0.0:
+            self.stop("override")
+        elif "override" in self._stops:
+            self.start("override")
+        elif not self._stops:
+            self._settle()
+            self._replan()
+            self._settle()
+
+    # -- moving -----------------------------------------------------------------------------
+
+    def move(self, task: Waiter, move: JointMove) -> None:
+        """Put a move on the path and hold the task as its zone asks for.
+
+        A stop point lets the program go on when the robot stands there; a fly-by point some
+        time before the path could no longer be changed into a corner. ERR_ROBLIMIT or
+        FatalError 50027: outside the axis ranges. ERR_CONC_MAX: too many \\Conc in a row.
+        """
+        self._check(move)
+        self._settle()
+        leg = self._append(move)
+        self._settle()
+        if leg is None or move.concurrent:
+            return
+        if move.zone.fine:
+            self._wait(task, lambda: leg.finished and self.is_settled, leg)
+            if move.dwell > 0:
+                task.wait_for(lambda: False, on=(), timeout=move.dwell)
+        else:
+            self._wait(task, lambda: leg.released or leg.finished, leg)
+
+    def _wait(self, task: Waiter, ready: Callable[[], bool], leg: Leg) -> None:
+        hang = self.settings.cleared_move == "hang"
+        task.wait_for(
+            lambda: ready() or (leg.cleared and not hang),
+            on=(self.changed,),
+        )
+
+    def _check(self, move: JointMove) -> None:
+        if move.concurrent:
+            self._concurrent += 1
+            if self._concurrent > self.settings.conc_limit:
+                self._concurrent = 0
+                raise RapidError("ERR_CONC_MAX")
+        else:
+            self._concurrent = 0
+        faults = outside(self.config.joints, move.target)
+        if faults:
+            if self.settings.range_error == "fatal":
+                raise FatalError(50_027, "Joint out of range", str(faults[0]))
+            raise RapidError("ERR_ROBLIMIT", str(faults[0]))
+
+    def _append(self, move: JointMove) -> Leg | None:
+        path = self._path
+        reach = max(
+            (abs(a - b) for a, b in zip(move.target, path.target, strict=True)), default=0.0
+        )
+        waits = self.settings.zero_length == "wait" and move.time is not None
+        if reach < NOTHING_M and not waits:
+            return self._stay(move)
+        place, _ = self._state()
+        fixed = place
+        if self._braking():
+            fixed = max(fixed, self._motion.law.place)
+        path.prune(place)
+        limits = self._limits.scaled(self.acceleration)
+        standing = self.is_standing
+        leg, failed = path.extend(move, self._way, self._law, limits, fixed)
+        if standing and not self._stops:
+            leg.began = self._kernel.now / S
+        if failed:
+            self._corner_failure(path.legs[-2])
+        if not self._stops:
+            self._replan()
+        return leg
+
+    def _stay(self, move: JointMove) -> Leg | None:
+        """A move to where the path ends: a stop point makes the end a stop, else nothing."""
+        tail = self._path.tail
+        if not move.zone.fine:
+            return tail
+        if tail is None or tail.finished:
+            return None
+        tail.committed = True
+        self._rearm()
+        return tail
+
+    def _way(self, origin: Posture, move: JointMove, from_rest: bool) -> Geometry:
+        limits = self._limits.scaled(self.acceleration)
+        measure = self.measure(origin, move)
+        return joint_way(origin, move, measure, limits, from_rest=from_rest)
+
+    def measure(self, origin: Posture, move: JointMove) -> Measure:
+        """How far a joint move goes."""
+        return lever_measure(self.config, origin, move.target, self.settings.lever)
+
+    # -- stops ------------------------------------------------------------------------------
+
+    @property
+    def stop_reasons(self) -> tuple[str, ...]:
+        """Who keeps the robot from moving."""
+        return tuple(self._stops)
+
+    def stop(self, reason: str, *, quick: bool = False) -> None:
+        """Brake on the path and stay until `start` of the same reason. The path is kept."""
+        self._settle()
+        self._stops[reason] = None
+        place, speed = self._state()
+        if speed > 0.0:
+            self._brake(place, speed, quick)
+        self._settle()
+
+    def start(self, reason: str) -> None:
+        """Take a stop back; the robot goes on when it was the last one."""
+        self._settle()
+        self._stops.pop(reason, None)
+        if not self._stops:
+            self._replan()
+        self._settle()
+
+    def clear_path(self) -> None:
+        """Drop what is left of the path; a moving robot brakes on it first."""
+        self._settle()
+        place, speed = self._state()
+        if speed > 0.0 and not self._braking():
+            self._brake(place, speed, False)
+        lost = self._path.cut(self._motion.law.place)
+        self._motion = Motion(
+            self._motion.start, self._motion.law, self._motion.pieces, self._path.target
+        )
+        self._finish(lost, cleared=True)
+        self._settle()
+
+    def reset(self) -> None:
+        """PP to main: no path, no stops by programs, default speeds."""
+        self.clear_path()
+        for reason in ("move task", "other task"):
+            self._stops.pop(reason, None)
+        self.acceleration = 1.0
+        self._refresh = 1.0
+        self._concurrent = 0
+        self._change_speed()
+
+    def _braking(self) -> bool:
+        """Whether the law that runs is a way to a stop that may lie short of the path's end."""
+        return bool(self._stops) or self._motion.law.place < self._path.end - 1e-9
+
+    def _brake(self, place: float, speed: float, quick: bool) -> None:
+        factor = self.settings.quick_factor if quick else 1.0
+        self._path.prune(place)
+        self._set_motion(brake(self._path.pieces, place, speed, factor), self._kernel.now)
+
+    # -- time laws --------------------------------------------------------------------------
+
+    def _state(self) -> tuple[float, float]:
+        return self._motion.law.state((self._kernel.now - self._motion.start) / S)
+
+    def _law(self, pieces: tuple[Piece, ...]) -> TimeLaw | None:
+        place, speed = self._state()
+        limit = MANUAL_REDUCED if self._reduced else inf
+        return plan(pieces, place, speed, self._override * self._refresh, limit)
+
+    def _replan(self) -> None:
+        """Go from the present state to the end of the path."""
+        place, _ = self._state()
+        path = self._path
+        path.prune(place)
+        if not path.pieces or path.end <= place:
+            self._rearm()
+            return
+        law = self._law(path.pieces)
+        if law is None:
+            # It brakes to a stop that cannot be taken back; then on from there.
+            self._set_motion(self._motion.law.then(self._law_from_rest()), self._motion.start)
+        else:
+            self._set_motion(law, self._kernel.now)
+
+    def _law_from_rest(self) -> TimeLaw:
+        limit = MANUAL_REDUCED if self._reduced else inf
+        place = self._motion.law.place
+        law = plan(self._path.pieces, place, 0.0, self._override * self._refresh, limit)
+        assert law is not None  # from rest every limit can be kept
+        return law
+
+    def _set_motion(self, law: TimeLaw, start: int) -> None:
+        path = self._path
+        self._note_passing()
+        rest = path.target if law.place >= path.end else path.at(law.place)
+        self._motion = Motion(start, law, path.pieces, rest)
+        for observer in self.observers:
+            observer(self._motion)
+        self._rearm()
+
+    def _note_passing(self) -> None:
+        """Remember when legs were passed that a new law would know nothing of."""
+        place, _ = self._state()
+        for leg in self._path.legs:
+            if leg.end > place:
+                break
+            if leg.passed_at is None:
+                leg.passed_at = self._motion.start / S + self._motion.law.time_at(leg.end)
+
+    # -- deadlines --------------------------------------------------------------------------
+
+    def _rearm(self) -> None:
+        """Find out what happens next on the present motion, and ask for that event."""
+        start, law = self._motion.start / S, self._motion.law
+        tail = self._path.tail
+        self._commit = self._release = inf
+        if tail is not None and not (tail.stops or tail.finished or self._stops):
+            self._commit = start + min(law.last_braking(), law.time_at(zone_entry(tail)))
+            self._release = self._commit - self.settings.planning_lead
+        self._schedule()
+
+    def _schedule(self) -> None:
+        now = self._kernel.now
+        start, law = self._motion.start, self._motion.law
+        times = [self._end] if now < self._end else []
+        settled = self._end + round(self.settings.settle * S)
+        if now < settled:
+            times.append(settled)
+        tail = self._path.tail
+        if tail is not None and not (tail.stops or tail.finished or self._stops):
+            if not tail.released:
+                times.append(ceil(self._release * S))
+            times.append(ceil(self._commit * S))
+        for leg in self._path.legs:
+            if leg.stops:
+                times.append(start + ceil(law.time_at(leg.end) * S))
+                break
+        ahead = [time for time in times if time > now]
+        due = min(ahead, default=None)
+        if self._timer is not None:
+            if self._timer.active and self._timer.time == due:
+                return
+            self._timer.cancel()
+        self._timer = None if due is None else self._kernel.at(due, self._settle)
+
+    def _settle(self) -> None:
+        """Bring everything up to the present time."""
+        now = self._kernel.now / S
+        changed = False
+        tail = self._path.tail
+        if tail is not None and not (tail.stops or tail.finished or self._stops):
+            if not tail.released and now >= self._release:
+                tail.released = changed = True
+            if now >= self._commit:
+                tail.committed = tail.released = changed = True
+                self._corner_failure(tail)
+        place, _ = self._state()
+        done = self._path.passed(place)
+        if done:
+            self._finish(done, cleared=False)
+            changed = True
+        standing = self.is_standing
+        if standing != self._was_standing:
+            self._was_standing = standing
+            self._report(standing)
+            if standing:
+                self._report_lateness()
+            changed = True
+        if standing and self._settled != self._motion.start:
+            self._settled = self._motion.start
+            changed = True
+        self._schedule()
+        if changed:
+            self.changed.notify()
+
+    def _finish(self, legs: list[Leg], *, cleared: bool) -> None:
+        for leg in legs:
+            leg.finished = not cleared
+            leg.cleared = cleared
+            if not cleared:
+                self._measure_time(leg)
+        if legs and cleared:
+            self.changed.notify()
+
+    def _measure_time(self, leg: Leg) -> None:
+        """Compare the time that a move took with its \\T."""
+        if leg.passed_at is None:
+            leg.passed_at = self._motion.start / S + self._motion.law.time_at(leg.end)
+        began = leg.began if leg.began is not None else self._last_passed
+        self._last_passed = leg.passed_at
+        if leg.move.time is None or began is None:
+            return
+        late = leg.passed_at - began - leg.move.time
+        if late > LATE:
+            self._late += late
+            self._late_moves += 1
+
+    def _report_lateness(self) -> None:
+        if self._late_moves:
+            self._log.warning(
+                TIME_NOT_MET,
+                "Programmed time not met",
+                f"{self.name}: {self._late_moves} moves with \\T took {self._late:.3f} s longer",
+                "the axes' limits, the override or a stop",
+            )
+        self._late, self._late_moves = 0.0, 0
+
+    def _corner_failure(self, leg: Leg) -> None:
+        module, line = leg.move.place
+        where = f"{module}, line {line}" if module else self.name
+        self._log.warning(
+            50_024,
+            "Corner path failure",
+            f"{self.name}: the corner is executed as a stop point ({where})",
+            "the next move was not planned in time",
+        )
+
+    def _report(self, standing: bool) -> None:
+        self._io.report("MechUnitNotMoving", int(standing), self.config.mechanical_unit)

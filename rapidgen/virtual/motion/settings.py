@@ -1,0 +1,44 @@
+"""Assumptions of the motion model that are switches. docs/motion-model.md gives their sources."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class MotionSettings:
+    """How the controller plans and moves where no public source settles it."""
+
+    planning_lead: float = 0.1
+    """s before the last chance to plan a corner at which a fly-by move lets the program go on
+    (S4 overview p.5-25: about 0.1 s)."""
+
+    quick_factor: float = 2.0
+    """Deceleration of a quick or emergency stop, in units of the normal one. Memory."""
+
+    stop_waits: bool = False
+    """StopMove lets the program go on only when the robot stands. False: S4 datasys
+    2-StopMove-1."""
+
+    cleared_move: Literal["return", "hang"] = "return"
+    """What happens to a move instruction that waits for a path that ClearPath removes."""
+
+    range_error: Literal["recoverable", "fatal"] = "recoverable"
+    """A target outside the axis ranges: ERR_ROBLIMIT (RobotWare 6), or event 50027 and stop."""
+
+    zero_length: Literal["skip", "wait"] = "skip"
+    """A move to where the path already ends: no time at all, or its \\T."""
+
+    lever: float = 1.0
+    """m from an axis to the TCP, for speeds and zones in mm of robots without a chain."""
+
+    corner_share: float = 0.8
+    """Part of the axes' acceleration that a corner may use to turn; the rest is for the speed."""
+
+    conc_limit: int = 5
+    """Consecutive \\Conc moves (S4 datasys 2-MoveJ-1)."""
+
+    path_distance: float = 0.01
+    """m off the path beyond which StartMove fails with ERR_PATHDIST (S4 datasys 2-StartMove-1)."""
+
+    settle: float = 0.0
+    """s after the end of motion until a stop point counts as reached. No figure is public."""

@@ -1,0 +1,50 @@
+"""All motion groups of one controller, and which task moves which."""
+
+from collections.abc import Iterable
+
+from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.virtual.io import IOSystem
+from rapidgen.virtual.kernel import Kernel
+from rapidgen.virtual.log import EventLog
+from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.motion.settings import MotionSettings
+
+
+class MotionSystem:
+    """The motion side of a controller: `group(name)`, `of_task(name)`."""
+
+    def __init__(
+        self,
+        kernel: Kernel,
+        robots: Iterable[GroupConfig],
+        log: EventLog,
+        io: IOSystem,
+        settings: MotionSettings | None = None,
+    ) -> None:
+        self.settings = settings if settings is not None else MotionSettings()
+        self.groups: dict[str, MotionGroup] = {
+            config.name: MotionGroup(config, kernel, log, io, self.settings) for config in robots
+        }
+        self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
+
+    def group(self, name: str) -> MotionGroup:
+        """The group of that name. KeyError: there is none."""
+        return self.groups[name]
+
+    def assign(self, task: str, group: str) -> None:
+        """Let a task act on a group (UseMechanicalUnitGroup of a background task)."""
+        self._tasks[task.lower()] = self.groups[group]
+
+    def of_task(self, task: str) -> MotionGroup | None:
+        """The group that a task moves or is connected to.
+
+        A task without a connection of its own gets the only group of a one-robot controller.
+        """
+        found = self._tasks.get(task.lower())
+        if found is None and len(self.groups) == 1:
+            return next(iter(self.groups.values()))
+        return found
+
+    def is_motion_task(self, task: str) -> bool:
+        """Whether a task may execute move instructions."""
+        return any(g.config.task.lower() == task.lower() for g in self.groups.values())

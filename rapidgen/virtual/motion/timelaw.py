@@ -1,0 +1,184 @@
+"""When the robot is where on its path: speed profiles in closed form.
+
+A path has one coordinate, its *nominal time* in s: at speed 1 everything moves as programmed.
+A time law is a chain of phases of constant acceleration of that coordinate, so its state at
+any time, and the time of any place, are formulas and no integration step exists. The limits of
+each span of the path (speed <= 1 and acceleration) already stand for those of all axes.
+"""
+
+from bisect import bisect_left, bisect_right
+from collections.abc import Sequence
+from math import inf, sqrt
+from typing import Protocol
+
+_TOLERANCE = 1e-7
+
+
+class Span(Protocol):
+    """A stretch of path with constant limits; `stop` asks for standstill at its end.
+
+    `tcp` is the TCP's way in m per nominal s (0 where it is not known)."""
+
+    @property
+    def end(self) -> float: ...
+    @property
+    def speed(self) -> float: ...
+    @property
+    def acceleration(self) -> float: ...
+    @property
+    def tcp(self) -> float: ...
+    @property
+    def stop(self) -> bool: ...
+
+
+class TimeLaw:
+    """Phases (start time s, place, speed, acceleration); at rest behind the last one."""
+
+    __slots__ = ("_accelerations", "_places", "_speeds", "_times", "duration", "place")
+
+    def __init__(self, place: float) -> None:
+        self._times: list[float] = []
+        self._places: list[float] = []
+        self._speeds: list[float] = []
+        self._accelerations: list[float] = []
+        self.duration = 0.0
+        """Time at which it stands still, s."""
+        self.place = place
+        """Where it stands still."""
+
+    def add(self, place: float, speed: float, acceleration: float, duration: float) -> None:
+        """Append a phase that starts at `place` and lasts `duration`."""
+        if duration <= 0.0:
+            return
+        self._times.append(self.duration)
+        self._places.append(place)
+        self._speeds.append(speed)
+        self._accelerations.append(acceleration)
+        self.duration += duration
+        self.place = place + (speed + acceleration * duration / 2) * duration
+
+    def then(self, other: "TimeLaw") -> "TimeLaw":
+        """This law to its standstill, then `other`."""
+        chain = TimeLaw(self.place)
+        for law, offset in ((self, 0.0), (other, self.duration)):
+            chain._times += [t + offset for t in law._times]
+            chain._places += law._places
+            chain._speeds += law._speeds
+            chain._accelerations += law._accelerations
+        chain.duration = self.duration + other.duration
+        chain.place = other.place
+        return chain
+
+    def state(self, time: float) -> tuple[float, float]:
+        """Place and speed at a time (the first state for times before 0)."""
+        if time >= self.duration:
+            return self.place, 0.0
+        i = max(0, bisect_right(self._times, time) - 1)
+        t = max(0.0, time - self._times[i])
+        speed, acceleration = self._speeds[i], self._accelerations[i]
+        return (
+            self._places[i] + (speed + acceleration * t / 2) * t,
+            max(0.0, speed + acceleration * t),
+        )
+
+    def time_at(self, place: float) -> float:
+        """When `place` is reached; the end of the law for places that it does not reach."""
+        if not self._places or place >= self.place:
+            return self.duration
+        i = max(0, bisect_left(self._places, place) - 1)
+        way = place - self._places[i]
+        if way <= 0.0:
+            return self._times[i]
+        speed = self._speeds[i]
+        final = sqrt(max(0.0, speed * speed + 2 * self._accelerations[i] * way))
+        return self._times[i] + 2 * way / (speed + final) if speed + final > 0 else self._times[i]
+
+    def last_braking(self) -> float:
+        """When the braking begins that ends at the final standstill."""
+        i = len(self._times)
+        while i and self._accelerations[i - 1] < 0.0:
+            i -= 1
+        return self._times[i] if i < len(self._times) else self.duration
+
+
+def plan(
+    spans: Sequence[Span],
+    place: float,
+    speed: float,
+    cap: float = 1.0,
+    tcp_limit: float = inf,
+) -> TimeLaw | None:
+    """The fastest law from a state to standstill at the end of the last span.
+
+    `spans` begin with the one that contains `place`. `cap` (path speed) and `tcp_limit` (m/s)
+    are ceilings that may be below `speed`: then the law comes down to them. None: from this
+    state the limits of a later span cannot be kept.
+    """
+    bounds = _entry_bounds(spans, place)
+    if speed > bounds[0]:
+        if speed > bounds[0] * (1 + _TOLERANCE) + _TOLERANCE:
+            return None
+        speed = bounds[0]
+    law = TimeLaw(place)
+    for i, span in enumerate(spans):
+        way = span.end - place
+        if way <= 0.0:
+            continue
+        a = span.acceleration
+        ceiling = min(span.speed, cap)
+        if span.tcp * ceiling > tcp_limit:
+            ceiling = tcp_limit / span.tcp
+        bound = 0.0 if span.stop else bounds[i + 1]
+        if speed > ceiling:
+            down = (speed * speed - ceiling * ceiling) / (2 * a)
+            if down >= way:
+                final = sqrt(max(0.0, speed * speed - 2 * a * way))
+                law.add(place, speed, -a, (speed - final) / a)
+                place, speed = span.end, final
+                continue
+            law.add(place, speed, -a, (speed - ceiling) / a)
+            place, speed, way = place + down, ceiling, way - down
+        final = min(bound, ceiling, sqrt(speed * speed + 2 * a * way))
+        peak = min(ceiling, sqrt((speed * speed + final * final) / 2 + a * way))
+        peak = max(peak, speed, final)
+        rise = (peak * peak - speed * speed) / (2 * a)
+        fall = (peak * peak - final * final) / (2 * a)
+        law.add(place, speed, a, (peak - speed) / a)
+        if way - rise - fall > 0.0 and peak > 0.0:
+            law.add(place + rise, peak, 0.0, (way - rise - fall) / peak)
+        law.add(span.end - fall, peak, -a, (peak - final) / a)
+        place, speed = span.end, final
+    law.place = place
+    return law
+
+
+def brake(spans: Sequence[Span], place: float, speed: float, factor: float = 1.0) -> TimeLaw:
+    """Down to standstill on the path, with `factor` times the spans' accelerations."""
+    law = TimeLaw(place)
+    for span in spans:
+        way = span.end - place
+        if way <= 0.0:
+            continue
+        a = span.acceleration * factor
+        if speed * speed <= 2 * a * way:
+            law.add(place, speed, -a, speed / a)
+            return law
+        final = sqrt(speed * speed - 2 * a * way)
+        law.add(place, speed, -a, (speed - final) / a)
+        place, speed = span.end, final
+        if span.stop:
+            break
+    law.place = place
+    return law
+
+
+def _entry_bounds(spans: Sequence[Span], place: float) -> list[float]:
+    """Largest speed at the start of each span (the first: at `place`) that can be kept."""
+    bounds = [0.0] * (len(spans) + 1)
+    for i in range(len(spans) - 1, -1, -1):
+        span = spans[i]
+        start = spans[i - 1].end if i else place
+        way = max(0.0, span.end - max(start, place))
+        final = 0.0 if span.stop else min(bounds[i + 1], span.speed)
+        bounds[i] = min(span.speed, sqrt(final * final + 2 * span.acceleration * way))
+    return bounds
