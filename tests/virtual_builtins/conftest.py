@@ -39,7 +39,7 @@ class Bench:
     def __init__(self, system: System | None = None, *, clock: Any = "virtual", **parts: Any):
         self.kernel = Kernel(clock=clock, seed=1)
         log = EventLog(self.kernel)
-        network = parts.pop("network", None) or MemoryNetwork(self.kernel)
+        network = parts.pop("network", MemoryNetwork)(self.kernel)
         self.controller = SimpleNamespace(
             kernel=self.kernel,
             log=log,
@@ -47,7 +47,7 @@ class Bench:
             sockets=SocketTable(network),
             io=IOSystem(self.kernel, log, system or System("test", ())),
             dialect=Dialect(),
-            operator=parts.pop("operator", None) or Operator(self.kernel),
+            operator=Operator(self.kernel, parts.pop("answers", None)),
             files=parts.pop("files", None) or FileSystem(),
         )
 

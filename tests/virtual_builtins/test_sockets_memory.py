@@ -302,9 +302,7 @@ def test_datagrams(bench):
         bench.call(task, "SocketCreate", two, UDP=True)
         bench.call(task, "SocketSendTo", two, "127.0.0.1", PORT, Str="hello")
         answer = bench.box("")
-        bench.call(
-            task, "SocketReceiveFrom", two, bench.box(""), bench.box(0), Str=answer, Time=5
-        )
+        bench.call(task, "SocketReceiveFrom", two, bench.box(""), bench.box(0), Str=answer, Time=5)
         return answer.get()
 
     assert bench.run(receiver, sender) == ["hello", "back"]
