@@ -1,0 +1,104 @@
+"""`rapidgen build`: a configuration becomes a folder of RAPID modules and controller files."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from rapidgen.diagnostics import Diagnostic
+    from rapidgen.generate import Change, Output
+
+
+def build(
+    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", help="Output folder; default rapid_out/NAME.", metavar="DIR"),
+    ] = None,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
+    ] = None,
+    package_path: Annotated[
+        list[Path] | None,
+        typer.Option(help="Folder with ROS packages, for $(find ...) in a xacro.", metavar="DIR"),
+    ] = None,
+    check: Annotated[
+        bool, typer.Option("--check", help="Write nothing; exit 1 if the folder differs.")
+    ] = False,
+    diff: Annotated[
+        bool, typer.Option("--diff", help="Write nothing; show what would change.")
+    ] = False,
+    list_files: Annotated[
+        bool, typer.Option("--list", help="Write nothing; list the files.")
+    ] = False,
+) -> int:
+    """Generate the driver for one controller.
+
+    The folder is replaced as a whole, or left as it was when something is wrong.
+    """
+    from rapidgen.config import load_config
+    from rapidgen.generate import build as generate
+    from rapidgen.generate import compare, write
+
+    model = load_config(config, overrides=overrides or (), package_paths=package_path or ())
+    _tell(model.diagnostics)
+    output = generate(model)
+    folder = out if out is not None else Path("rapid_out") / model.name
+    if list_files:
+        for file in output.files:
+            typer.echo(file.path)
+        return 0
+    if diff or check:
+        changes = compare(output, folder)
+        if diff:
+            typer.echo(_diff(changes), nl=False)
+        if check and changes:
+            _differs(folder, changes)
+        return 1 if changes else 0
+    write(output, folder)
+    typer.echo(_summary(output, folder), err=True)
+    return 0
+
+
+def _tell(diagnostics: "tuple[Diagnostic, ...]") -> None:
+    from rapidgen.cli.app import use_colour
+    from rapidgen.diagnostics import render
+
+    typer.echo(render(diagnostics, colour=use_colour()), err=True, nl=False)
+
+
+def _summary(output: "Output", folder: Path) -> str:
+    return f"{folder}: {len(output.files)} files, build {output.build_id}"
+
+
+def _differs(folder: Path, changes: "list[Change]") -> None:
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    paths = ", ".join(change.path for change in changes[:5])
+    more = f" and {len(changes) - 5} more" if len(changes) > 5 else ""
+    raise DiagnosticError(
+        Diagnostic(
+            "RG104",
+            Severity.ERROR,
+            f"{folder} is not what the configuration gives: {paths}{more}",
+            help="look with --diff, then build",
+        ),
+        exit_code=1,
+    )
+
+
+def _diff(changes: "list[Change]") -> str:
+    from difflib import unified_diff
+
+    out: list[str] = []
+    for change in changes:
+        old, new = (
+            (data or b"").decode("latin-1").splitlines(keepends=True)
+            for data in (change.old, change.new)
+        )
+        before = f"a/{change.path}" if change.old is not None else "/dev/null"
+        after = f"b/{change.path}" if change.new is not None else "/dev/null"
+        out += unified_diff(old, new, before, after)
+    return "".join(line if line.endswith("\n") else line + "\n" for line in out)

@@ -1,0 +1,106 @@
+"""A configuration becomes files. Everything is made in memory; nothing here touches the disk."""
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+from rapidgen import __version__
+from rapidgen._data import data_folder
+from rapidgen.config import to_manifest
+from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.generate import layout
+from rapidgen.generate.context import group_context
+from rapidgen.generate.lint import lint
+from rapidgen.generate.numbers import literal
+from rapidgen.generate.output import Output, OutputFile, manifest_file
+from rapidgen.generate.readme import readme_context
+from rapidgen.generate.render import Renderer
+from rapidgen.system import eio_cfg, sys_cfg, write_cfg
+
+
+def build(config: RobotConfig) -> Output:
+    """All files for one controller.
+
+    Raises DiagnosticError RG101 when a name or text of the configuration is too long for RAPID.
+    """
+    templates = data_folder("templates")
+    build_id = make_build_id(config, templates)
+    renderer = Renderer(templates)
+    renderer.add_filter("num", literal)
+    system = layout.make_system(config, build_id)
+    files = [
+        *(f for group in config.groups for f in _modules(config, group, build_id, renderer)),
+        _cfg("SYS.cfg", write_cfg(sys_cfg(system))),
+        _cfg("EIO.cfg", write_cfg(eio_cfg(system))),
+    ]
+    readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
+    files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
+    files.append(manifest_file(files, _head(config, build_id)))
+    return Output(config.name, build_id, tuple(files))
+
+
+def make_build_id(config: RobotConfig, templates: Path) -> str:
+    """12 hexadecimal digits over everything that the output depends on."""
+    digest = hashlib.sha256()
+    parts: list[bytes] = [
+        __version__.encode(),
+        json.dumps(to_manifest(config), sort_keys=True).encode(),
+    ]
+    for path in sorted(templates.glob("*.j2")):
+        parts += [path.name.encode(), path.read_bytes()]
+    for name, data in config.inputs:
+        parts += [Path(name).name.encode(), data]
+    for part in parts:
+        digest.update(len(part).to_bytes(8, "big") + part)
+    return digest.hexdigest()[:12]
+
+
+def _modules(
+    config: RobotConfig, group: MotionGroup, build_id: str, renderer: Renderer
+) -> list[OutputFile]:
+    context = group_context(config, group, build_id, data_folder("templates"))
+    files = []
+    faults = []
+    for module in layout.MODULES:
+        kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
+        rendered = renderer.render(f"{module}.{kind}.j2", **context)
+        path = f"HOME/{layout.module_file(config, group, module)}"
+        faults += lint(path, rendered.text)
+        tasks = tuple(
+            layout.task_name(config, group, role) for role in layout.ROLES if module in role.modules
+        )
+        # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
+        data = rendered.text.encode("latin-1", errors="replace")
+        files.append(OutputFile(path, data, "module", tasks, rendered.lines))
+    if faults:
+        raise DiagnosticError(faults)
+    return files
+
+
+def _cfg(path: str, text: str) -> OutputFile:
+    return OutputFile(path, text.replace("\n", "\r\n").encode("latin-1"), "cfg")
+
+
+def _head(config: RobotConfig, build_id: str) -> dict[str, Any]:
+    return {
+        "format": 1,
+        "rapidgen": __version__,
+        "name": config.name,
+        "build_id": build_id,
+        "robotware": list(config.robotware),
+        "groups": {
+            group.name: {
+                "task": group.task,
+                "ports": {
+                    "motion": group.ports.motion,
+                    "control": group.ports.control,
+                    "state": group.ports.state,
+                },
+                "joints": [joint.name for joint in group.joints],
+            }
+            for group in config.groups
+        },
+        "configuration": to_manifest(config),
+    }

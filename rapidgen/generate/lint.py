@@ -1,0 +1,49 @@
+"""Limits of RAPID text that a configuration could push generated text over [K §2.1, 2.3, 2.13]."""
+
+import re
+
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+
+MAX_NAME = 32
+MAX_STRING = 80
+MAX_LINE = 160
+_TOKEN = re.compile(r'"((?:[^"\\]|""|\\\\|\\[0-9A-Fa-f]{2})*)"|![^\n]*|([A-Za-z]\w*)')
+_ESCAPE = re.compile(r'""|\\\\|\\[0-9A-Fa-f]{2}')
+
+
+def lint(path: str, text: str) -> list[Diagnostic]:
+    """Faults of one rendered module: all RG101."""
+    found = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if len(line) > MAX_LINE:
+            found.append(_fault(path, number, 1, f"the line has {len(line)} characters"))
+        odd = next(
+            (i for i, c in enumerate(line) if ord(c) > 255 or (ord(c) < 32 and c != "\t")), None
+        )
+        if odd is not None:
+            found.append(_fault(path, number, odd + 1, f"{line[odd]!r} is not in Latin-1 text"))
+        for token in _TOKEN.finditer(line):
+            if token[2] and len(token[2]) > MAX_NAME:
+                label = f"the name '{token[2]}' has {len(token[2])} characters"
+                found.append(_fault(path, number, token.start() + 1, label))
+            elif token[1] is not None:
+                size = len(_ESCAPE.sub("x", token[1]))
+                if size > MAX_STRING:
+                    label = f"the string has {size} characters"
+                    found.append(_fault(path, number, token.start() + 1, label))
+    return found
+
+
+def _fault(path: str, line: int, column: int, label: str) -> Diagnostic:
+    return Diagnostic(
+        "RG101",
+        Severity.ERROR,
+        "the configuration does not fit into RAPID text",
+        Span(path, line, column),
+        label,
+        help="use shorter names of Latin-1 letters in the configuration",
+        notes=(
+            f"names have at most {MAX_NAME} characters, strings {MAX_STRING}, "
+            f"lines here {MAX_LINE}",
+        ),
+    )

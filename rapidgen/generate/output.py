@@ -1,0 +1,156 @@
+"""The generated folder: build it in memory, compare it with one on disk, put it there whole."""
+
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+MANIFEST = "manifest.json"
+MAX_COMPARED = 16 * 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class OutputFile:
+    """One file; `path` is relative with `/`. `tasks` are those that load it."""
+
+    path: str
+    data: bytes
+    kind: str
+    tasks: tuple[str, ...] = ()
+    lines: tuple[tuple[int, str, int], ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """Everything that one build writes, in the order of writing; the manifest is last."""
+
+    name: str
+    build_id: str
+    files: tuple[OutputFile, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A file that differs: `old` is None when it is new, `new` None when it is to go."""
+
+    path: str
+    old: bytes | None
+    new: bytes | None
+
+
+def manifest_file(files: list[OutputFile], head: dict[str, Any]) -> OutputFile:
+    """manifest.json over `files`; `head` has what comes before the list of files."""
+    manifest = {
+        **head,
+        "files": [
+            {
+                "path": f.path,
+                "sha256": hashlib.sha256(f.data).hexdigest(),
+                "size": len(f.data),
+                "task": list(f.tasks),
+                "kind": f.kind,
+            }
+            for f in files
+        ],
+        "lines": {f.path: [list(entry) for entry in f.lines] for f in files if f.lines},
+    }
+    rows = []
+    for key, value in manifest.items():
+        if key in ("files", "lines", "groups"):
+            rows.append(f'  "{key}": {_rows(value)}')
+        else:
+            rows.append(f'  "{key}": {json.dumps(value, ensure_ascii=True)}')
+    text = "{\n" + ",\n".join(rows) + "\n}\n"
+    return OutputFile(MANIFEST, text.encode("ascii"), "manifest")
+
+
+def _rows(value: Any) -> str:  # noqa: ANN401
+    """A list or an object with one member a line: it reads and compares well."""
+    if isinstance(value, dict):
+        rows = [
+            f"    {json.dumps(k)}: {json.dumps(v, ensure_ascii=True)}" for k, v in value.items()
+        ]
+        return "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
+    rows = [f"    {json.dumps(v, ensure_ascii=True)}" for v in value]
+    return "[\n" + ",\n".join(rows) + "\n  ]" if rows else "[]"
+
+
+def compare(output: Output, folder: Path) -> list[Change]:
+    """What `write` would change in `folder`, which need not exist."""
+    new = {f.path: f.data for f in output.files}
+    old = _read(folder)
+    return [
+        Change(path, old.get(path), new.get(path))
+        for path in sorted(new.keys() | old.keys())
+        if old.get(path) != new.get(path)
+    ]
+
+
+def write(output: Output, folder: Path) -> None:
+    """Replace `folder` by the output: whole, or not at all.
+
+    Raises DiagnosticError: RG102 (the folder holds other things), RG103 (it cannot be written).
+    """
+    if folder.exists() and not _is_ours(folder):
+        raise DiagnosticError(
+            Diagnostic(
+                "RG102",
+                Severity.ERROR,
+                f"{folder} was not made by rapidgen and is not empty",
+                help="name another folder with -o, or remove this one yourself",
+            )
+        )
+    try:
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        # A sibling, so that it lies on the same file system and can be renamed into place.
+        scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
+    except OSError as error:
+        raise _unwritable(folder, error) from error
+    try:
+        fresh = scratch / "new"
+        for file in output.files:
+            path = fresh / file.path
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_bytes(file.data)
+        if folder.exists():
+            os.rename(folder, scratch / "old")
+        os.rename(fresh, folder)
+    except OSError as error:
+        if not folder.exists() and (scratch / "old").exists():
+            os.rename(scratch / "old", folder)
+        raise _unwritable(folder, error) from error
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _is_ours(folder: Path) -> bool:
+    if not folder.is_dir() or folder.is_symlink():
+        return False
+    return (folder / MANIFEST).is_file() or not any(folder.iterdir())
+
+
+def _read(folder: Path) -> dict[str, bytes]:
+    found = {}
+    if folder.is_dir() and _is_ours(folder):
+        for path in sorted(folder.rglob("*")):
+            if path.is_file() and path.stat().st_size <= MAX_COMPARED:
+                found[path.relative_to(folder).as_posix()] = path.read_bytes()
+    return found
+
+
+def _unwritable(folder: Path, error: OSError) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            "RG103",
+            Severity.ERROR,
+            f"cannot write {folder}: {error.strerror}",
+            help="what was there before is untouched",
+        ),
+        exit_code=1,
+    )

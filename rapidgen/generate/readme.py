@@ -1,0 +1,84 @@
+"""What the README of a generated folder tells: tables of tasks, ports, joints and signals."""
+
+from rapidgen import __version__
+from rapidgen.config.model import RobotConfig
+from rapidgen.generate import layout
+from rapidgen.generate.context import to_rapid
+from rapidgen.generate.numbers import inward, literal
+from rapidgen.system import System
+
+_TRUST = {"SysFail": "SysFail", "SysStop": "SysStop", "NoSafety": "None (no safety)"}
+
+
+def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[str, object]:
+    """What README.md.j2 is rendered from."""
+    major, minor = config.robotware
+    return {
+        "name": config.name,
+        "version": __version__,
+        "build": build_id,
+        "robotware": f"{major}.{minor:02d}",
+        "major": major,
+        "omnicore": major >= 7,
+        "multi": len(config.groups) > 1,
+        "commissioning": config.commissioning,
+        "call_main": config.call_main,
+        "bind": config.bind,
+        "allowed": config.allowed_clients,
+        "capacity": config.trajectory.capacity,
+        "period_ms": literal(config.state_period * 1000),
+        "rate": literal(round(1 / config.state_period, 2)),
+        "policy": config.trajectory.too_fast,
+        "min_segment": literal(config.trajectory.min_segment),
+        "zone": config.trajectory.zone,
+        "tasks": [
+            {
+                "name": task.name,
+                "type": task.type,
+                "trust": _TRUST[task.trust],
+                "group": task.mechanical_unit_group,
+                "modules": ", ".join(m.name for m in task.modules),
+                "motion": task.motion,
+            }
+            for task in system.tasks
+        ],
+        "signals": [
+            {"name": o.signal, "status": o.status, "argument": o.argument} for o in system.outputs
+        ],
+        "events": [{"event": e.event, "routine": e.routine, "task": e.task} for e in system.events],
+        "groups": [_group(config, n) for n in range(len(config.groups))],
+        "folders": sorted(
+            {m.target.rpartition("/")[0] for task in system.tasks for m in task.modules}
+        ),
+    }
+
+
+def _group(config: RobotConfig, n: int) -> dict[str, object]:
+    group = config.groups[n]
+    return {
+        "name": group.name,
+        "model": group.model,
+        "task": group.task,
+        "unit": group.mechanical_unit,
+        "ports": group.ports,
+        "coupling": literal(group.coupling),
+        "coupled": group.coupling != 0,
+        "tool": group.tool.name,
+        "light_tool": group.tool.load.mass <= 0.001,
+        "x": layout.suffix(config, group),
+        "joints": [
+            {
+                "name": joint.name,
+                "axis": joint.axis,
+                "unit": "deg" if joint.kind == "revolute" else "mm",
+                "low": literal(inward(to_rapid(joint, joint.lower), up=True)),
+                "high": literal(inward(to_rapid(joint, joint.upper), up=False)),
+                "speed": literal(round(to_rapid(joint, joint.speed), 4)),
+                "sign": joint.sign,
+                "offset": literal(round(to_rapid(joint, joint.offset), 6)),
+                "source": joint.source,
+                "unsure": joint.unsure,
+            }
+            for joint in group.joints
+        ],
+    }

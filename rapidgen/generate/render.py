@@ -1,0 +1,91 @@
+"""Templates to text, with a map from each line of the text to the line of its template.
+
+The map is made of marks in Unicode's private use area, put at the start of every template line
+that can produce text and stripped after rendering; so the output does not depend on them.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import jinja2
+
+_OPEN, _CLOSE = "\ue000", "\ue001"
+_MARK = re.compile(f"{_OPEN}([^{_OPEN}{_CLOSE}:]*):(\\d+){_CLOSE}")
+_TAG = re.compile(r"\{%.*?%\}|\{#.*?#\}|\{\{.*?\}\}", re.S)
+
+
+@dataclass(frozen=True, slots=True)
+class Rendered:
+    """Text with LF line ends; `lines` has (line, template, template line) where it changes."""
+
+    text: str
+    lines: tuple[tuple[int, str, int], ...]
+
+
+class Renderer:
+    """Renders the templates of one folder. An undefined name is an error, never an empty text."""
+
+    def __init__(self, folder: Path) -> None:
+        self._environment = jinja2.Environment(
+            loader=_Loader(folder, encoding="utf-8"),
+            undefined=jinja2.StrictUndefined,
+            trim_blocks=True,
+            lstrip_blocks=True,
+            keep_trailing_newline=True,
+            autoescape=False,
+        )
+
+    def add_filter(self, name: str, function: Any) -> None:  # noqa: ANN401
+        """Make `function` known to templates."""
+        self._environment.filters[name] = function
+
+    def render(self, template: str, **context: object) -> Rendered:
+        """One template as text."""
+        return unmarked(self._environment.get_template(template).render(**context))
+
+
+class _Loader(jinja2.FileSystemLoader):
+    def get_source(self, environment: jinja2.Environment, template: str) -> tuple[str, str, Any]:
+        source, name, uptodate = super().get_source(environment, template)
+        return marked(source, template), name, uptodate
+
+
+def marked(source: str, template: str) -> str:
+    """Template text with a mark at the start of each line outside tags.
+
+    A line that holds only a block or a comment gets none: it would keep Jinja from trimming it.
+    """
+    inside: set[int] = set()
+    for tag in _TAG.finditer(source):
+        first = source.count("\n", 0, tag.start())
+        last = source.count("\n", 0, tag.end())
+        inside.update(range(first + 1, last + 1))
+    out = []
+    for number, line in enumerate(source.splitlines(keepends=True)):
+        bare = line.strip()
+        if number in inside or bare.startswith(("{%", "{#")):
+            out.append(line)
+        else:
+            out.append(f"{_OPEN}{template}:{number + 1}{_CLOSE}{line}")
+    return "".join(out)
+
+
+def unmarked(text: str) -> Rendered:
+    """The text without marks, and the map that they gave."""
+    lines: list[tuple[int, str, int]] = []
+    place: tuple[str, int] | None = None
+    out = []
+    for number, line in enumerate(text.splitlines(keepends=True), 1):
+        marks = _MARK.findall(line)
+        if marks:
+            found = (marks[-1][0], int(marks[-1][1]))
+            # A run of lines that follow their template one by one needs one entry only.
+            if place is None or found != place:
+                lines.append((number, *found))
+            place = found
+        if place is not None:
+            place = (place[0], place[1] + 1)
+        out.append(_MARK.sub("", line))
+    return Rendered("".join(out), tuple(lines))
