@@ -42,7 +42,7 @@ def load_config(
     path = find_shipped(own_model) if own_model else Path(text)
     inputs: Inputs = []
     found: list[Diagnostic] = []
-    user = _read(path, path.name if own_model else text, inputs, found)
+    user = _read(path, shown_path(path), inputs, found)
     over, over_inputs = override_tree(overrides)
     base_name = _text(over, "model") or _text(user, "model")
     root = Mapping({}, user.span)
@@ -73,6 +73,14 @@ def load_config(
     from dataclasses import replace
 
     return replace(config, inputs=tuple(inputs), diagnostics=tuple(in_order(report.found)))
+
+
+def shown_path(path: Path) -> str:
+    """The path as messages show it: relative to the working folder where it lies inside."""
+    try:
+        return str(path.absolute().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
 
 
 def find_shipped_folder() -> Path:
@@ -114,7 +122,7 @@ def _text(root: Mapping, key: str) -> str:
 
 def _shipped(name: str, inputs: Inputs, found: list[Diagnostic], span: Span | None = None) -> Layer:
     path = find_shipped(name, span)
-    tree = _read(path, str(path), inputs, found)
+    tree = _read(path, shown_path(path), inputs, found)
     made = canonical(tree, ())
     found += made.found
     return made
