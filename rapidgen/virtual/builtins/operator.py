@@ -216,9 +216,17 @@ def _a_text(value: str) -> str:
 @builtin("TPReadNum", cost="string")
 def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
     """Ask for a number."""
-    operator = _operator(task)
-    operator.write(task.name, text)
+    _operator(task).write(task.name, text)
     value = _ask(task, "TPReadNum", text, {}, _a_number(), tail)
+    if value is not None:
+        answer.set(value)
+
+
+@builtin("TPReadDnum", cost="string")
+def tp_read_dnum(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
+    """Ask for a number, exactly."""
+    _operator(task).write(task.name, text)
+    value = _ask(task, "TPReadDnum", text, {}, _a_number(), tail)
     if value is not None:
         answer.set(value)
 
@@ -306,33 +314,70 @@ def ui_message_box(
     return 0 if default is None else default
 
 
-@builtin("UINumEntry", cost="string")
-def ui_num_entry(
+def _number_entry(name: str) -> None:
+    @builtin(name, cost="string")
+    def enter(
+        task: Task,
+        header: str | None,
+        message: str | None,
+        lines: Mapping[int, str] | None,
+        _wrap: bool | None,
+        _icon: float | None,
+        initial: float | None,
+        low: float | None,
+        high: float | None,
+        integer: bool | None,
+        *tail: Any,  # noqa: ANN401
+    ) -> float:
+        if initial is not None and integer and initial != int(initial):
+            raise RapidError("ERR_UI_NOTINT")
+        text = _lines(header, message, lines)
+        return _entered(task, name, text, initial, low, high, bool(integer), tail)
+
+
+_number_entry("UINumEntry")
+_number_entry("UIDnumEntry")
+
+
+def _entered(
+    task: Task,
+    dialog: str,
+    text: str,
+    initial: float | None,
+    low: float | None,
+    high: float | None,
+    integer: bool,
+    tail: tuple[Any, ...],
+) -> float:
+    if low is not None and high is not None and low > high:
+        raise RapidError("ERR_UI_MAXMIN")
+    too_low = initial is not None and low is not None and initial < low
+    if too_low or (initial is not None and high is not None and initial > high):
+        raise RapidError("ERR_UI_INITVALUE")
+    value = _ask(task, dialog, text, {}, _a_number(low, high, integer=integer), tail)
+    if isinstance(value, float | int):
+        return value
+    return 0 if initial is None else initial
+
+
+@builtin("UINumTune", cost="string")
+def ui_num_tune(
     task: Task,
     header: str | None,
     message: str | None,
     lines: Mapping[int, str] | None,
     _wrap: bool | None,
     _icon: float | None,
-    initial: float | None,
+    initial: float,
+    _step: float,
     low: float | None,
     high: float | None,
-    integer: bool | None,
     *tail: Any,  # noqa: ANN401
 ) -> float:
-    """Ask for a number within limits."""
-    if low is not None and high is not None and low > high:
-        raise RapidError("ERR_UI_MAXMIN")
-    if initial is not None:
-        if (low is not None and initial < low) or (high is not None and initial > high):
-            raise RapidError("ERR_UI_INITVALUE")
-        if integer and initial != int(initial):
-            raise RapidError("ERR_UI_NOTINT")
-    check = _a_number(low, high, integer=bool(integer))
-    value = _ask(task, "UINumEntry", _lines(header, message, lines), {}, check, tail)
-    if isinstance(value, float | int):
-        return value
-    return 0 if initial is None else initial
+    """Ask for a number that is tuned from an initial one."""
+    return _entered(
+        task, "UINumTune", _lines(header, message, lines), initial, low, high, False, tail
+    )
 
 
 @builtin("UIAlphaEntry", cost="string")

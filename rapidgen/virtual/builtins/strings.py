@@ -104,6 +104,15 @@ def val_to_str(_task: Task, value: Ref) -> str:
     return limited(value_text(value.get(), value.type))
 
 
+@builtin("StrFormat", cost="string", pure=True)
+def str_format(_task: Task, text: str, *arguments: str | None) -> str:
+    """`{1}` to `{5}` replaced by the arguments."""
+    for i, argument in enumerate(arguments, 1):
+        if argument is not None:
+            text = text.replace(f"{{{i}}}", argument)
+    return limited(text)
+
+
 def _decimals(decimals: float) -> int:
     places = whole(decimals, "ERR_ARGVALERR")
     if not 0 <= places <= 15:

@@ -1,0 +1,158 @@
+"""What the controller tells about itself, and its text tables.
+
+Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the form of its texts is
+remembered only [mem].
+"""
+
+import re
+
+from rapidgen.system.model import System
+from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.files import FileSystem
+from rapidgen.virtual.rawbytes import whole
+from rapidgen.virtual.registry import builtin
+from rapidgen.virtual.task import Task
+from rapidgen.virtual.text import limited
+
+_SERIAL = "00-00000"
+_TABLE_NAME = re.compile(r"(\S.{0,79})::")
+_INDEX = re.compile(r"(\d+):")
+
+
+@builtin("GetSysInfo", cost="string")
+def get_sys_info(
+    task: Task,
+    serial: bool | None,
+    version: bool | None,
+    version_name: bool | None,
+    robot_type: bool | None,
+    controller_id: bool | None,
+    lan_ip: bool | None,
+    language: bool | None,
+    system_name: bool | None,
+) -> str:
+    """One fact about the controller."""
+    system: System = task.controller.system
+    major, minor = system.robotware
+    if serial:
+        return _SERIAL
+    if version:
+        return f"{major}.{minor:02d}.00.00"
+    if version_name:
+        return f"{major}.{minor:02d}"
+    if robot_type:
+        return limited(str(task.controller.robot_type))
+    if controller_id or system_name:
+        return limited(system.name)
+    if lan_ip:
+        return str(task.controller.network.address)
+    if language:
+        return "en"
+    raise FatalError(40_662, "GetSysInfo needs a part", "such as \\LanIp")
+
+
+@builtin("IsSysId", cost="string")
+def is_sys_id(_task: Task, identity: str) -> bool:
+    """Whether this is the controller's serial number."""
+    return identity == _SERIAL
+
+
+@builtin("GetServiceInfo", cost="string")
+def get_service_info(task: Task, _unit: object, _duty_time: bool | None) -> str:
+    """Hours that the mechanical unit has been in use."""
+    return str(task.kernel.now // 3_600_000_000_000)
+
+
+@builtin("RobOS")
+def rob_os(_task: Task) -> bool:
+    """Whether this is a real controller: it is a virtual one."""
+    return False
+
+
+# -- text tables ----------------------------------------------------------------------------
+
+
+class TextTables:
+    """Installed text tables: names, numbers from 1, texts by index."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[str, int] = {}
+        self._texts: list[dict[int, str]] = []
+
+    def number(self, name: str) -> int | None:
+        """A table's number."""
+        return self._numbers.get(name)
+
+    def text(self, number: int, index: int) -> str | None:
+        """A text."""
+        if not 1 <= number <= len(self._texts):
+            return None
+        return self._texts[number - 1].get(index)
+
+    def install(self, text: str) -> None:
+        """Read a file of tables [K §15]; a table that exists is extended.
+
+        ValueError: a line that is none of those.
+        """
+        table: dict[int, str] | None = None
+        index: int | None = None
+        for number, line in enumerate(text.splitlines(), 1):
+            if index is not None and table is not None:
+                table[index] = line.replace("\\n", "\n")
+                index = None
+            elif not line.strip() or line.startswith("#"):
+                continue
+            elif match := _TABLE_NAME.fullmatch(line.strip()):
+                table = self._table(match[1])
+            elif (match := _INDEX.fullmatch(line.strip())) and table is not None:
+                index = int(match[1])
+            else:
+                raise ValueError(f"line {number}")
+
+    def _table(self, name: str) -> dict[int, str]:
+        number = self._numbers.setdefault(name, len(self._texts) + 1)
+        if number > len(self._texts):
+            self._texts.append({})
+        return self._texts[number - 1]
+
+
+def _tables(task: Task) -> TextTables:
+    tables: TextTables = task.controller.texts
+    return tables
+
+
+@builtin("TextTabInstall", cost="socket")
+def text_tab_install(task: Task, file: str) -> None:
+    """Install the tables of a file."""
+    files: FileSystem = task.controller.files
+    try:
+        _tables(task).install(files.path(file).read_text(encoding="latin-1"))
+    except OSError as error:
+        raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
+    except ValueError as error:
+        raise FatalError(40_663, "Text table not installed", file, str(error)) from error
+
+
+@builtin("TextTabFreeToUse", cost="string")
+def text_tab_free_to_use(task: Task, name: str) -> bool:
+    """Whether a table's name is not taken yet."""
+    return _tables(task).number(name) is None
+
+
+@builtin("TextTabGet", cost="string")
+def text_tab_get(task: Task, name: str) -> int:
+    """A table's number; ERR_TXTNOEXIST when there is none."""
+    number = _tables(task).number(name)
+    if number is None:
+        raise RapidError("ERR_TXTNOEXIST", f"no text table '{name}'")
+    return number
+
+
+@builtin("TextGet", cost="string")
+def text_get(task: Task, table: float, index: float) -> str:
+    """A text of a table; ERR_TXTNOEXIST when there is none."""
+    wanted = whole(index, "ERR_ARGVALERR")
+    text = _tables(task).text(whole(table, "ERR_ARGVALERR"), wanted)
+    if text is None:
+        raise RapidError("ERR_TXTNOEXIST", f"no text {wanted} in table {table:g}")
+    return limited(text)
