@@ -1,0 +1,106 @@
+"""Passwords: from a file with tight permissions, the environment, or a prompt; never shown."""
+
+import getpass
+import os
+import stat
+import sys
+import tomllib
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+ENVIRONMENT = "RAPIDGEN_PASSWORD"
+DEFAULTS = frozenset(
+    {("Default User", "robotics"), ("Admin", "robotics"), ("anonymous", "anonymous@")}
+)
+"""Logins that ABB's controllers are delivered with, and the one without a password."""
+
+
+class Secret:
+    """A text that no representation, log or pickle shows."""
+
+    __slots__ = ("_text",)
+
+    def __init__(self, text: str) -> None:
+        self._text = text
+
+    def get(self) -> str:
+        """The text itself, for the one call that needs it."""
+        return self._text
+
+    def __repr__(self) -> str:
+        return "Secret(***)"
+
+    def __reduce__(self) -> str:
+        raise TypeError("a Secret is not pickled")
+
+
+@dataclass(frozen=True, slots=True)
+class Credentials:
+    """Who logs in, and how. `identity` and `known_hosts` are files for SFTP."""
+
+    user: str
+    password: Secret = field(default_factory=lambda: Secret(""))
+    identity: str = ""
+    known_hosts: str = ""
+
+    @property
+    def is_default(self) -> bool:
+        """Whether everybody who knows ABB's controllers knows this login."""
+        return (self.user, self.password.get()) in DEFAULTS
+
+
+def redact(text: str, login: Credentials) -> str:
+    """A server's words without the password that it may echo."""
+    password = login.password.get()
+    return text.replace(password, "***") if password else text
+
+
+def find_password(
+    login: Credentials, host: str, port: int, *, secrets: Path | None, ask: bool
+) -> Credentials:
+    """`login` with user and password completed: file, then environment, then prompt.
+
+    The file is TOML: a table for each host, `host:port`, or `default`, with `user` and
+    `password`. Without a terminal nothing is asked: the password stays empty.
+    Raises DiagnosticError RG511 (file readable by others, or not understood).
+    """
+    if secrets is not None:
+        entry = _entry(secrets, host, port)
+        login = replace(login, user=login.user or entry.get("user", ""))
+        if "password" in entry:
+            return replace(login, password=Secret(entry["password"]))
+    from_environment = os.environ.get(ENVIRONMENT)
+    if from_environment is not None:
+        return replace(login, password=Secret(from_environment))
+    if ask and sys.stdin.isatty():
+        prompt = f"password of {login.user or 'the default user'} at {host}: "
+        return replace(login, password=Secret(getpass.getpass(prompt)))
+    return login
+
+
+def _entry(path: Path, host: str, port: int) -> dict[str, str]:
+    try:
+        with path.open("rb") as file:
+            status = os.fstat(file.fileno())
+            if status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
+                raise _refused(path, "others on this machine can read it", f"chmod 600 {path}")
+            data = tomllib.load(file)
+    except OSError as error:
+        raise _refused(path, error.strerror or str(error), "name a file that exists") from error
+    except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError: without the line's text
+        raise _refused(
+            path, "it is not TOML", '["192.168.125.1"]\nuser = "..."\npassword = "..."'
+        ) from error
+    for name in (f"{host}:{port}", host, "default"):
+        entry = data.get(name)
+        if isinstance(entry, dict):
+            return {k: v for k, v in entry.items() if isinstance(v, str)}
+    return {}
+
+
+def _refused(path: Path, reason: str, help: str) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic("RG511", Severity.ERROR, f"secrets file {path} is not used: {reason}", help=help)
+    )
