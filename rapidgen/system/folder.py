@@ -105,13 +105,26 @@ def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
         path = inside(folder, relative)
         if not path.is_file() or not isinstance(lines, list):
             continue
-        if hashlib.sha256(read_limited(path)).hexdigest() != digests.get(relative):
+        data = read_limited(path)
+        if hashlib.sha256(data).hexdigest() != digests.get(relative):
             continue
         try:
-            origins[path.name] = tuple((int(a), str(b), int(c)) for a, b, c in lines)
+            origins[relative] = _expanded(
+                [(int(a), str(b), int(c)) for a, b, c in lines], data.count(b"\n")
+            )
         except (TypeError, ValueError) as error:
             raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from error
     return origins
+
+
+def _expanded(runs: list[tuple[int, str, int]], count: int) -> Origin:
+    """One entry a line; the manifest names only the first line of each run."""
+    ends = [line for line, _, _ in runs[1:]] + [count + 1]
+    return tuple(
+        (line, template, start + line - first)
+        for (first, template, start), end in zip(runs, ends, strict=True)
+        for line in range(first, end)
+    )
 
 
 def _bad(path: Path, label: str) -> DiagnosticError:

@@ -83,7 +83,7 @@ def load_entries(
                 raise DiagnosticError(missing)
             notes.append(missing)
             continue
-        origin = (origins or {}).get(path.name, ())
+        origin = (origins or {}).get(f"HOME/{path.relative_to(home).as_posix()}", ())
         module = load_module(path, target=entry.file, origin=origin)
         if module.name.casefold() not in known:
             known.add(module.name.casefold())
