@@ -17,6 +17,7 @@ from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.legs import Geometry, Leg, joint_way, lever_measure, zone_entry
+from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.moves import JointMove, Measure, Posture
 from rapidgen.virtual.motion.path import NOTHING_M, Path, posture_at
 from rapidgen.virtual.motion.pieces import AxisLimits, Piece
@@ -104,8 +105,11 @@ class MotionGroup:
         self._last_passed: float | None = None
         self._concurrent = 0
         self._settled = 0
-        self.acceleration = 1.0
-        """Share of the axes' acceleration (AccSet)."""
+        self.modal = ModalSettings()
+        self.tool: object = None
+        """tooldata of the last move, None before the first."""
+        self.work_object: object = None
+        """wobjdata of the last move, None before the first or when it had none."""
         self.observers: list[Callable[[Motion], None]] = []
         """Called with every new motion (the recorder)."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
@@ -122,6 +126,15 @@ class MotionGroup:
     def joint_target(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """`robax` and `extax` now, deg and mm, 9E9 where there is no axis."""
         return self.map.to_rapid(self.positions())
+
+    @property
+    def path_target(self) -> Posture:
+        """Where the path ends: the start of the next move."""
+        return self._path.target
+
+    def use(self, tool: object, work_object: object) -> None:
+        """Tool and work object of the move that follows are the active ones from now on."""
+        self.tool, self.work_object = tool, work_object
 
     def jump(self, posture: Posture) -> None:
         """Put the standing robot elsewhere (a test, a restored state). The path is dropped."""
@@ -222,6 +235,11 @@ class MotionGroup:
         else:
             self._wait(task, lambda: leg.released or leg.finished, leg)
 
+    def wait_standing(self, task: Waiter) -> None:
+        """Hold the task until the robot stands."""
+        self._settle()
+        task.wait_for(lambda: self.is_settled, on=(self.changed,))
+
     def _wait(self, task: Waiter, ready: Callable[[], bool], leg: Leg) -> None:
         hang = self.settings.cleared_move == "hang"
         task.wait_for(
@@ -256,7 +274,7 @@ class MotionGroup:
         if self._braking():
             fixed = max(fixed, self._motion.law.place)
         path.prune(place)
-        limits = self._limits.scaled(self.acceleration)
+        limits = self._limits.scaled(self.modal.acceleration)
         standing = self.is_standing
         leg, failed = path.extend(move, self._way, self._law, limits, fixed)
         if standing and not self._stops:
@@ -279,7 +297,7 @@ class MotionGroup:
         return tail
 
     def _way(self, origin: Posture, move: JointMove, from_rest: bool) -> Geometry:
-        limits = self._limits.scaled(self.acceleration)
+        limits = self._limits.scaled(self.modal.acceleration)
         measure = self.measure(origin, move)
         return joint_way(origin, move, measure, limits, from_rest=from_rest)
 
@@ -329,7 +347,7 @@ class MotionGroup:
         self.clear_path()
         for reason in ("move task", "other task"):
             self._stops.pop(reason, None)
-        self.acceleration = 1.0
+        self.modal = ModalSettings()
         self._refresh = 1.0
         self._concurrent = 0
         self._change_speed()
@@ -492,12 +510,12 @@ class MotionGroup:
         self._late, self._late_moves = 0.0, 0
 
     def _corner_failure(self, leg: Leg) -> None:
-        module, line = leg.move.place
-        where = f"{module}, line {line}" if module else self.name
+        where = leg.move.place() if leg.move.place is not None else None
         self._log.warning(
             50_024,
             "Corner path failure",
-            f"{self.name}: the corner is executed as a stop point ({where})",
+            f"{self.name}: the corner is executed as a stop point"
+            + (f" ({where})" if where else ""),
             "the next move was not planned in time",
         )
 

@@ -1,7 +1,7 @@
 """What a move instruction asks for, in SI units: the seam between built-ins and planning."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from enum import Enum
 
 Posture = tuple[float, ...]
@@ -66,8 +66,8 @@ class JointMove:
     """s that the program waits after a stop point (\\Inpos with a stop time)."""
     tool: object = None
     """Kinematic tool of the move, for corners and TCP speed."""
-    place: tuple[str, int] = field(default=("", 0))
-    """Module and line, for the motion pointer."""
+    place: Callable[[], object] | None = None
+    """Tells where in the program it stands, for messages and the motion pointer."""
 
 
 def nominal_time(measure: Measure, speed: Speed) -> float:

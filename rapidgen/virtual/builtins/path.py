@@ -1,0 +1,77 @@
+"""Stopping, starting and changing the path.
+
+Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-StopMove and
+2-StartMove for behaviour, abb_driver [code] for StopMove, ClearPath, StartMove in sequence.
+"""
+
+from collections.abc import Iterable
+
+from rapidgen.virtual.errors import FatalError
+from rapidgen.virtual.motion.access import group_of, motion_of
+from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.registry import builtin
+from rapidgen.virtual.task import Task
+
+MOVE_TASK = "move task"
+OTHER_TASK = "other task"
+
+
+def _reason(task: Task) -> str:
+    return MOVE_TASK if motion_of(task).is_motion_task(task.name) else OTHER_TASK
+
+
+def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
+    if not all_tasks:
+        return (group_of(task),)
+    if motion_of(task).is_motion_task(task.name):
+        raise FatalError(40_589, "Not allowed", "\\AllMotionTasks is for non-motion tasks")
+    return motion_of(task).groups.values()
+
+
+@builtin("StopMove", cost="call")
+def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
+    """Brakes on the path and stays; the program goes on (S4 datasys 2-StopMove-1)."""
+    groups = tuple(_groups(task, all_tasks))
+    for group in groups:
+        group.stop(_reason(task), quick=bool(quick))
+    if motion_of(task).settings.stop_waits:
+        for group in groups:
+            group.wait_standing(task)
+
+
+@builtin("StartMove", cost="call")
+def start_move(task: Task, all_tasks: bool | None) -> None:
+    """Takes back the stop of this kind of task; moves when no other holds."""
+    for group in _groups(task, all_tasks):
+        group.start(_reason(task))
+
+
+@builtin("StopMoveReset", cost="call")
+def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
+    """Takes back the stop without moving: what is left of the path is gone."""
+    for group in _groups(task, all_tasks):
+        group.clear_path()
+        group.start(_reason(task))
+
+
+@builtin("ClearPath", cost="call")
+def clear_path(task: Task) -> None:
+    """Removes what is left of the path; the robot ends where its stop ends."""
+    group_of(task).clear_path()
+
+
+@builtin("IsStopMoveAct")
+def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None) -> bool:
+    """Whether a StopMove of a motion task, or of another task, holds the robot."""
+    reasons = group_of(task).stop_reasons
+    if from_move:
+        return MOVE_TASK in reasons
+    if from_other:
+        return OTHER_TASK in reasons
+    return MOVE_TASK in reasons or OTHER_TASK in reasons
+
+
+@builtin("WaitRob")
+def wait_rob(task: Task, _in_position: bool | None, _zero_speed: bool | None) -> None:
+    """Waits for standstill without letting the program run ahead."""
+    group_of(task).wait_standing(task)
