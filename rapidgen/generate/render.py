@@ -80,7 +80,7 @@ def unmarked(text: str) -> Rendered:
     for number, line in enumerate(text.splitlines(keepends=True), 1):
         marks = _MARK.findall(line)
         if marks:
-            found = (marks[-1][0], int(marks[-1][1]))
+            found = (marks[0][0], int(marks[0][1]))
             # A run of lines that follow their template one by one needs one entry only.
             if place is None or found != place:
                 lines.append((number, *found))
