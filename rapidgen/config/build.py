@@ -134,7 +134,7 @@ def _group(
 ) -> model.MotionGroup:
     path: KeyPath = ("groups", draft.name)
     joints = _joints(keys, draft, path, report)
-    names = {joint.name for joint in joints}
+    names = {joint.name for joint in draft.joints}
     for number, step in enumerate(draft.chain):
         for name in (step.joint, *(joint for joint, _ in step.follows)):
             if name and name not in names:

@@ -146,11 +146,11 @@ def override_tree(overrides: Overrides) -> tuple[Mapping, tuple[tuple[str, bytes
     else:
         pairs = []
         for text in overrides:
-            key, equals, value = text.partition("=")
-            if not equals:
-                found.append(_bad_override(text))
+            name, equals, given = text.partition("=")
+            if equals:
+                pairs.append((name, given, True))
             else:
-                pairs.append((key, value, True))
+                found.append(_bad_override(text))
     for key, value, is_text in pairs:
         span = Span(f"--set {key}={value}", 1, 1)
         keys = _split(key)

@@ -1,4 +1,4 @@
-"""The configuration file as pydantic models: names, types, ranges and the words of the reference.
+"""The configuration file: names, types, ranges and the words of the reference.
 
 Units are ABB's: degrees, mm, mm/s, kg, s. `build.py` turns them into the SI model. Every field
 is optional here where a shipped model or a URDF may supply it; what is missing in the end is
@@ -6,22 +6,30 @@ said by `build.py`.
 """
 
 import re
-from typing import Annotated, Any, Literal
+from dataclasses import dataclass, field, fields
+from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, WithJsonSchema
-
+from rapidgen.config.rules import Rule
 from rapidgen.config.tree import Number
 
-ZONES = ("fine", *(f"z{n}" for n in (0, 1, 5, 10, 15, 20, 30, 40, 50, 60, 80, 100, 150, 200)))
-ROBOT_AXES = tuple(f"rax_{n}" for n in range(1, 7))
-EXTERNAL_AXES = tuple(f"eax_{c}" for c in "abcdef")
-
-Identifier = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$")]
-GroupName = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
-Port = Annotated[int, Field(ge=1025, le=65535)]
-Vector = Annotated[list[float], Field(min_length=3, max_length=3)]
-Quaternion = Annotated[list[float], Field(min_length=4, max_length=4)]
-Text = Annotated[str, Field(max_length=2000)]
+# fmt: off
+Axis = Literal[
+    "rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6",
+    "eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f",
+]
+Figure = Literal["lower", "upper", "speed", "acceleration", "axis", "sign", "offset"]
+Zone = Literal[
+    "fine", "z0", "z1", "z5", "z10", "z15", "z20", "z30",
+    "z40", "z50", "z60", "z80", "z100", "z150", "z200",
+]
+# fmt: on
+Identifier = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$")]
+GroupName = Annotated[str, Rule(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
+ConfigName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")]
+Port = Annotated[int, Rule(ge=1025, le=65535)]
+Vector = Annotated[list[float], Rule(min_length=3, max_length=3)]
+Quaternion = Annotated[list[float], Rule(min_length=4, max_length=4)]
+Text = Annotated[str, Rule(max_length=2000)]
 
 
 def _robotware(value: object) -> object:
@@ -40,37 +48,30 @@ def _robotware(value: object) -> object:
 
 RobotWare = Annotated[
     Any,
-    BeforeValidator(_robotware),
-    WithJsonSchema({"anyOf": [{"type": "number"}, {"type": "string"}]}),
+    Rule(before=_robotware, json={"anyOf": [{"type": "number"}, {"type": "string"}]}),
 ]
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(
-        strict=True,
-        extra="forbid",
-        frozen=True,
-        allow_inf_nan=False,
-        defer_build=True,  # one validator for the whole, not one more for each part
-    )
+class _Part:
+    """For pydantic, where it reads these classes: no further keys."""
+
+    __pydantic_config__: ClassVar[dict[str, Any]] = {"extra": "forbid"}
 
 
+@dataclass(frozen=True)
 class Controller(_Part):
     """The controller and its software."""
 
-    type: Literal["irc5", "irc5_compact", "omnicore", "virtual"] = Field(
-        "irc5",
-        description="Controller family. `virtual` is for a robot that exists nowhere; it takes "
-        "every RobotWare.",
-    )
-    robotware: RobotWare = Field(
-        (6, 15), description="RobotWare version, 5.15 to 8; 6.10 is read as written, not as 6.1."
-    )
+    type: Annotated[
+        Literal["irc5", "irc5_compact", "omnicore", "virtual"],
+        Rule("Controller family. `virtual` is for a robot that exists nowhere; any RobotWare."),
+    ] = "irc5"
+    robotware: Annotated[
+        RobotWare, Rule("RobotWare version, 5.15 to 8; 6.10 is read as written, not as 6.1.")
+    ] = (6, 15)
 
 
-Figure = Literal["lower", "upper", "speed", "acceleration", "axis", "sign", "offset"]
-
-
+@dataclass(frozen=True)
 class Joint(_Part):
     """One joint: which controller axis it drives and what that axis can do.
 
@@ -78,264 +79,299 @@ class Joint(_Part):
     controller's axis, as ABB's data sheets give them.
     """
 
-    axis: Literal[ROBOT_AXES + EXTERNAL_AXES] | None = Field(  # type: ignore[valid-type]
-        None, description="`rax_1`..`rax_6` or `eax_a`..`eax_f`."
+    axis: Annotated[Axis | None, Rule("`rax_1`..`rax_6` or `eax_a`..`eax_f`.")] = None
+    unit: Annotated[
+        Literal["deg", "mm"] | None, Rule("`deg` for a turning, `mm` for a linear axis.")
+    ] = None
+    lower: Annotated[float | None, Rule("Lower limit, deg or mm.")] = None
+    upper: Annotated[float | None, Rule("Upper limit, deg or mm.")] = None
+    speed: Annotated[float | None, Rule("Largest speed, deg/s or mm/s.", gt=0)] = None
+    acceleration: Annotated[
+        float | None,
+        Rule(
+            "Acceleration, deg/s² or mm/s²; without it `acceleration_time` decides.",
+            gt=0,
+        ),
+    ] = None
+    sign: Annotated[
+        Literal[1, -1] | None, Rule("-1 when the URDF turns against the controller's axis.")
+    ] = None
+    offset: Annotated[float | None, Rule("Controller value where the URDF says 0, deg or mm.")] = (
+        None
     )
-    unit: Literal["deg", "mm"] | None = Field(
-        None, description="`deg` for a turning, `mm` for a linear axis."
+    source: Annotated[Text | None, Rule("Where the figures come from.")] = None
+    unsure: Annotated[list[Figure], Rule("Figures without a sure source; a build says so.")] = (
+        field(default_factory=list)
     )
-    lower: float | None = Field(None, description="Lower limit, deg or mm.")
-    upper: float | None = Field(None, description="Upper limit, deg or mm.")
-    speed: float | None = Field(None, gt=0, description="Largest speed, deg/s or mm/s.")
-    acceleration: float | None = Field(
-        None,
-        gt=0,
-        description="Acceleration for planning and simulation, deg/s² or mm/s²; without it, "
-        "`acceleration_time` decides.",
-    )
-    sign: Literal[1, -1] | None = Field(
-        None, description="-1 when the URDF turns against the controller's axis."
-    )
-    offset: float | None = Field(
-        None, description="Controller value where the URDF says 0, deg or mm."
-    )
-    source: Text | None = Field(None, description="Where the figures come from.")
-    unsure: list[Figure] = Field([], description="Figures without a sure source; a build says so.")
 
 
+@dataclass(frozen=True)
 class ChainStep(_Part):
     """One step of the kinematic chain, from the base to the flange."""
 
-    joint: str = Field("", description="Joint that turns or slides here; none: a fixed step.")
-    xyz: Vector = Field([0.0, 0.0, 0.0], description="Shift before the joint, mm.")
-    rpy: Vector = Field(
-        [0.0, 0.0, 0.0], description="Rotation before the joint about fixed x, y, z, deg."
+    joint: Annotated[str, Rule("Joint that turns or slides here; none: a fixed step.")] = ""
+    xyz: Annotated[Vector, Rule("Shift before the joint, mm.")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
     )
-    axis: Vector = Field([0.0, 0.0, 1.0], description="Axis of the joint.")
-    follows: dict[str, float] = Field(
-        {},
-        description="For a passive step: its value is the sum of factor x joint (a palletiser's "
-        "wrist, a hollow wrist).",
+    rpy: Annotated[Vector, Rule("Rotation before the joint about fixed x, y, z, deg.")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
     )
+    axis: Annotated[Vector, Rule("Axis of the joint.")] = field(
+        default_factory=lambda: [0.0, 0.0, 1.0]
+    )
+    follows: Annotated[
+        dict[str, float],
+        Rule("For a passive step: its value is the sum of factor x joint."),
+    ] = field(default_factory=dict)
 
 
+@dataclass(frozen=True)
 class Frame(_Part):
     """A position with an orientation."""
 
-    position: Vector = Field([0.0, 0.0, 0.0], description="x, y, z in mm.")
-    orientation: Quaternion = Field(
-        [1.0, 0.0, 0.0, 0.0], description="Quaternion q1..q4, q1 the scalar."
+    position: Annotated[Vector, Rule("x, y, z in mm.")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
+    )
+    orientation: Annotated[Quaternion, Rule("Quaternion q1..q4, q1 the scalar.")] = field(
+        default_factory=lambda: [1.0, 0.0, 0.0, 0.0]
     )
 
 
+@dataclass(frozen=True)
 class Load(_Part):
     """What the tool weighs."""
 
-    mass: float = Field(0.0, ge=0, description="kg")
-    centre: Vector = Field([0.0, 0.0, 0.0], description="Centre of gravity, mm.")
-    axes: Quaternion = Field(
-        [1.0, 0.0, 0.0, 0.0], description="Orientation of the axes of inertia."
+    mass: Annotated[float, Rule("kg", ge=0)] = 0.0
+    centre: Annotated[Vector, Rule("Centre of gravity, mm.")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
     )
-    inertia: Vector = Field([0.0, 0.0, 0.0], description="Moments ix, iy, iz, kg m².")
+    axes: Annotated[Quaternion, Rule("Orientation of the axes of inertia.")] = field(
+        default_factory=lambda: [1.0, 0.0, 0.0, 0.0]
+    )
+    inertia: Annotated[Vector, Rule("Moments ix, iy, iz, kg m².")] = field(
+        default_factory=lambda: [0.0, 0.0, 0.0]
+    )
 
 
+@dataclass(frozen=True)
 class Tool(_Part):
     """The tool that the driver moves with. Another name than tool0 declares that tooldata."""
 
-    name: Identifier = Field("tool0", description="Name of the tooldata.")
-    held: bool = Field(True, description="False: a stationary tool.")
-    frame: Frame = Field(default_factory=Frame, description="TCP in the flange's frame.")
-    load: Load = Field(default_factory=Load, description="Load of the tool.")
+    name: Annotated[Identifier, Rule("Name of the tooldata.")] = "tool0"
+    held: Annotated[bool, Rule("False: a stationary tool.")] = True
+    frame: Annotated[Frame, Rule("TCP in the flange's frame.")] = field(default_factory=Frame)
+    load: Annotated[Load, Rule("Load of the tool.")] = field(default_factory=Load)
 
 
+@dataclass(frozen=True)
 class WorkObject(_Part):
     """The work object. Another name than wobj0 declares that wobjdata."""
 
-    name: Identifier = Field("wobj0", description="Name of the wobjdata.")
-    held: bool = Field(False, description="True: the robot holds the work object.")
-    user_frame: Frame = Field(default_factory=Frame, description="User frame in the world.")
-    object_frame: Frame = Field(
-        default_factory=Frame, description="Object frame in the user frame."
+    name: Annotated[Identifier, Rule("Name of the wobjdata.")] = "wobj0"
+    held: Annotated[bool, Rule("True: the robot holds the work object.")] = False
+    user_frame: Annotated[Frame, Rule("User frame in the world.")] = field(default_factory=Frame)
+    object_frame: Annotated[Frame, Rule("Object frame in the user frame.")] = field(
+        default_factory=Frame
     )
 
 
+@dataclass(frozen=True)
 class Ports(_Part):
     """TCP ports of one group. Defaults: 11000, 11001, 11002, and 10 more for each next group."""
 
-    motion: Port | None = Field(None, description="Trajectories and stop.")
-    control: Port | None = Field(None, description="The paired client's own connection.")
-    state: Port | None = Field(None, description="Joint positions and status.")
+    motion: Annotated[Port | None, Rule("Trajectories and stop.")] = None
+    control: Annotated[Port | None, Rule("The paired client's own connection.")] = None
+    state: Annotated[Port | None, Rule("Joint positions and status.")] = None
 
 
+@dataclass(frozen=True)
 class Urdf(_Part):
     """A robot description. Meshes are never opened; ROS is not needed."""
 
-    file: str = Field(description="URDF or xacro file, relative to this file.")
-    macro: str | None = Field(None, description="Macro to call when the file only defines macros.")
-    macro_args: dict[str, str | int | float | bool] = Field(
-        {}, description="Arguments of that macro; `prefix` is empty without one."
+    file: Annotated[str, Rule("URDF or xacro file, relative to this file.")]
+    macro: Annotated[str | None, Rule("Macro to call when the file only defines macros.")] = None
+    macro_args: Annotated[
+        dict[str, str | int | float | bool],
+        Rule("Arguments of that macro; `prefix` is empty without one."),
+    ] = field(default_factory=dict)
+    args: Annotated[
+        dict[str, str | int | float | bool],
+        Rule("xacro arguments; only those that the file declares."),
+    ] = field(default_factory=dict)
+    packages: Annotated[
+        dict[str, str], Rule("ROS package: folder, for `$(find PACKAGE)`; relative to this file.")
+    ] = field(default_factory=dict)
+    tip: Annotated[
+        str | None, Rule("Last link (or joint) of this group, when the file holds several robots.")
+    ] = None
+    ignore_joints: Annotated[list[str], Rule("Joints that the controller does not move.")] = field(
+        default_factory=list
     )
-    args: dict[str, str | int | float | bool] = Field(
-        {}, description="xacro arguments; only those that the file declares."
-    )
-    packages: dict[str, str] = Field(
-        {}, description="ROS package: folder, for `$(find PACKAGE)`; relative to this file."
-    )
-    tip: str | None = Field(
-        None, description="Last link (or joint) of this group, when the file holds several robots."
-    )
-    ignore_joints: list[str] = Field([], description="Joints that the controller does not move.")
 
 
+@dataclass(frozen=True)
 class GroupKeys(_Part):
-    """One motion task with its mechanical unit; a file with one group may write these at its top."""
+    """One motion task with its mechanical unit; for one group these may stand at the top."""
 
-    model: str | None = Field(None, description="A shipped model (`rapidgen robots`).")
-    urdf: Urdf | None = Field(None, description="Robot description to read joints from.")
-    task: Identifier | None = Field(
-        None, description="Motion task; `T_ROB1` for the first group without one."
+    model: Annotated[str | None, Rule("A shipped model (`rapidgen robots`).")] = None
+    urdf: Annotated[Urdf | None, Rule("Robot description to read joints from.")] = None
+    task: Annotated[
+        Identifier | None, Rule("Motion task; `T_ROB1` for the first group without one.")
+    ] = None
+    mechanical_unit: Annotated[
+        Identifier | None, Rule("Mechanical unit of the robot; `ROB_1` for the first group.")
+    ] = None
+    external_units: Annotated[
+        list[Identifier], Rule("Mechanical units of the external axes.", max_length=6)
+    ] = field(default_factory=list)
+    joints: Annotated[
+        dict[str, Joint],
+        Rule("Joint name: its axis. The order is the order on the wire; at most 10."),
+    ] = field(default_factory=dict)
+    acceleration_time: Annotated[
+        float,
+        Rule(
+            "Seconds from standstill to full speed, for axes without `acceleration`.",
+            gt=0,
+            le=10,
+        ),
+    ] = 0.25
+    chain: Annotated[list[ChainStep], Rule("Kinematic chain from the base to the flange.")] = field(
+        default_factory=list
     )
-    mechanical_unit: Identifier | None = Field(
-        None, description="Mechanical unit of the robot; `ROB_1` for the first group."
+    coupling: Annotated[
+        float | None,
+        Rule(
+            "k in `controller axis 3 = J3 + k x J2`; 0 for a serial robot, 1 for IRB 2400.",
+            ge=-1,
+            le=1,
+        ),
+    ] = None
+    tool: Annotated[Tool, Rule("Tool of the moves.")] = field(default_factory=Tool)
+    work_object: Annotated[WorkObject, Rule("Work object of the moves.")] = field(
+        default_factory=WorkObject
     )
-    external_units: list[Identifier] = Field(
-        [], max_length=6, description="Mechanical units of the external axes."
-    )
-    joints: dict[str, Joint] = Field(
-        {},
-        description="Joint name: its axis. The order is the order on the wire; at most 10.",
-    )
-    acceleration_time: float = Field(
-        0.25,
-        gt=0,
-        le=10,
-        description="Seconds from standstill to full speed, for axes without an acceleration. "
-        "ABB publishes none: a choice of ours.",
-    )
-    chain: list[ChainStep] = Field([], description="Kinematic chain from the base to the flange.")
-    coupling: float | None = Field(
-        None,
-        ge=-1,
-        le=1,
-        description="k in `controller axis 3 = J3 + k x J2`; 0 for a serial robot, 1 for IRB 2400.",
-    )
-    tool: Tool = Field(default_factory=Tool, description="Tool of the moves.")
-    work_object: WorkObject = Field(
-        default_factory=WorkObject, description="Work object of the moves."
-    )
-    tcp_speed_limit: float = Field(
-        5000.0, gt=0, le=10000, description="Ceiling of the tool's speed, mm/s."
-    )
-    ports: Ports = Field(default_factory=Ports, description="TCP ports.")
-    source: dict[Literal["limits", "speeds", "chain", "coupling", "mapping"], Text] = Field(
-        {}, description="Where the group's figures come from."
-    )
-    unsure: list[Literal["chain", "coupling", "mapping"]] = Field(
-        [], description="Parts without a sure source; a build says so."
-    )
+    tcp_speed_limit: Annotated[
+        float, Rule("Ceiling of the tool's speed, mm/s.", gt=0, le=10000)
+    ] = 5000.0
+    ports: Annotated[Ports, Rule("TCP ports.")] = field(default_factory=Ports)
+    source: Annotated[
+        dict[Literal["limits", "speeds", "chain", "coupling", "mapping"], Text],
+        Rule("Where the group's figures come from."),
+    ] = field(default_factory=dict)
+    unsure: Annotated[
+        list[Literal["chain", "coupling", "mapping"]],
+        Rule("Parts without a sure source; a build says so."),
+    ] = field(default_factory=list)
 
 
+@dataclass(frozen=True)
 class Trajectory(_Part):
     """What the motion server accepts."""
 
-    capacity: int = Field(
-        1000, ge=2, le=100000, description="Points of one trajectory; more are refused whole."
-    )
-    zone: Literal[ZONES] = Field(  # type: ignore[valid-type]
-        "z10", description="Zone of the points between the first and the last."
-    )
-    start_tolerance: float = Field(
-        0.5, gt=0, le=20, description="Distance of the first point from the robot, deg."
-    )
-    start_tolerance_linear: float = Field(
-        5.0, gt=0, le=100, description="The same for linear axes, mm."
-    )
-    too_fast: Literal["refuse", "slow_down"] = Field(
-        "refuse", description="What happens to a segment that an axis cannot follow."
-    )
-    min_segment: float = Field(
-        0.1, ge=0.01, le=2, description="Shortest segment that streaming accepts, s."
-    )
-    approach_speed: float = Field(
-        0.1,
-        gt=0,
-        le=1,
-        description="Fraction of the axis speeds for an approach to the first point.",
-    )
+    capacity: Annotated[
+        int, Rule("Points of one trajectory; more are refused whole.", ge=2, le=100000)
+    ] = 1000
+    zone: Annotated[Zone, Rule("Zone of the points between the first and the last.")] = "z10"
+    start_tolerance: Annotated[
+        float, Rule("Distance of the first point from the robot, deg.", gt=0, le=20)
+    ] = 0.5
+    start_tolerance_linear: Annotated[
+        float, Rule("The same for linear axes, mm.", gt=0, le=100)
+    ] = 5.0
+    too_fast: Annotated[
+        Literal["refuse", "slow_down"],
+        Rule("What happens to a segment that an axis cannot follow."),
+    ] = "refuse"
+    min_segment: Annotated[
+        float, Rule("Shortest segment that streaming accepts, s.", ge=0.01, le=2)
+    ] = 0.1
+    approach_speed: Annotated[
+        float, Rule("Fraction of the axis speeds for an approach to the first point.", gt=0, le=1)
+    ] = 0.1
 
 
+@dataclass(frozen=True)
 class State(_Part):
     """The state server."""
 
-    rate: float = Field(10.0, ge=0.2, le=100, description="Messages a second, Hz.")
+    rate: Annotated[float, Rule("Messages a second, Hz.", ge=0.2, le=100)] = 10.0
 
 
+@dataclass(frozen=True)
 class Network(_Part):
     """Who may talk to the driver."""
 
-    bind: str = Field(
-        "lan",
-        pattern=r"^(lan|service|[0-9]{1,3}(\.[0-9]{1,3}){3})$",
-        description="`lan` (the controller's LAN address), `service` (192.168.125.1) or an "
-        "IPv4 address.",
-    )
-    allowed_clients: list[str] = Field(
-        [], max_length=16, description="IPv4 addresses that may connect; empty: all."
-    )
-    receive_timeout: float = Field(
-        0.0,
-        ge=0,
-        le=3600,
-        description="Seconds without a byte inside a message after which a client is dropped; "
-        "0: never.",
-    )
+    bind: Annotated[
+        str,
+        Rule(
+            "`lan` (the controller's LAN address), `service` (192.168.125.1) or an IPv4 address.",
+            pattern=r"^(lan|service|[0-9]{1,3}(\.[0-9]{1,3}){3})$",
+        ),
+    ] = "lan"
+    allowed_clients: Annotated[
+        list[str], Rule("IPv4 addresses that may connect; empty: all.", max_length=16)
+    ] = field(default_factory=list)
+    receive_timeout: Annotated[
+        float,
+        Rule(
+            "Seconds without a byte inside a message after which a client is dropped; 0: never.",
+            ge=0,
+            le=3600,
+        ),
+    ] = 0.0
 
 
+@dataclass(frozen=True)
 class Signal(_Part):
     """A signal that a client may read or write."""
 
-    kind: Literal["DI", "DO", "GI", "GO", "AI", "AO"] = Field(description="Type of the signal.")
-    access: Literal["read", "write"] = Field(
-        "read", description="`write` is for outputs (DO, GO, AO) only."
-    )
+    kind: Annotated[Literal["DI", "DO", "GI", "GO", "AI", "AO"], Rule("Type of the signal.")]
+    access: Annotated[
+        Literal["read", "write"], Rule("`write` is for outputs (DO, GO, AO) only.")
+    ] = "read"
 
 
+@dataclass(frozen=True)
 class Configuration(_Part):
     """A controller with its motion groups."""
 
-    name: Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")] | None = Field(
-        None, description="Name of the robot; the file's name without one."
+    name: Annotated[
+        ConfigName | None,
+        Rule("Name of the robot; the file's name without one."),
+    ] = None
+    description: Annotated[Text, Rule("For people.")] = ""
+    model: Annotated[str | None, Rule("A shipped model that this file starts from.")] = None
+    generations: Annotated[
+        list[Literal[5, 6, 7, 8]],
+        Rule("RobotWare generations that the robot exists for; empty: not known."),
+    ] = field(default_factory=list)
+    controller: Annotated[Controller, Rule("Controller and software.")] = field(
+        default_factory=Controller
     )
-    description: Text = Field("", description="For people.")
-    model: str | None = Field(None, description="A shipped model that this file starts from.")
-    generations: list[Literal[5, 6, 7, 8]] = Field(
-        [], description="RobotWare generations that the robot exists for; empty: not known."
+    groups: Annotated[
+        dict[GroupName, GroupKeys],
+        Rule("Motion groups by name; for one group its keys may stand at the top."),
+    ] = field(default_factory=dict)
+    trajectory: Annotated[Trajectory, Rule("What the motion server accepts.")] = field(
+        default_factory=Trajectory
     )
-    controller: Controller = Field(
-        default_factory=Controller, description="Controller and software."
+    state: Annotated[State, Rule("The state server.")] = field(default_factory=State)
+    network: Annotated[Network, Rule("Who may talk to the driver.")] = field(
+        default_factory=Network
     )
-    groups: dict[GroupName, GroupKeys] = Field(
-        {}, description="Motion groups by name; for one group its keys may stand at the top."
-    )
-    trajectory: Trajectory = Field(
-        default_factory=Trajectory, description="What the motion server accepts."
-    )
-    state: State = Field(default_factory=State, description="The state server.")
-    network: Network = Field(default_factory=Network, description="Who may talk to the driver.")
-    commissioning: bool = Field(
-        False,
-        description="True while setting up: background tasks are NORMAL and can be stopped and "
-        "edited, instead of SEMISTATIC.",
-    )
-    main: Literal["driver", "own"] = Field(
-        "driver",
-        description="`driver`: the module brings `main`. `own`: your `main` calls the driver's "
-        "entry routine.",
-    )
-    signals: dict[Identifier, Signal] = Field(
-        {}, max_length=64, description="Signals to expose, by name."
-    )
+    commissioning: Annotated[
+        bool,
+        Rule("True while setting up: background tasks are NORMAL, not SEMISTATIC."),
+    ] = False
+    main: Annotated[
+        Literal["driver", "own"],
+        Rule("`driver`: the module brings `main`. `own`: your `main` calls the entry routine."),
+    ] = "driver"
+    signals: Annotated[
+        dict[Identifier, Signal], Rule("Signals to expose, by name.", max_length=64)
+    ] = field(default_factory=dict)
 
 
-GROUP_KEYS = tuple(GroupKeys.model_fields)
-TOP_KEYS = tuple(Configuration.model_fields)
+GROUP_KEYS = tuple(f.name for f in fields(GroupKeys))
+TOP_KEYS = tuple(f.name for f in fields(Configuration))

@@ -4,13 +4,15 @@ A faulty part is taken out and the rest is validated again, so that one fault in
 hide those that only a later step can see.
 """
 
+import dataclasses
 import types
 import typing
 from dataclasses import dataclass, field
 from typing import Any
 
-from pydantic import BaseModel, ValidationError
+from pydantic_core import SchemaValidator, ValidationError
 
+from rapidgen.config.rules import core
 from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
 from rapidgen.config.tree import Mapping, error, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, suggest
@@ -30,11 +32,13 @@ class Validated:
 def validate(root: Mapping) -> Validated:
     """Validate a canonical tree."""
     data = to_python(root)
+    schema: Any = core(Configuration)
+    validator = SchemaValidator(schema)
     found: list[Diagnostic] = []
     removed: set[Path] = set()
     while True:
         try:
-            return Validated(Configuration.model_validate(data), found, removed)
+            return Validated(validator.validate_python(data), found, removed)
         except ValidationError as fault:
             faults = fault.errors(include_url=False, include_context=True)
         paths: set[Path] = set()
@@ -97,7 +101,7 @@ def _missing(root: Mapping, loc: Path) -> Diagnostic:
 
 def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
     key, value = place_of(root, path)
-    if item["type"] == "extra_forbidden":
+    if item["type"] == "unexpected_keyword_argument":
         known = keys_at(path[:-1])
         meant = suggest(str(path[-1]), known)
         where = f" in '{shown(path[:-1])}'" if len(path) > 1 else ""
@@ -128,12 +132,11 @@ def _reason(item: dict[str, Any], is_key: bool) -> str:
     fixed = {
         "float_type": "must be a number",
         "int_type": "must be a whole number",
-        "bool_type": "must be true or false",
+        "bool_type": "must be true or false (YAML 1.2: `yes` and `on` are texts)",
         "string_type": "must be a text",
         "list_type": "must be a list",
         "dict_type": "must be a mapping",
-        "model_type": "must be a mapping",
-        "model_attributes_type": "must be a mapping",
+        "dataclass_type": "must be a mapping",
         "finite_number": "must be a finite number",
     }
     if kind in fixed:
@@ -150,12 +153,12 @@ def _reason(item: dict[str, Any], is_key: bool) -> str:
         "less_than_equal": ("le", "at most"),
     }
     if kind in bounds:
-        name, words = bounds[kind]
-        return f"must be {words} {context[name]:g}, not {given}"
+        name, phrase = bounds[kind]
+        return f"must be {phrase} {context[name]:g}, not {given}"
     if kind in ("too_short", "too_long"):
-        bound = context.get("min_length" if kind == "too_short" else "max_length")
-        words = "at least" if kind == "too_short" else "at most"
-        return f"must have {words} {bound} entries, not {context['actual_length']}"
+        bound = context["min_length" if kind == "too_short" else "max_length"]
+        phrase = "at least" if kind == "too_short" else "at most"
+        return f"must have {phrase} {bound} entries, not {context['actual_length']}"
     if kind == "string_pattern_mismatch":
         what = "this name" if is_key else "the text"
         return f"{what} must match {context['pattern']}"
@@ -172,12 +175,12 @@ def keys_at(path: Path) -> tuple[str, ...]:
     for part in path:
         hint = _step(hint, part)
     model = _model(hint)
-    return tuple(model.model_fields) if model else ()
+    return tuple(f.name for f in dataclasses.fields(model)) if model else ()
 
 
-def _model(hint: Any) -> type[BaseModel] | None:
+def _model(hint: Any) -> Any:
     for option in _options(hint):
-        if isinstance(option, type) and issubclass(option, BaseModel):
+        if isinstance(option, type) and dataclasses.is_dataclass(option):
             return option
     return None
 
@@ -193,8 +196,7 @@ def _options(hint: Any) -> tuple[Any, ...]:
 def _step(hint: Any, part: str | int) -> Any:
     model = _model(hint)
     if model:
-        known = model.model_fields.get(str(part))
-        return known.annotation if known else None
+        return next((f.type for f in dataclasses.fields(model) if f.name == part), None)
     for option in _options(hint):
         if typing.get_origin(option) is dict:
             return typing.get_args(option)[1]

@@ -1,0 +1,133 @@
+"""The schema for people and editors: JSON schema, and the tables of docs/configuration.md."""
+
+import dataclasses
+import types
+import typing
+from typing import Any
+
+from rapidgen.config import schema
+from rapidgen.config.rules import Rule
+
+SECTIONS = (
+    schema.Configuration,
+    schema.Controller,
+    schema.GroupKeys,
+    schema.Joint,
+    schema.Urdf,
+    schema.ChainStep,
+    schema.Tool,
+    schema.WorkObject,
+    schema.Frame,
+    schema.Load,
+    schema.Ports,
+    schema.Trajectory,
+    schema.State,
+    schema.Network,
+    schema.Signal,
+)
+
+
+def json_schema() -> dict[str, Any]:
+    """JSON schema (2020-12) of a configuration file; group keys may stand at the top."""
+    from pydantic import TypeAdapter
+
+    made = TypeAdapter(schema.Configuration).json_schema()
+    group = made["$defs"]["GroupKeys"]["properties"]
+    made["properties"] = {**group, **made["properties"]}
+    return {
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "rapidgen configuration",
+        **{key: value for key, value in made.items() if key != "title"},
+    }
+
+
+def reference() -> str:
+    """Markdown tables of every key, in the order of `SECTIONS`."""
+    return "\n".join(_section(part) for part in SECTIONS)
+
+
+def _section(part: type) -> str:
+    title = "top of the file" if part is schema.Configuration else _key_of(part)
+    text = (part.__doc__ or "").strip()
+    lines = [f"### {title}", "", " ".join(text.split()), "", "| key | value | default | |"]
+    lines.append("|---|---|---|---|")
+    for field in dataclasses.fields(part):
+        lines.append(
+            f"| `{field.name}` | {_type(field.type)} | {_default(field)} | {_doc(field.type)} |"
+        )
+    return "\n".join([*lines, ""])
+
+
+def _key_of(part: type) -> str:
+    names = {
+        schema.GroupKeys: "`groups.NAME`",
+        schema.Joint: "`joints.NAME`",
+        schema.ChainStep: "`chain` (a list of these)",
+        schema.Frame: "frames",
+        schema.Load: "`tool.load`",
+        schema.Signal: "`signals.NAME`",
+        schema.WorkObject: "`work_object`",
+    }
+    return names.get(part, f"`{part.__name__.lower()}`")
+
+
+def _rules(hint: Any) -> tuple[Rule, ...]:
+    if typing.get_origin(hint) is typing.Annotated:
+        first, *rules = typing.get_args(hint)
+        return (*_rules(first), *(rule for rule in rules if isinstance(rule, Rule)))
+    if typing.get_origin(hint) in (typing.Union, types.UnionType):
+        return tuple(rule for option in typing.get_args(hint) for rule in _rules(option))
+    return ()
+
+
+def _doc(hint: Any) -> str:
+    return next((rule.doc for rule in reversed(_rules(hint)) if rule.doc), "")
+
+
+def _type(hint: Any) -> str:
+    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
+    if origin is typing.Annotated:
+        name = _type(arguments[0])
+        return ", ".join([name, *(_bounds(r) for r in arguments[1:] if _bounds(r))])
+    if origin in (typing.Union, types.UnionType):
+        return " or ".join(_type(a) for a in arguments if a is not type(None))
+    if origin is typing.Literal:
+        return " ".join(f"`{a}`" for a in arguments)
+    if origin is list:
+        return f"list of {_type(arguments[0])}"
+    if origin is dict:
+        return f"{_type(arguments[0])}: {_type(arguments[1])}"
+    if hint is Any:
+        return "version"
+    names = {str: "text", int: "whole number", float: "number", bool: "`true` `false`"}
+    return names.get(hint, "see below")
+
+
+def _bounds(rule: Rule) -> str:
+    parts = []
+    for name, sign in (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤")):
+        bound = getattr(rule, name)
+        if bound is not None:
+            parts.append(f"{sign} {bound:g}")
+    if rule.min_length is not None and rule.min_length == rule.max_length:
+        parts.append(f"{rule.min_length} entries")
+    if rule.pattern:
+        pattern = rule.pattern.replace("|", "\\|")
+        parts.append(f"`{pattern}`")
+    return " and ".join(parts)
+
+
+def _default(field: "dataclasses.Field[Any]") -> str:
+    if field.default is not dataclasses.MISSING:
+        value = field.default
+    elif field.default_factory is not dataclasses.MISSING:
+        value = field.default_factory()
+    else:
+        return "required"
+    if field.name == "robotware":
+        return f"`{value[0]}.{value[1]}`"
+    if value in (None, "", [], {}) and value is not False:
+        return ""
+    if dataclasses.is_dataclass(value):
+        return ""
+    return f"`{str(value).lower() if isinstance(value, bool) else value}`"
