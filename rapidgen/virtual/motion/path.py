@@ -122,11 +122,12 @@ class Path:
         lost = list(self.legs)
         self.legs.clear()
         self.tail = None
+        if place < self.end:
+            self.target = self.at(place)
         self.pieces = self._until(place)
         if self.pieces:
             last = self.pieces[-1]
             self.pieces = (*self.pieces[:-1], last.until(last.end, stop=True))
-            self.target = last.at(place)
         self.end = place
         return lost
 
