@@ -1,0 +1,261 @@
+"""Several groups or robots, started together; when one fails, all are stopped."""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Iterable, Mapping
+from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
+from types import TracebackType
+from typing import Self, TypeVar
+
+from rapidgen.client import flows
+from rapidgen.client.aio import AsyncExecution, AsyncRobot
+from rapidgen.client.core import Core
+from rapidgen.client.errors import InvalidTrajectory, RobotError
+from rapidgen.client.flows import Flow, Send
+from rapidgen.client.run import Result, Run
+from rapidgen.client.state import State
+from rapidgen.client.sync import Execution, Robot
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.diagnostics import Diagnostic
+from rapidgen.protocol.bulk import FRAME_BYTES
+from rapidgen.protocol.spec import Port
+
+T = TypeVar("T")
+
+
+def _prepare_all(
+    cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]
+) -> dict[str, tuple[Run, bytes]]:
+    """Every trajectory checked, with the faults of all; then every run made."""
+    unknown = sorted(set(trajectories) - set(cores))
+    if unknown:
+        raise KeyError(f"no robot of this cell is called {unknown[0]!r}")
+    found: list[Diagnostic] = []
+    for name, trajectory in trajectories.items():
+        cores[name].ready()
+        try:
+            cores[name].plan(trajectory)
+        except InvalidTrajectory as error:
+            found += error.diagnostics
+    if found:
+        raise InvalidTrajectory(found)
+    return {name: flows.prepare(cores[name], what) for name, what in trajectories.items()}
+
+
+def _send_points(core: Core, data: bytes) -> Flow[None]:
+    yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send)
+
+
+def _give_up(runs: Iterable[tuple[Run, bytes]], error: RobotError) -> None:
+    """None of these runs is under way any more."""
+    for run, _ in runs:
+        run.failed(error)
+
+
+class Cell:
+    """Robots by name. All points go to all robots first, then all end frames."""
+
+    def __init__(self, robots: Mapping[str, Robot]) -> None:
+        self.robots = dict(robots)
+
+    def __enter__(self) -> Self:
+        try:
+            for robot in self.robots.values():
+                robot.__enter__()
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close all; what moves is stopped first."""
+        _each(self.robots, Robot.close)
+
+    def stop(self) -> dict[str, State | None]:
+        """Stop all at once. Raises the first StopFailed after all were tried."""
+        return _each(self.robots, Robot.stop)
+
+    def execute(self, trajectories: Mapping[str, Trajectory]) -> "CellExecution":
+        """Start trajectories together, by robot name.
+
+        Raises InvalidTrajectory with the faults of all before a byte is sent; when one robot
+        refuses or fails, all are stopped and its error is raised.
+        """
+        moving = {name: robot for name, robot in self.robots.items() if name in trajectories}
+        cores = {name: robot._core for name, robot in self.robots.items()}
+        runs = _prepare_all(cores, trajectories)
+        try:
+            for name, robot in moving.items():
+                robot._run(_send_points(robot._core, runs[name][1]))
+            pending = {
+                name: robot._run(flows.send_end(robot._core, runs[name][1]))
+                for name, robot in moving.items()
+            }
+            for name, robot in moving.items():
+                robot._run(flows.accepted(robot._core, runs[name][0], pending[name]))
+        except RobotError as error:
+            _each(moving, Robot.stop)
+            _give_up(runs.values(), error)
+            raise
+        except KeyboardInterrupt:
+            _each(moving, Robot.stop)
+            raise
+        return CellExecution(
+            {name: Execution(robot, runs[name][0]) for name, robot in moving.items()}, self
+        )
+
+
+def _each(robots: Mapping[str, Robot], do: Callable[[Robot], T]) -> dict[str, T]:
+    """The same for all robots at the same time; the first error after all were tried."""
+    if not robots:
+        return {}
+    with ThreadPoolExecutor(len(robots)) as pool:
+        futures = {name: pool.submit(do, robot) for name, robot in robots.items()}
+    return {name: future.result() for name, future in futures.items()}
+
+
+class CellExecution:
+    """Trajectories under way together."""
+
+    def __init__(self, executions: Mapping[str, Execution], cell: Cell) -> None:
+        self.executions = dict(executions)
+        self._cell = cell
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all are."""
+        return all(execution.is_over for execution in self.executions.values())
+
+    def cancel(self) -> dict[str, State | None]:
+        """Stop all."""
+        return self._cell.stop()
+
+    def result(self, timeout: float | None = None) -> dict[str, Result]:
+        """Wait for all. The first error stops all others and is raised; so does Ctrl-C."""
+        with ThreadPoolExecutor(max(1, len(self.executions))) as pool:
+            futures: dict[str, Future[Result]] = {
+                name: pool.submit(execution.result, timeout)
+                for name, execution in self.executions.items()
+            }
+            try:
+                done, waiting = wait(futures.values(), return_when=FIRST_EXCEPTION)
+            except KeyboardInterrupt:
+                self._cell.stop()
+                raise
+            failed = [future for future in done if future.exception() is not None]
+            if failed and waiting:
+                self._cell.stop()
+        for future in failed:
+            future.result()
+        return {name: future.result() for name, future in futures.items()}
+
+
+class AsyncCell:
+    """As `Cell`, with AsyncRobots of one loop."""
+
+    def __init__(self, robots: Mapping[str, AsyncRobot]) -> None:
+        self.robots = dict(robots)
+
+    async def __aenter__(self) -> Self:
+        try:
+            for robot in self.robots.values():
+                await robot.__aenter__()
+        except BaseException:
+            await self.close()
+            raise
+        return self
+
+    async def __aexit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        await self.close()
+
+    async def close(self) -> None:
+        """Close all; what moves is stopped first."""
+        await _gather({name: robot.close() for name, robot in self.robots.items()})
+
+    async def stop(self) -> dict[str, State | None]:
+        """Stop all at once. Raises the first StopFailed after all were tried."""
+        return await _gather({name: robot.stop() for name, robot in self.robots.items()})
+
+    async def execute(self, trajectories: Mapping[str, Trajectory]) -> "AsyncCellExecution":
+        """Start trajectories together, by robot name; see `Cell.execute`."""
+        moving = {name: robot for name, robot in self.robots.items() if name in trajectories}
+        cores = {name: robot._core for name, robot in self.robots.items()}
+        runs = _prepare_all(cores, trajectories)
+        try:
+            for name, robot in moving.items():
+                await robot._run(_send_points(robot._core, runs[name][1]))
+            pending = {
+                name: await robot._run(flows.send_end(robot._core, runs[name][1]))
+                for name, robot in moving.items()
+            }
+            for name, robot in moving.items():
+                await robot._run(flows.accepted(robot._core, runs[name][0], pending[name]))
+        except (RobotError, asyncio.CancelledError) as error:
+            await _gather({name: robot.stop() for name, robot in moving.items()})
+            if isinstance(error, RobotError):
+                _give_up(runs.values(), error)
+            raise
+        return AsyncCellExecution(
+            {name: AsyncExecution(robot, runs[name][0]) for name, robot in moving.items()}, self
+        )
+
+
+async def _gather(waiting: Mapping[str, Awaitable[T]]) -> dict[str, T]:
+    """All of them; the first error after all were tried."""
+    outcomes = await asyncio.gather(*waiting.values(), return_exceptions=True)
+    results: dict[str, T] = {}
+    for name, outcome in zip(waiting, outcomes, strict=True):
+        if isinstance(outcome, BaseException):
+            raise outcome
+        results[name] = outcome
+    return results
+
+
+class AsyncCellExecution:
+    """Trajectories under way together."""
+
+    def __init__(self, executions: Mapping[str, AsyncExecution], cell: AsyncCell) -> None:
+        self.executions = dict(executions)
+        self._cell = cell
+
+    @property
+    def is_over(self) -> bool:
+        """Whether all are."""
+        return all(execution.is_over for execution in self.executions.values())
+
+    async def cancel(self) -> dict[str, State | None]:
+        """Stop all."""
+        return await self._cell.stop()
+
+    async def result(self, timeout: float | None = None) -> dict[str, Result]:
+        """Wait for all. The first error stops all others and is raised; so does cancelling."""
+        tasks = {
+            name: asyncio.ensure_future(execution.result(timeout))
+            for name, execution in self.executions.items()
+        }
+        try:
+            done, waiting = await asyncio.wait(tasks.values(), return_when=asyncio.FIRST_EXCEPTION)
+        except asyncio.CancelledError:
+            for task in tasks.values():
+                task.cancel()
+            await asyncio.gather(*tasks.values(), return_exceptions=True)
+            raise
+        failed = [task for task in done if task.exception() is not None]
+        if failed and waiting:
+            await self._cell.stop()
+            await asyncio.gather(*waiting, return_exceptions=True)
+        for task in failed:
+            task.result()
+        return {name: task.result() for name, task in tasks.items()}

@@ -1,0 +1,220 @@
+"""Blocking sockets under the sync client: written by the calling thread, read by one thread.
+
+A background loop between stop() and the socket costs milliseconds; a write of the caller's own
+does not. Points are written so that a STOP can go between two frames at any moment.
+"""
+
+import selectors
+import socket
+import threading
+from collections.abc import Callable
+from select import POLLOUT, poll
+
+from rapidgen.client.address import Address
+from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout, fault
+from rapidgen.protocol.bulk import FRAME_BYTES
+from rapidgen.protocol.spec import Port
+
+_CHUNK = 64 * FRAME_BYTES
+_RECEIVE = 65536
+_SLICE = 0.05
+"""s after which a blocked sender looks whether it shall stop."""
+
+
+class Channel:
+    """One TCP connection. `send` and `send_urgent` may be called from different threads."""
+
+    def __init__(self, address: Address, port: Port, timeout: float) -> None:
+        number = address.port(port)
+        name = port.name.lower()
+        try:
+            self.socket = socket.create_connection((address.host, number), timeout)
+        except TimeoutError as error:
+            raise ConnectionFailed(
+                fault(
+                    "RG601",
+                    f"no answer from {address.host} port {number} ({name}) within {timeout:g} s",
+                    "is the controller on, and this machine in its network?",
+                )
+            ) from error
+        except OSError as error:
+            raise ConnectionFailed(
+                fault(
+                    "RG601",
+                    f"cannot connect to {address.host} port {number} ({name}): "
+                    f"{(error.strerror or str(error)).lower()}",
+                    "is the driver's task running? `rapidgen sim` starts a virtual controller",
+                )
+            ) from error
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+        self.socket.setblocking(False)
+        self.port = port
+        self._lock = threading.Lock()
+        self._rest = memoryview(b"")
+        """What is still missing of a frame whose beginning is on the wire."""
+
+    def send(self, data: bytes, timeout: float, stopping: Callable[[], bool]) -> bool:
+        """Send whole frames; False when `stopping` cut it short at a frame's end.
+
+        Raises RobotTimeout when nothing is taken for `timeout` s, ConnectionLost.
+        """
+        view = memoryview(data)
+        at = 0
+        waited = 0.0
+        while at < len(view):
+            if stopping():
+                return False
+            with self._lock:
+                # Looked at again: a STOP may have come between the test and the lock.
+                if stopping():
+                    return False
+                sent = self._write(view[at : at + _CHUNK])
+                at += sent
+                end = -(-at // FRAME_BYTES) * FRAME_BYTES
+                self._rest = view[at : min(end, len(view))]
+            if sent:
+                waited = 0.0
+            elif waited >= timeout:
+                raise RobotTimeout(
+                    fault("RG603", f"the controller took no byte for {timeout:g} s", "look at it")
+                )
+            else:
+                self._wait_writable(_SLICE)
+                waited += _SLICE
+        return True
+
+    def send_urgent(self, data: bytes, timeout: float) -> None:
+        """Send behind at most the frame whose beginning is already on the wire."""
+        with self._lock:
+            view = memoryview(bytes(self._rest) + data)
+            self._rest = memoryview(b"")
+            waited = 0.0
+            while len(view):
+                sent = self._write(view)
+                view = view[sent:]
+                if sent:
+                    continue
+                if waited >= timeout:
+                    raise RobotTimeout(
+                        fault("RG603", f"the controller took no byte for {timeout:g} s")
+                    )
+                self._wait_writable(_SLICE)
+                waited += _SLICE
+
+    def _write(self, view: memoryview) -> int:
+        try:
+            return self.socket.send(view)
+        except BlockingIOError:
+            return 0
+        except OSError as error:
+            raise self._lost(error) from error
+
+    def _wait_writable(self, seconds: float) -> None:
+        waiter = poll()
+        waiter.register(self.socket, POLLOUT)
+        waiter.poll(seconds * 1000)
+
+    def _lost(self, error: OSError) -> ConnectionLost:
+        name = self.port.name.lower()
+        reason = (error.strerror or str(error)).lower()
+        return ConnectionLost(
+            fault("RG602", f"the connection to the {name} port was lost: {reason}", "look at it")
+        )
+
+    def close(self) -> None:
+        """Close it; twice is once."""
+        self.socket.close()
+
+
+class Reader:
+    """The one thread that reads all connections of a robot.
+
+    `received(channel, data)` and `lost(channel, why)` are called on it.
+    """
+
+    def __init__(
+        self,
+        received: Callable[[Channel, bytes], None],
+        lost: Callable[[Channel, str], None],
+        name: str,
+    ) -> None:
+        self._received = received
+        self._lost = lost
+        self._selector = selectors.DefaultSelector()
+        self._wake, self._waker = socket.socketpair()
+        self._wake.setblocking(False)
+        self._selector.register(self._wake, selectors.EVENT_READ)
+        self._lock = threading.Lock()
+        self._coming: list[Channel] = []
+        self._going: list[Channel] = []
+        self._ended = False
+        self._thread = threading.Thread(target=self._loop, name=f"rapidgen {name}", daemon=True)
+        self._thread.start()
+
+    def add(self, channel: Channel) -> None:
+        """Read this channel from now on."""
+        with self._lock:
+            self._coming.append(channel)
+        self._waker.send(b".")
+
+    def remove(self, channel: Channel) -> None:
+        """Stop reading this channel and close it."""
+        with self._lock:
+            self._going.append(channel)
+        self._waker.send(b".")
+
+    def close(self) -> None:
+        """End the thread; every channel is closed."""
+        self._ended = True
+        self._waker.send(b".")
+        if threading.current_thread() is not self._thread:
+            self._thread.join()
+
+    def _loop(self) -> None:
+        while not self._ended:
+            for key, _ in self._selector.select():
+                if key.fileobj is self._wake:
+                    self._change()
+                elif key.data in self._selector_channels():
+                    self._read(key.data)
+        for channel in self._selector_channels():
+            self._forget(channel)
+        self._selector.close()
+        self._wake.close()
+        self._waker.close()
+
+    def _selector_channels(self) -> list[Channel]:
+        return [key.data for key in self._selector.get_map().values() if key.data is not None]
+
+    def _change(self) -> None:
+        try:
+            self._wake.recv(4096)
+        except BlockingIOError:
+            return
+        with self._lock:
+            coming, self._coming = self._coming, []
+            going, self._going = self._going, []
+        for channel in coming:
+            self._selector.register(channel.socket, selectors.EVENT_READ, channel)
+        for channel in going:
+            if channel in self._selector_channels():
+                self._forget(channel)
+
+    def _read(self, channel: Channel) -> None:
+        try:
+            data = channel.socket.recv(_RECEIVE)
+        except BlockingIOError:
+            return
+        except OSError as error:
+            self._forget(channel)
+            self._lost(channel, (error.strerror or str(error)).lower())
+            return
+        if data:
+            self._received(channel, data)
+        else:
+            self._forget(channel)
+            self._lost(channel, "the controller closed it")
+
+    def _forget(self, channel: Channel) -> None:
+        self._selector.unregister(channel.socket)
+        channel.close()

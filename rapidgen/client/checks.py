@@ -1,0 +1,296 @@
+"""A trajectory against a robot: every fault at once, before a byte is sent.
+
+The result is a Plan: the axis values and durations that go onto the wire.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from rapidgen.axes.limits import ROUNDING
+from rapidgen.client.errors import InvalidTrajectory
+from rapidgen.client.group import Group
+from rapidgen.client.trajectory import Array, Trajectory
+from rapidgen.diagnostics import Diagnostic, Severity, Span, suggest
+
+_SPEED_ROUNDING = 1 + 1e-4
+"""float32 positions and durations may ask for this much more than was meant."""
+_TIME_ROUNDING = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Plan:
+    """What is sent: `wire` (m, k) axis values and `durations` (m,) s, m >= 2.
+
+    A single point is there twice, as simple_message wants it.
+    """
+
+    trajectory: Trajectory
+    wire: Array
+    durations: Array
+    warnings: tuple[Diagnostic, ...]
+
+    @property
+    def total(self) -> float:
+        """Seconds that the controller is asked to take."""
+        return float(self.durations.sum())
+
+
+def plan(
+    trajectory: Trajectory,
+    group: Group,
+    *,
+    start: Sequence[float] | None = None,
+    capacity: int | None = None,
+    goes_to_single: bool = False,
+) -> Plan:
+    """Check everything; `start` are the ten axis values of where the robot stands.
+
+    A single point without a time of its own is taken only where the driver goes to such a
+    point at approach speed (`goes_to_single`: a rapidgen driver does).
+    Raises InvalidTrajectory with all faults.
+    """
+    limit = group.policy.capacity if capacity is None else capacity
+    found = _capacity(trajectory, limit) + _names(trajectory, group)
+    if found or not len(trajectory):
+        # Without a fit of the columns nothing else can be asked.
+        if not len(trajectory):
+            found.append(
+                _finding("RG619", "the trajectory has no points", "give at least one point")
+            )
+        raise InvalidTrajectory(found, exit_code=1)
+    ordered = trajectory.reordered(group.names)
+    times, positions = ordered.times, ordered.positions
+    found += _finite(ordered, group)
+    whole = np.isfinite(positions).all(axis=1) & np.isfinite(times)
+    with np.errstate(invalid="ignore", over="ignore"):
+        found += _times(ordered)
+        wire = group.to_wire(positions)
+        first = float(times[0]) if times[0] > 0 else group.policy.min_segment
+        durations = np.concatenate([[first], np.diff(times)])
+        found += _limits(ordered, group, wire, whole)
+        found += _speeds(ordered, group, wire, durations, start)
+        if len(wire) > 1 or not (times[0] > 0 or goes_to_single):
+            found += _start(ordered, group, wire, start)
+        found += _short(ordered, group, durations)
+    if len(wire) == 1:
+        wire = np.repeat(wire, 2, axis=0)
+        # A rapidgen driver goes by the second frame's duration, abb_driver takes both.
+        durations = np.array([first, first if goes_to_single else group.policy.min_segment])
+    errors = [d for d in found if d.severity is Severity.ERROR]
+    if errors:
+        raise InvalidTrajectory(found, exit_code=1)
+    return Plan(ordered, wire, durations, tuple(found))
+
+
+def _finding(
+    code: str,
+    message: str,
+    help: str = "",
+    *notes: str,
+    at: tuple[Trajectory, int] | None = None,
+    severity: Severity = Severity.ERROR,
+) -> Diagnostic:
+    span = None
+    if at is not None and at[0].path and at[0].lines:
+        span = Span(at[0].path, at[0].lines[at[1]], 1)
+    return Diagnostic(code, severity, message, span, help=help, notes=notes)
+
+
+def _capacity(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
+    count = len(trajectory)
+    if count <= capacity:
+        return []
+    return [
+        _finding(
+            "RG617",
+            f"{count} points, the driver holds {capacity}",
+            "`Trajectory.resampled(period)` makes fewer; `trajectory.capacity` in the "
+            "configuration makes room for more (build and deploy again)",
+        )
+    ]
+
+
+def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
+    names, own = trajectory.names, group.names
+    if not names:
+        columns = trajectory.positions.shape[1]
+        if columns == len(own):
+            return []
+        return [
+            _finding(
+                "RG611",
+                f"{columns} joints, the robot has {len(own)}",
+                f"the robot's joints are: {', '.join(own)}",
+            )
+        ]
+    found = [
+        _finding("RG611", f"joint '{name}' is there twice")
+        for name in sorted({name for name in names if names.count(name) > 1})
+    ]
+    found += [
+        _finding(
+            "RG611",
+            f"the robot has no joint '{name}'",
+            suggest(name, own) or f"the robot's joints are: {', '.join(own)}",
+        )
+        for name in names
+        if name not in own
+    ]
+    missing = [name for name in own if name not in names]
+    if missing:
+        found.append(_finding("RG611", f"joints are missing: {', '.join(missing)}"))
+    return found
+
+
+def _finite(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
+    found = []
+    bad = ~np.isfinite(trajectory.positions)
+    for column in np.flatnonzero(bad.any(axis=0)).tolist():
+        points = np.flatnonzero(bad[:, column])
+        value = trajectory.positions[points[0], column]
+        found.append(
+            _finding(
+                "RG613",
+                f"{group.names[column]} is {value} at {_points(points)}",
+                at=(trajectory, int(points[0])),
+            )
+        )
+    return found
+
+
+def _times(trajectory: Trajectory) -> list[Diagnostic]:
+    times = trajectory.times
+    if not np.isfinite(times).all():
+        points = np.flatnonzero(~np.isfinite(times))
+        return [
+            _finding(
+                "RG613",
+                f"the time is {times[points[0]]} at {_points(points)}",
+                at=(trajectory, int(points[0])),
+            )
+        ]
+    found = []
+    if times[0] < 0:
+        found.append(
+            _finding("RG612", f"the first time is {times[0]:g} s", "times count from the start")
+        )
+    late = np.flatnonzero(np.diff(times) <= 0) + 1
+    if len(late):
+        found.append(
+            _finding(
+                "RG612",
+                f"the time does not increase at {_points(late)}",
+                "each point needs a later time than the one before",
+                at=(trajectory, int(late[0])),
+            )
+        )
+    return found
+
+
+def _limits(
+    trajectory: Trajectory, group: Group, wire: Array, whole: npt.NDArray[np.bool_]
+) -> list[Diagnostic]:
+    found = []
+    for column, joint in enumerate(group.joints):
+        values = wire[:, column]
+        inside = (joint.lower - ROUNDING <= values) & (values <= joint.upper + ROUNDING)
+        points = np.flatnonzero(~inside & whole)
+        if not len(points):
+            continue
+        unit = "rad" if joint.kind == "revolute" else "m"
+        coupled = joint.axis == "rax_3" and bool(group.map.coupling)
+        notes = ("axis 3 is coupled: its limits are those of joint 3 and 2 together",)
+        worst = int(points[np.argmax(np.abs(values[points] - (joint.lower + joint.upper) / 2))])
+        found.append(
+            _finding(
+                "RG614",
+                f"{joint.name} is outside its limits at {_points(points)}",
+                f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
+                f"point {worst} has {values[worst]:.4f} {unit}",
+                *(notes if coupled else ()),
+                at=(trajectory, int(points[0])),
+            )
+        )
+    return found
+
+
+def _speeds(
+    trajectory: Trajectory,
+    group: Group,
+    wire: Array,
+    durations: Array,
+    start: Sequence[float] | None,
+) -> list[Diagnostic]:
+    """Segment speeds; the approach to a first point with a time of its own counts as one."""
+    before = wire[:1] if start is None else np.array([start[: wire.shape[1]]])
+    steps = np.abs(np.diff(np.concatenate([before, wire]), axis=0))
+    rates = np.divide(
+        steps, durations[:, None], out=np.zeros_like(steps), where=durations[:, None] > 0
+    )
+    if trajectory.times[0] <= 0:
+        rates[0] = 0.0
+    found = []
+    for column, joint in enumerate(group.joints):
+        points = np.flatnonzero(rates[:, column] > joint.speed * _SPEED_ROUNDING)
+        if not len(points):
+            continue
+        worst = float(rates[points, column].max())
+        unit = "rad/s" if joint.kind == "revolute" else "m/s"
+        found.append(
+            _finding(
+                "RG615",
+                f"{joint.name} is too fast on the way to {_points(points)}",
+                f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
+                f"`scaled({joint.speed / worst:.2f})` would fit",
+                at=(trajectory, int(points[0])),
+            )
+        )
+    return found
+
+
+def _start(
+    trajectory: Trajectory, group: Group, wire: Array, start: Sequence[float] | None
+) -> list[Diagnostic]:
+    if start is None:
+        return []
+    away = np.abs(wire[0] - np.array(start[: wire.shape[1]]))
+    found = []
+    for column in np.flatnonzero(away > group.start_tolerance + ROUNDING).tolist():
+        joint = group.joints[column]
+        unit = "rad" if joint.kind == "revolute" else "m"
+        found.append(
+            _finding(
+                "RG616",
+                f"{joint.name} starts {away[column]:.4f} {unit} away from where the robot stands",
+                "`trajectory.starting_at(robot.state, seconds)` goes there first",
+                f"the robot stands at {start[column]:.4f}, point 0 is {wire[0, column]:.4f} "
+                f"(axis values), tolerance {group.start_tolerance[column]:.4f} {unit}",
+                at=(trajectory, 0),
+            )
+        )
+    return found
+
+
+def _short(trajectory: Trajectory, group: Group, durations: Array) -> list[Diagnostic]:
+    least = group.policy.min_segment
+    points = np.flatnonzero((durations < least - _TIME_ROUNDING) & (durations > 0))
+    if not len(points):
+        return []
+    return [
+        _finding(
+            "RG618",
+            f"the segment to {_points(points)} is shorter than the path planner follows",
+            f"{durations[points].min():.4f} s, at least {least:g} s: `resampled({least:g})`",
+            at=(trajectory, int(points[0])),
+            severity=Severity.ERROR if group.has_limits else Severity.WARNING,
+        )
+    ]
+
+
+def _points(points: npt.NDArray[np.intp]) -> str:
+    if len(points) == 1:
+        return f"point {points[0]}"
+    return f"point {points[0]} and {len(points) - 1} more"

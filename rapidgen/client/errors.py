@@ -1,0 +1,133 @@
+"""What can go wrong, split by what the caller can do about it.
+
+    RobotError                    is a DiagnosticError; carries .messages and .states
+    ├── ConnectionFailed          nobody answers: start it, mend the address; nothing was sent
+    ├── ConnectionLost            the link broke: look at the robot, connect again
+    ├── RobotTimeout              the link stands and the answer did not come in time
+    ├── StopFailed                a STOP was not confirmed: USE THE EMERGENCY STOP
+    ├── ProtocolError             the peer does not speak simple_message
+    ├── IncompatibleDriver        another version or joint map: build and deploy again
+    ├── NotReady                  motors, mode, e-stop, or a motion under way: mend that, try again
+    ├── InvalidTrajectory         mend the trajectory; nothing was sent
+    ├── TrajectoryRefused         the controller said no; nothing moved
+    └── MotionError               the robot moved, and not to the end
+        ├── MotionStopped         by a stop() or cancel()
+        └── MotionFailed          by the controller
+
+`.messages` are the last messages received, oldest first, as (time, text); `.states` the last
+states. Time is that of the client's clock, s.
+"""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+if TYPE_CHECKING:
+    from rapidgen.client.state import State
+    from rapidgen.protocol.spec import Reason
+
+
+class RobotError(DiagnosticError):
+    """Something about a robot went wrong; see this module's head for the kinds."""
+
+    exit_code = 1
+
+    def __init__(
+        self,
+        diagnostics: Diagnostic | Iterable[Diagnostic],
+        *,
+        messages: Iterable[tuple[float, str]] = (),
+        states: "Iterable[State]" = (),
+        exit_code: int = 1,
+    ) -> None:
+        super().__init__(diagnostics, exit_code=exit_code)
+        self.messages = tuple(messages)
+        self.states = tuple(states)
+
+
+class ConnectionFailed(RobotError):
+    """No connection could be made; nothing was sent."""
+
+
+class ConnectionLost(RobotError):
+    """A connection broke. The robot may still move: look at it."""
+
+
+class RobotTimeout(RobotError):
+    """The connection stands, and what was waited for did not come in time."""
+
+
+class StopFailed(RobotError):
+    """A STOP was not confirmed. Use the emergency stop."""
+
+
+class ProtocolError(RobotError):
+    """The peer sent bytes that no driver of this protocol sends."""
+
+
+class IncompatibleDriver(RobotError):
+    """The driver on the controller is of another version or has another joint map."""
+
+
+class NotReady(RobotError):
+    """The robot cannot move now: motors, mode, emergency stop, or a motion under way."""
+
+
+class InvalidTrajectory(RobotError):
+    """Every fault of a trajectory, found before a byte was sent."""
+
+
+class TrajectoryRefused(RobotError):
+    """The controller refused the whole trajectory; nothing moved.
+
+    `reason` is None when the driver gave none; `point` from 0 (-1 none), `joint` from 1 (0 none).
+    """
+
+    def __init__(
+        self,
+        diagnostic: Diagnostic,
+        *,
+        reason: "Reason | None" = None,
+        point: int = -1,
+        joint: int = 0,
+        messages: Iterable[tuple[float, str]] = (),
+        states: "Iterable[State]" = (),
+    ) -> None:
+        super().__init__(diagnostic, messages=messages, states=states)
+        self.reason = reason
+        self.point = point
+        self.joint = joint
+
+
+class MotionError(RobotError):
+    """The robot began to move and did not reach the end.
+
+    `reached` is the number of points known to be reached, None when the driver does not say.
+    """
+
+    def __init__(
+        self,
+        diagnostic: Diagnostic,
+        *,
+        reason: "Reason | None" = None,
+        reached: int | None = None,
+        messages: Iterable[tuple[float, str]] = (),
+        states: "Iterable[State]" = (),
+    ) -> None:
+        super().__init__(diagnostic, messages=messages, states=states)
+        self.reason = reason
+        self.reached = reached
+
+
+class MotionStopped(MotionError):
+    """Stopped on request."""
+
+
+class MotionFailed(MotionError):
+    """Ended by the controller, or the robot stands where it should not."""
+
+
+def fault(code: str, message: str, help: str = "", *notes: str) -> Diagnostic:
+    """An error without a place in a text."""
+    return Diagnostic(code, Severity.ERROR, message, help=help, notes=notes)

@@ -1,0 +1,204 @@
+"""Trajectories in files: CSV `time,<joint names>`, JSON, and ROS messages as dicts."""
+
+import csv
+import io
+import json
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from rapidgen.client.errors import InvalidTrajectory, fault
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+
+_SHOWN = 20
+"""Findings of one file that are worth reading."""
+
+
+def _bad(
+    message: str, path: Path, line: int = 1, column: int = 1, help: str = "", width: int = 0
+) -> Diagnostic:
+    end = column + width if width else 0
+    span = Span(str(path), line, column, line if width else 0, end)
+    return Diagnostic("RG610", Severity.ERROR, message, span, help=help)
+
+
+def _read(path: Path) -> str:
+    try:
+        return path.read_text(encoding="utf-8-sig")
+    except OSError as error:
+        reason = (error.strerror or str(error)).lower()
+        raise InvalidTrajectory(
+            fault("RG610", f"cannot read {path}: {reason}"), exit_code=2
+        ) from error
+    except UnicodeDecodeError as error:
+        raise InvalidTrajectory(
+            fault("RG610", f"{path} is not text in UTF-8"), exit_code=2
+        ) from error
+
+
+def read_csv(path: Path) -> Trajectory:
+    """Read `time,<joint names>`. Empty lines and lines that begin with # are skipped."""
+    text = _read(path)
+    help = "the first line is `time,<joint names>`; then s and rad (m), with a decimal point"
+    names: list[str] = []
+    rows: list[list[float]] = []
+    lines: list[int] = []
+    found: list[Diagnostic] = []
+    for number, line in enumerate(text.splitlines(), 1):
+        if not line.strip() or line.lstrip().startswith("#"):
+            continue
+        cells = line.split(",")
+        if not names:
+            names = [cell.strip() for cell in cells]
+            if names[0] != "time" or len(names) < 2 or "" in names:
+                raise InvalidTrajectory(
+                    _bad("the header is not `time,<joint names>`", path, number, help=help),
+                    exit_code=2,
+                )
+            double = sorted({name for name in names if names.count(name) > 1})
+            found += [_bad(f"column '{name}' is there twice", path, number) for name in double]
+            continue
+        if len(cells) != len(names):
+            message = f"{len(cells)} values, the header has {len(names)}"
+            found.append(_bad(message, path, number, help=help if not found else ""))
+            continue
+        row = []
+        column = 1
+        for cell in cells:
+            try:
+                row.append(float(cell))
+            except ValueError:
+                message = f"'{cell.strip()}' is not a number"
+                found.append(_bad(message, path, number, column, width=max(1, len(cell))))
+            column += len(cell) + 1
+        if len(row) == len(names):
+            rows.append(row)
+            lines.append(number)
+    if not names:
+        raise InvalidTrajectory(_bad("the file is empty", path, help=help), exit_code=2)
+    if found:
+        if len(found) > _SHOWN:
+            rest = fault("RG610", f"{len(found) - _SHOWN} more faults of this kind in {path}")
+            found = [*found[:_SHOWN], rest]
+        raise InvalidTrajectory(found, exit_code=2)
+    return Trajectory(
+        times=_column(rows, 0),
+        positions=_columns(rows, len(names) - 1),
+        names=tuple(names[1:]),
+        path=str(path),
+        lines=tuple(lines),
+    )
+
+
+def _column(rows: Sequence[Sequence[float]], index: int) -> Any:  # noqa: ANN401 - numpy
+    import numpy as np
+
+    return np.array([row[index] for row in rows], dtype=np.float64)
+
+
+def _columns(rows: Sequence[Sequence[float]], count: int) -> Any:  # noqa: ANN401 - numpy
+    import numpy as np
+
+    return np.array([row[1:] for row in rows], dtype=np.float64).reshape(len(rows), count)
+
+
+def write_csv(path: Path, trajectory: Trajectory) -> None:
+    """Write `time,<joint names>`. Raises OSError."""
+    names = trajectory.names or tuple(
+        f"joint_{i + 1}" for i in range(trajectory.positions.shape[1])
+    )
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(["time", *names])
+    for time, row in zip(trajectory.times.tolist(), trajectory.positions.tolist(), strict=True):
+        writer.writerow([repr(time), *(repr(value) for value in row)])
+    path.write_text(out.getvalue(), encoding="utf-8")
+
+
+def read_json(path: Path) -> Trajectory:
+    """Read `{"joint_names", "times", "positions"}` or a JointTrajectory (`points`)."""
+    text = _read(path)
+    try:
+        content = json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InvalidTrajectory(
+            _bad(f"not JSON: {error.msg.lower()}", path, error.lineno, error.colno), exit_code=2
+        ) from error
+    except RecursionError as error:
+        raise InvalidTrajectory(_bad("nested too deep", path), exit_code=2) from error
+    if not isinstance(content, dict):
+        raise InvalidTrajectory(_bad("the file holds no JSON object", path), exit_code=2)
+    if "points" in content:
+        return from_ros(content, path=str(path))
+    missing = [key for key in ("times", "positions") if key not in content]
+    if missing:
+        raise InvalidTrajectory(
+            _bad(
+                f"'{missing[0]}' is missing",
+                path,
+                help="`joint_names`, `times` and `positions`, or `joint_names` and `points`",
+            ),
+            exit_code=2,
+        )
+    names = _names(content.get("joint_names", []), str(path))
+    return Trajectory(content["times"], content["positions"], names, path=str(path))
+
+
+def from_ros(message: Mapping[str, Any], *, path: str = "") -> Trajectory:
+    """A trajectory_msgs/JointTrajectory as ROS 1 or 2 tools print it.
+
+    `time_from_start` is a number of s or a dict with `secs`/`nsecs` or `sec`/`nanosec`. Only
+    positions and times are used. Raises InvalidTrajectory, all faults.
+    """
+    where = f" in {path}" if path else ""
+    points = message.get("points")
+    if not isinstance(points, Sequence) or isinstance(points, str):
+        raise InvalidTrajectory(fault("RG610", f"'points' is not a list{where}"), exit_code=2)
+    names = _names(message.get("joint_names", []), path)
+    times: list[float] = []
+    positions: list[list[float]] = []
+    found: list[Diagnostic] = []
+    for index, point in enumerate(points):
+        try:
+            times.append(_seconds(point["time_from_start"]))
+            row = [float(value) for value in point["positions"]]
+        except (KeyError, TypeError, ValueError) as error:
+            what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+            found.append(fault("RG610", f"point {index}{where}: {what}"))
+            continue
+        if positions and len(row) != len(positions[0]):
+            found.append(fault("RG610", f"point {index}{where}: {len(row)} positions"))
+            continue
+        positions.append(row)
+    if found:
+        raise InvalidTrajectory(found[:_SHOWN], exit_code=2)
+    width = len(positions[0]) if positions else len(names)
+    import numpy as np
+
+    return Trajectory(
+        np.array(times, dtype=np.float64),
+        np.array(positions, dtype=np.float64).reshape(len(positions), width),
+        names,
+        path=path,
+    )
+
+
+def _names(names: object, path: str) -> tuple[str, ...]:
+    if not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
+        where = f" in {path}" if path else ""
+        raise InvalidTrajectory(
+            fault("RG610", f"'joint_names' is not a list of texts{where}"), exit_code=2
+        )
+    return tuple(names)
+
+
+def _seconds(value: object) -> float:
+    if isinstance(value, Mapping):
+        for whole, part in (("secs", "nsecs"), ("sec", "nanosec")):
+            if whole in value:
+                return float(value[whole]) + 1e-9 * float(value.get(part, 0))
+        raise ValueError("time_from_start has neither secs nor sec")
+    if isinstance(value, int | float) and not isinstance(value, bool):
+        return float(value)
+    raise ValueError("time_from_start is no time")

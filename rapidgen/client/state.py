@@ -1,0 +1,140 @@
+"""What the robot said about itself, in the caller's units and names."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from rapidgen.protocol import messages
+from rapidgen.protocol.spec import (
+    Feature,
+    Mode,
+    Reason,
+    TrajectoryState,
+    TriState,
+    split_error_code,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Status:
+    """STATUS with its numbers as enums; `error` is None when the driver does not tell it."""
+
+    drives: TriState = TriState.UNKNOWN
+    e_stopped: TriState = TriState.UNKNOWN
+    in_error: TriState = TriState.UNKNOWN
+    in_motion: TriState = TriState.UNKNOWN
+    motion_possible: TriState = TriState.UNKNOWN
+    mode: Mode = Mode.UNKNOWN
+    error_code: int = 0
+    error: Reason | None = None
+    error_joint: int = 0
+    """1 to 10; 0 when the error is of no joint."""
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a trajectory is; numbers of points are None where the driver does not say."""
+
+    state: TrajectoryState
+    total: int
+    received: int | None = None
+    planned: int | None = None
+    reached: int | None = None
+    fraction: float = 0.0
+    """0 to 1; by time where the driver does not say."""
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """Joints and status at one moment.
+
+    `joints` and `velocity` are in rad and m (per s), in URDF order, as `names`; `time` is the
+    moment of reception on the client's clock, s; `rate` the measured joint messages per s.
+    """
+
+    names: tuple[str, ...]
+    joints: tuple[float, ...]
+    velocity: tuple[float, ...]
+    status: Status
+    time: float
+    rate: float
+    number: int
+    """Joint messages since the connection was made."""
+    clock: Callable[[], float] = field(repr=False, compare=False)
+
+    def __getitem__(self, name: str) -> float:
+        """The value of the joint `name`. Raises KeyError."""
+        try:
+            return self.joints[self.names.index(name)]
+        except ValueError:
+            raise KeyError(name) from None
+
+    @property
+    def by_name(self) -> dict[str, float]:
+        """Joint values by URDF name."""
+        return dict(zip(self.names, self.joints, strict=True))
+
+    @property
+    def age(self) -> float:
+        """Seconds since this state was received."""
+        return self.clock() - self.time
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the controller says that the robot moves."""
+        return self.status.in_motion is TriState.TRUE
+
+
+@dataclass(frozen=True, slots=True)
+class Driver:
+    """Who answered: a rapidgen driver by its HELLO, or plain simple_message."""
+
+    hello: messages.HelloReply | None = None
+
+    @property
+    def is_rapidgen(self) -> bool:
+        """Whether the driver answered HELLO."""
+        return self.hello is not None
+
+    @property
+    def features(self) -> Feature:
+        """What it can do beyond the standard messages."""
+        return Feature(self.hello.features) if self.hello else Feature(0)
+
+    @property
+    def version(self) -> str:
+        """Version of rapidgen that generated it, or an empty text."""
+        return ".".join(map(str, self.hello.driver)) if self.hello else ""
+
+    @property
+    def cannot(self) -> tuple[str, ...]:
+        """What a paired client has and this driver does not give."""
+        missing = []
+        if not self.is_rapidgen:
+            missing.append("tell its version, joint map and capacity")
+            missing.append("say why it refuses or stops")
+        if Feature.PROGRESS not in self.features:
+            missing.append("tell when a trajectory is done: position, in_motion and time decide")
+        if Feature.CONTROL not in self.features:
+            missing.append("take STOP beside points: it waits behind what was sent")
+        return tuple(missing)
+
+
+def tri_state(value: int) -> TriState:
+    """A tri-state of the wire; anything unknown is UNKNOWN."""
+    return TriState(value) if value in (0, 1) else TriState.UNKNOWN
+
+
+def status_of(raw: messages.Status, driver: Driver) -> Status:
+    """STATUS with enums. Only a rapidgen driver's error_code is a reason."""
+    error, joint = split_error_code(raw.error_code) if driver.is_rapidgen else (None, 0)
+    return Status(
+        drives=tri_state(raw.drives_powered),
+        e_stopped=tri_state(raw.e_stopped),
+        in_error=tri_state(raw.in_error),
+        in_motion=tri_state(raw.in_motion),
+        motion_possible=tri_state(raw.motion_possible),
+        mode=Mode(raw.mode) if raw.mode in (1, 2) else Mode.UNKNOWN,
+        error_code=raw.error_code,
+        error=error,
+        error_joint=joint,
+    )

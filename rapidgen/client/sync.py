@@ -1,0 +1,291 @@
+"""`Robot`: the synchronous client. Callers' threads write, one thread a robot reads."""
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from os import PathLike
+from types import TracebackType
+from typing import Self, TypeVar
+
+from rapidgen.client import flows
+from rapidgen.client.address import Address
+from rapidgen.client.channels import Channel, Reader
+from rapidgen.client.core import Core, Timeouts
+from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
+from rapidgen.client.flows import Connect, Flow, Send, Wait
+from rapidgen.client.group import Group
+from rapidgen.client.recording import Recording
+from rapidgen.client.run import Result, Run
+from rapidgen.client.state import Driver, Progress, State
+from rapidgen.client.target import resolve
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.client.view import View
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import Diagnostic
+from rapidgen.protocol.spec import Port
+
+T = TypeVar("T")
+_SLICE = 0.1
+"""s: time itself is looked at this often while nothing comes."""
+
+
+class Robot:
+    """One motion group of a robot, driven over its rapidgen driver or a plain abb_driver.
+
+    `target` is a configuration file, a shipped name, a RobotConfig, or an address
+    `HOST[:MOTION[,STATE]]`; a configuration is looked for at `address`, else on this machine.
+    `group` names the motion group where there are several. `watch` never opens the motion port.
+    `plain` does not ask for a rapidgen driver. `reconnect` is for how many s a lost connection
+    is tried again by the next call; nothing is ever sent again.
+
+    All methods may be called from any thread. Joints are rad and m in URDF order.
+    """
+
+    def __init__(
+        self,
+        target: "str | PathLike[str] | RobotConfig",
+        *,
+        address: str | Address | None = None,
+        group: str = "",
+        timeouts: Timeouts | None = None,
+        watch: bool = False,
+        plain: bool = False,
+        reconnect: float = 0.0,
+    ) -> None:
+        self.address, known = resolve(target, address, group)
+        self._watch = watch
+        self._core = Core(
+            known, timeouts or Timeouts(), time.monotonic, plain=plain, reconnect=reconnect
+        )
+        self._changed = threading.Condition()
+        self._channels: dict[Port, Channel] = {}
+        self._reader: Reader | None = None
+
+    # Connection
+
+    def connect(self) -> Self:
+        """Connect and find out who is there.
+
+        Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
+        """
+        try:
+            self._run(flows.connect(self._core, watch=self._watch))
+        except BaseException:
+            self.close()
+            raise
+        return self
+
+    def close(self) -> None:
+        """Close all connections. A motion under way is stopped first."""
+        run = self._core.run
+        if run is not None and not run.is_over and Port.MOTION in self._channels:
+            self.stop()
+        with self._changed:
+            self._core.closed()
+            channels, self._channels = list(self._channels.values()), {}
+            reader, self._reader = self._reader, None
+        if reader is not None:
+            for channel in channels:
+                reader.remove(channel)
+            reader.close()
+
+    def __enter__(self) -> Self:
+        return self if self.is_connected else self.connect()
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether all connections stand."""
+        core = self._core
+        return core.state_open and (self._watch or core.talks[Port.MOTION].is_open)
+
+    @property
+    def driver(self) -> Driver:
+        """Who answered, and what it cannot do."""
+        return self._core.tracker.driver
+
+    @property
+    def group(self) -> Group:
+        """Joints, limits and policy. Raises ConnectionLost before they are known."""
+        if self._core.group is None:
+            raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+        return self._core.group
+
+    @property
+    def messages(self) -> tuple[tuple[float, str], ...]:
+        """The last messages received, as (time, text)."""
+        with self._changed:
+            return self._core.tracker.messages
+
+    # State
+
+    @property
+    def state(self) -> State:
+        """The newest state. Raises ConnectionLost before the first."""
+        with self._changed:
+            state = self._core.tracker.state
+            if state is None:
+                raise self._core.fault or ConnectionLost(
+                    fault("RG602", "not connected", "connect()")
+                )
+            return state
+
+    def next_state(self, timeout: float | None = None) -> State:
+        """The state of the next joint message. Raises RobotTimeout, ConnectionLost."""
+        return self._run(flows.next_state(self._core, timeout))
+
+    def states(self, timeout: float | None = None) -> Iterator[State]:
+        """Each new state as it comes; `timeout` s for each."""
+        while True:
+            yield self.next_state(timeout)
+
+    def wait_until(self, condition: Callable[[State], bool], timeout: float) -> State:
+        """The first state for which `condition` holds. Raises RobotTimeout, ConnectionLost."""
+        flow = flows.wait_until(self._core, condition, timeout, "what was waited for")
+        return self._run(flow)
+
+    @contextmanager
+    def recording(self) -> Iterator[Recording]:
+        """Keep every joint message while the block runs."""
+        with self._changed:
+            recording = Recording(self.group)
+            self._core.tracker.listeners.append(recording.add)
+        try:
+            yield recording
+        finally:
+            with self._changed:
+                self._core.tracker.listeners.remove(recording.add)
+
+    # Motion
+
+    def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
+        """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
+        with self._changed:
+            return self._core.plan(trajectory).warnings
+
+    def execute(self, trajectory: Trajectory) -> "Execution":
+        """Send a trajectory; returns when the controller has taken it and begins to move.
+
+        Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused when
+        nothing will move, RobotTimeout, ConnectionLost.
+        """
+        return Execution(self, self._run(flows.execute(self._core, trajectory)))
+
+    def stop(self) -> State | None:
+        """Stop at once, from any thread; the state in which the robot stands.
+
+        Also without a connection: then the motion port alone is opened, nobody sees the robot
+        stand, and None is returned. Raises StopFailed: use the emergency stop.
+        """
+        return self._run(flows.stop(self._core))
+
+    def _run(self, flow: Flow[T]) -> T:
+        """Carry out a flow: effects without the lock, its own steps with it."""
+        outcome: object = None
+        failure: BaseException | None = None
+        while True:
+            error, failure = failure, None
+            try:
+                with self._changed:
+                    effect = flow.send(outcome) if error is None else flow.throw(error)
+            except StopIteration as end:
+                value: T = end.value
+                return value
+            try:
+                outcome = self._perform(effect)
+            except (RobotError, KeyboardInterrupt) as raised:
+                failure = raised
+
+    def _perform(self, effect: Connect | Send | Wait) -> bool:
+        if isinstance(effect, Wait):
+            return self._wait(effect)
+        if isinstance(effect, Connect):
+            self._connect(effect)
+            return True
+        channel = self._channels.get(effect.port)
+        if channel is None:
+            raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+        if effect.urgent:
+            channel.send_urgent(effect.data, effect.timeout)
+        elif not channel.send(effect.data, effect.timeout, self._is_stopping):
+            raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
+        return True
+
+    def _is_stopping(self) -> bool:
+        run = self._core.run
+        return run is not None and run.stopping
+
+    def _wait(self, effect: Wait) -> bool:
+        deadline = time.monotonic() + effect.timeout
+        with self._changed:
+            while not effect.until():
+                left = deadline - time.monotonic()
+                if left <= 0:
+                    return False
+                self._changed.wait(min(left, _SLICE))
+                self._core.poll()
+            return True
+
+    def _connect(self, effect: Connect) -> None:
+        channel = Channel(self.address, effect.port, effect.timeout)
+        with self._changed:
+            if self._reader is None:
+                self._reader = Reader(self._received, self._lost, str(self.address))
+            old = self._channels.get(effect.port)
+            if old is not None:
+                self._reader.remove(old)
+            self._channels[effect.port] = channel
+            self._core.opened(effect.port)
+            self._reader.add(channel)
+
+    def _received(self, channel: Channel, data: bytes) -> None:
+        with self._changed:
+            if self._channels.get(channel.port) is channel:
+                if not self._core.received(channel.port, data):
+                    del self._channels[channel.port]
+                    assert self._reader is not None
+                    self._reader.remove(channel)
+                self._changed.notify_all()
+
+    def _lost(self, channel: Channel, why: str) -> None:
+        with self._changed:
+            if self._channels.get(channel.port) is channel:
+                del self._channels[channel.port]
+                self._core.lost(channel.port, why)
+                self._changed.notify_all()
+
+
+class Execution(View):
+    """A trajectory that the controller has taken."""
+
+    def __init__(self, robot: Robot, run: Run) -> None:
+        super().__init__(run)
+        self._robot = robot
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now."""
+        with self._robot._changed:
+            return self._run.progress
+
+    def result(self, timeout: float | None = None) -> Result:
+        """Wait for the end; by default four times the planned time and 30 s.
+
+        Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout when it did not end in
+        time (it goes on). Ctrl-C here stops the robot.
+        """
+        return self._robot._run(flows.result(self._robot._core, self._run, timeout))
+
+    def cancel(self) -> State | None:
+        """Stop this motion; the state in which the robot stands. Nothing when it is over."""
+        if not self._run.is_over:
+            self._stopped = self._robot.stop()
+        return self._stopped

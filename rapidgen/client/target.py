@@ -1,0 +1,56 @@
+"""What a caller connects to: a configuration, a shipped name, an address, or a mix of them."""
+
+from os import PathLike
+
+from rapidgen.client.address import LOOPBACK, Address, parse_address
+from rapidgen.client.errors import fault
+from rapidgen.client.group import Group
+from rapidgen.config import load_config, shipped_names
+from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.diagnostics import DiagnosticError, suggest
+
+Target = "str | PathLike[str] | RobotConfig"
+_SUFFIXES = (".yaml", ".yml")
+
+
+def resolve(
+    target: "str | PathLike[str] | RobotConfig", address: str | Address | None, group: str
+) -> tuple[Address, Group | None]:
+    """Where to connect, and what is known about the robot (None: ask the driver).
+
+    A RobotConfig, a path that ends in .yaml, or a shipped name is a configuration; it is looked
+    for at `address`, else on this machine. Any other text is an address itself. Raises
+    DiagnosticError.
+    """
+    if isinstance(target, RobotConfig):
+        config = target
+    else:
+        text = str(target)
+        if not (text.endswith(_SUFFIXES) or text in shipped_names()):
+            if address is not None or group:
+                raise DiagnosticError(
+                    fault(
+                        "RG607",
+                        f"'{text}' is no configuration and no shipped name",
+                        suggest(text, shipped_names()) or "`rapidgen robots` lists the names",
+                    )
+                )
+            return parse_address(text), None
+        config = load_config(text)
+    chosen = _group(config, group)
+    if isinstance(address, Address):
+        return address, Group.of(config, chosen)
+    return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
+
+
+def _group(config: RobotConfig, name: str) -> MotionGroup:
+    names = [group.name for group in config.groups]
+    if not name and len(names) == 1:
+        return config.groups[0]
+    for group in config.groups:
+        if group.name == name:
+            return group
+    said = f"'{config.name}' has no motion group '{name}'" if name else "which motion group?"
+    raise DiagnosticError(
+        fault("RG608", said, suggest(name, names) or f"the groups are: {', '.join(names)}")
+    )

@@ -1,0 +1,185 @@
+"""Sans-IO reader of a state connection: bytes and times in, the newest state out.
+
+A State is made only when somebody looks: one hundred robots are watched by one process.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rapidgen.client.group import Group
+from rapidgen.client.state import Driver, State, Status, status_of
+from rapidgen.protocol import ContentError, FrameSplitter, decode, messages, spec
+from rapidgen.protocol.frames import Frame
+
+KEPT_MESSAGES = 32
+KEPT_STATES = 16
+_RATE_WINDOW = 16
+_NAMES = {message.number: message.name for message in spec.MESSAGES}
+
+
+@dataclass(slots=True)
+class Sample:
+    """One joint message: when it came, and the ten axis values of the wire."""
+
+    time: float
+    joints: tuple[float, ...]
+
+
+class Tracker:
+    """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self.clock = clock
+        self.driver = Driver()
+        self.progress: messages.Progress | None = None
+        self.hello: messages.HelloReply | messages.HelloRefusal | None = None
+        self.samples = 0
+        self.updates = 0
+        self.heard = clock()
+        """When the last message came."""
+        self.listeners: list[Callable[[Sample], None]] = []
+        self._group: Group | None = None
+        self._splitter = FrameSplitter()
+        self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
+        self._times: deque[float] = deque(maxlen=_RATE_WINDOW)
+        self._status: messages.Status | None = None
+        self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
+        self._state: State | None = None
+
+    def restart(self) -> None:
+        """A new connection: what was half received is forgotten, what was seen last is kept."""
+        self._splitter = FrameSplitter()
+        self.hello = None
+        self.progress = None
+        self.driver = Driver()
+        self._times.clear()
+        self._status = None
+        self.samples = 0
+        self.heard = self.clock()
+        self._state = None
+
+    def use(self, group: Group) -> None:
+        """From now on states have this group's names and units."""
+        self._group = group
+        self._state = None
+
+    def feed(self, data: bytes) -> None:
+        """Take received bytes. Raises FramingError; unknown messages are noted and skipped."""
+        self._splitter.feed(data)
+        now = self.clock()
+        while (frame := self._splitter.next()) is not None:
+            self._log.append((now, frame))
+            try:
+                content = decode(frame)
+            except ContentError as error:
+                self._log.append((now, str(error)))
+                continue
+            self._take(content, now)
+
+    def _take(self, content: messages.Content, now: float) -> None:
+        self.heard = now
+        self.updates += 1
+        self._state = None
+        if isinstance(content, messages.JointPosition):
+            sample = Sample(now, content.joints)
+            self.samples += 1
+            self._recent.append(sample)
+            self._times.append(now)
+            for listener in self.listeners:
+                listener(sample)
+        elif isinstance(content, messages.Status):
+            self._status = content
+        elif isinstance(content, messages.Progress):
+            self.progress = content
+        elif isinstance(content, messages.HelloReply):
+            self.hello = content
+            self.driver = Driver(content)
+        elif isinstance(content, messages.HelloRefusal):
+            self.hello = content
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether joints and status have both come on this connection."""
+        return self.samples > 0 and self._status is not None
+
+    @property
+    def status(self) -> Status:
+        """The newest status; all unknown before the first."""
+        return status_of(self._status, self.driver) if self._status else Status()
+
+    @property
+    def wire_joints(self) -> tuple[float, ...] | None:
+        """The newest joints as the wire has them, None before the first."""
+        return self._recent[-1].joints if self._recent else None
+
+    @property
+    def rate(self) -> float:
+        """Joint messages per second over the last ones; 0 before two have come."""
+        span = self._times[-1] - self._times[0] if len(self._times) > 1 else 0.0
+        return (len(self._times) - 1) / span if span > 0 else 0.0
+
+    @property
+    def state(self) -> State | None:
+        """The newest state, None before the first joints."""
+        if self._state is None and self._recent and self._group is not None:
+            self._state = self._make(self._recent[-1], self._velocity(), self.samples)
+        return self._state
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        """The last states, oldest first, with the newest status (for exceptions)."""
+        if self._group is None:
+            return ()
+        zero = (0.0,) * len(self._group.names)
+        first = self.samples - len(self._recent) + 1
+        older = [self._make(s, zero, first + i) for i, s in enumerate(self._recent)][:-1]
+        return (*older, self.state) if self.state else ()
+
+    @property
+    def messages(self) -> tuple[tuple[float, str], ...]:
+        """The last messages as (time, text), oldest first."""
+        return tuple((time, _text(entry)) for time, entry in self._log)
+
+    def note(self, text: str) -> None:
+        """Keep a line beside the messages."""
+        self._log.append((self.clock(), text))
+
+    def keep(self, frame: Frame) -> None:
+        """Keep a frame of another connection beside the messages."""
+        self._log.append((self.clock(), frame))
+
+    def _make(self, sample: Sample, velocity: tuple[float, ...], number: int) -> State:
+        assert self._group is not None
+        return State(
+            names=self._group.names,
+            joints=self._group.from_wire(sample.joints),
+            velocity=velocity,
+            status=self.status,
+            time=sample.time,
+            rate=self.rate,
+            number=number,
+            clock=self.clock,
+        )
+
+    def _velocity(self) -> tuple[float, ...]:
+        """Over up to three intervals: single ones jitter with the network."""
+        assert self._group is not None
+        last = self._recent[-1]
+        window = list(self._recent)[-4:]
+        first = next((s for s in window if s.time < last.time), last)
+        span = last.time - first.time
+        if span <= 0:
+            return (0.0,) * len(self._group.names)
+        now, then = self._group.from_wire(last.joints), self._group.from_wire(first.joints)
+        return tuple((a - b) / span for a, b in zip(now, then, strict=True))
+
+
+def _text(entry: Frame | str) -> str:
+    if isinstance(entry, str):
+        return entry
+    try:
+        return str(decode(entry))
+    except ContentError:
+        name = _NAMES.get(entry.number, str(entry.number))
+        return f"{name} comm_type {entry.comm} reply_code {entry.reply}: {entry.data.hex()}"

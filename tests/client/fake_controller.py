@@ -1,0 +1,320 @@
+"""A scripted controller on real sockets: does what a test tells it, right or wrong.
+
+Not a model of ABB's controller (that is rapidgen.virtual): it plays points by time and answers
+as told. Bytes are made by `struct` here, not by rapidgen's codec.
+"""
+
+import contextlib
+import socket
+import struct
+import threading
+import time
+from dataclasses import dataclass, field
+
+HEAD = struct.Struct("<4i")
+POINT = struct.Struct("<i10fff")
+
+
+def frame(number, comm, reply, data=b""):
+    return HEAD.pack(12 + len(data), number, comm, reply) + data
+
+
+def joint_frame(joints):
+    return frame(10, 1, 0, struct.pack("<i10f", 0, *joints, *[0.0] * (10 - len(joints))))
+
+
+def status_frame(**values):
+    fields = {
+        "drives": 1,
+        "e_stopped": 0,
+        "error_code": 0,
+        "in_error": 0,
+        "in_motion": 0,
+        "mode": 2,
+        "possible": 1,
+    }
+    return frame(13, 1, 0, struct.pack("<7i", *{**fields, **values}.values()))
+
+
+@dataclass
+class Script:
+    """What the controller does. Times in s."""
+
+    joints: int = 6
+    rapidgen: bool = True
+    mapping: str = ""
+    protocol: int = 1
+    capacity: int = 1000
+    state_period: float = 0.01
+    speed: float = 1.0
+    """Played so many times faster than asked."""
+    chop: int = 0
+    """Send state bytes in pieces of this size."""
+    merge: int = 1
+    """Send so many states in one segment."""
+    answer_end: bool = True
+    end_delay: float = 0.0
+    refuse: tuple[int, int, int] | None = None
+    bare_failure: bool = False
+    answer_stop: bool = True
+    stop_code: int = 1
+    moves: bool = True
+    ends_at: float = 1.0
+    """Share of the trajectory after which it fails (reason 44)."""
+    coasts: bool = False
+    """Never stands after STOP."""
+    read_bytes: int = 65536
+    read_pause: float = 0.0
+    status: dict = field(default_factory=dict)
+    raw_state: bytes | None = None
+    """Sent once instead of states, then closed."""
+    silent_after: float = float("inf")
+    """No state after so many s of motion."""
+    control: bool = False
+
+
+class FakeController:
+    """Listens on three ports of loopback; `points` and `stops` are what came in."""
+
+    def __init__(self, script=None, **options):
+        self.script = script or Script(**options)
+        self.lock = threading.Lock()
+        self.position = [0.0] * self.script.joints
+        self.points = []
+        self.frames = []
+        self.stops = []
+        self.hellos = 0
+        self.connections = 0
+        self.trajectory = 0
+        self.progress = [0, 0, 0, 0, 0, 0, -1, 0]
+        self._plan = None
+        self._started = 0.0
+        self._moving = False
+        self._ended = threading.Event()
+        self._clients = set()
+        self._servers = {name: self._listen() for name in ("motion", "state", "control")}
+        self.ports = {name: server.getsockname()[1] for name, server in self._servers.items()}
+        self._threads = [
+            threading.Thread(target=self._accept, args=(name,), daemon=True)
+            for name in self._servers
+        ]
+        for thread in self._threads:
+            thread.start()
+
+    @property
+    def address(self):
+        return f"127.0.0.1:{self.ports['motion']},{self.ports['state']}"
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        self._ended.set()
+        for server in self._servers.values():
+            with contextlib.suppress(OSError):
+                server.shutdown(socket.SHUT_RDWR)
+            server.close()
+        self.drop()
+        for thread in list(self._threads):
+            thread.join(5)
+
+    def drop(self, only=None):
+        """Close what is connected, as a controller that restarts."""
+        with self.lock:
+            clients = [c for c in self._clients if only is None or c[0] == only]
+        for _, client in clients:
+            with contextlib.suppress(OSError):
+                client.shutdown(socket.SHUT_RDWR)
+
+    @staticmethod
+    def _listen():
+        server = socket.create_server(("127.0.0.1", 0))
+        server.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+        return server
+
+    def _accept(self, name):
+        while not self._ended.is_set():
+            try:
+                client, _ = self._servers[name].accept()
+            except OSError:
+                return
+            client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            self.connections += 1
+            with self.lock:
+                self._clients.add((name, client))
+            serve = self._state if name == "state" else self._motion
+            thread = threading.Thread(target=self._guarded, args=(serve, name, client), daemon=True)
+            self._threads.append(thread)
+            thread.start()
+
+    def _guarded(self, serve, name, client):
+        try:
+            serve(client)
+        except OSError:
+            pass
+        finally:
+            with self.lock:
+                self._clients.discard((name, client))
+            client.close()
+
+    # The motion port
+
+    def _motion(self, client):
+        buffer = b""
+        while data := client.recv(self.script.read_bytes):
+            buffer += data
+            if self.script.read_pause:
+                self._ended.wait(self.script.read_pause)
+            while len(buffer) >= 4 and len(buffer) >= 4 + (n := struct.unpack("<i", buffer[:4])[0]):
+                piece, buffer = buffer[: 4 + n], buffer[4 + n :]
+                self._take(client, piece)
+
+    def _take(self, client, piece):
+        _, number, comm, _ = HEAD.unpack_from(piece)
+        values = POINT.unpack_from(piece, 16)
+        sequence = values[0]
+        self.frames.append((number, comm, sequence))
+        if sequence == -4:
+            self.stops.append(time.monotonic())
+            self._halt()
+            if self.script.answer_stop and comm == 2:
+                client.sendall(frame(11, 3, self.script.stop_code))
+            return
+        with self.lock:
+            if sequence == -1:
+                self.points = []
+                self.trajectory += 1
+                self.progress = [self.trajectory, 1, 0, 0, 0, 0, -1, 0]
+            self.points.append((values[1 : 1 + self.script.joints], values[12]))
+            self.progress[2] = len(self.points)
+        if sequence == -3 and comm == 2:
+            self._ended.wait(self.script.end_delay)
+            if self.script.refuse:
+                with self.lock:
+                    self.progress[1] = 4
+                    self.progress[5:8] = self.script.refuse
+                client.sendall(frame(11, 3, 2, struct.pack("<3i", *self.script.refuse)))
+                return
+            if self.script.bare_failure:
+                client.sendall(frame(11, 3, 2))
+                return
+            self._start()
+            if self.script.answer_end:
+                number = struct.pack("<i", self.trajectory) if self.script.rapidgen else b""
+                client.sendall(frame(11, 3, 1, number))
+
+    def _start(self):
+        with self.lock:
+            if not self.script.moves:
+                return
+            times = [0.0]
+            for _, duration in self.points[1:]:
+                times.append(times[-1] + duration / self.script.speed)
+            self._plan = (times, [list(point) for point, _ in self.points])
+            self._started = time.monotonic()
+            self._moving = True
+            self.progress[1] = 2
+
+    def _halt(self):
+        with self.lock:
+            if self._moving:
+                self.progress[1] = 6
+                self.progress[5] = 40
+            if not self.script.coasts:
+                self._moving = False
+
+    def _advance(self):
+        if not self._moving or self._plan is None:
+            return
+        times, points = self._plan
+        elapsed = time.monotonic() - self._started
+        if elapsed >= times[-1] * self.script.ends_at:
+            elapsed = times[-1] * self.script.ends_at
+            self._moving = False
+            failed = self.script.ends_at < 1
+            self.progress[1] = 5 if failed else 3
+            if failed:
+                self.progress[5:8] = (44, len([t for t in times if t <= elapsed]), 0)
+        passed = len([t for t in times if t <= elapsed])
+        self.progress[3] = self.progress[4] = passed
+        if passed == len(times):
+            self.position = points[-1]
+            return
+        before, after = points[passed - 1], points[passed]
+        share = (elapsed - times[passed - 1]) / (times[passed] - times[passed - 1])
+        self.position = [a + share * (b - a) for a, b in zip(before, after, strict=True)]
+
+    # The state port
+
+    def _state(self, client):
+        script = self.script
+        if script.raw_state is not None:
+            client.sendall(script.raw_state)
+            return
+        subscribed = False
+        client.setblocking(False)
+        heard = b""
+        pending = []
+        while not self._ended.is_set():
+            with contextlib.suppress(BlockingIOError):
+                data = client.recv(4096)
+                if not data:
+                    return
+                heard += data
+            out = b""
+            if len(heard) >= 36:
+                heard = heard[36:]
+                self.hellos += 1
+                if script.rapidgen:
+                    out += self._hello()
+                    subscribed = True
+            with self.lock:
+                self._advance()
+                out += joint_frame(self.position)
+                out += status_frame(**{"in_motion": int(self._moving), **script.status})
+                if subscribed:
+                    out += frame(1301, 1, 0, struct.pack("<8i", *self.progress))
+                moving_for = time.monotonic() - self._started if self._moving else 0.0
+            if moving_for < script.silent_after:
+                pending.append(out)
+            if len(pending) >= script.merge:
+                self._send(client, b"".join(pending))
+                pending = []
+            self._ended.wait(script.state_period)
+
+    def _send(self, client, data):
+        client.setblocking(True)
+        size = self.script.chop or len(data) or 1
+        for at in range(0, len(data), size):
+            client.sendall(data[at : at + size])
+        client.setblocking(False)
+
+    def _hello(self):
+        script = self.script
+        if script.protocol != 1:
+            return frame(1300, 3, 2, struct.pack("<i", script.protocol))
+        limits = [3.0] * script.joints + [0.0] * (10 - script.joints)
+        data = struct.pack(
+            "<4i12s12s4i4f10f10f10f",
+            1,
+            0,
+            1,
+            0,
+            b"0123456789ab",
+            script.mapping.encode(),
+            1 | (2 if script.control else 0),
+            script.capacity,
+            script.joints,
+            0,
+            script.state_period,
+            0.1,
+            0.00873,
+            0.005,
+            *[-v for v in limits],
+            *limits,
+            *[4.0] * 10,
+        )
+        return frame(1300, 3, 1, data)
