@@ -1,6 +1,7 @@
 """RAPID: text, tokens, tree, checked program, formatted text."""
 
+from rapidgen.rapid.checker import check
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.parser import parse
 
-__all__ = ["Dialect", "parse"]
+__all__ = ["Dialect", "check", "parse"]

@@ -89,7 +89,9 @@ class ExpressionParser:
         if found.reported or (self.kinds[found.at] is lexer.EOF and self.end_reported):
             return
         found.reported = True
-        self.end_reported = self.kinds[found.at] is lexer.EOF
+        # A quote that takes the last line takes all that could close what is open.
+        last = found.at if self.kinds[found.at] is not lexer.UNTERMINATED else found.at + 1
+        self.end_reported = self.kinds[last] is lexer.EOF
         self.report(
             faults.unexpected(
                 self.source, self.kinds, found.at, found.expected, self.open, found.help

@@ -12,6 +12,8 @@ from rapidgen.rapid.source import Source
 MAX_BYTES: Final = 8_000_000
 _BINARY: Final = re.compile(rb"[\x00-\x08\x0e-\x1f]")
 _BINARY_TEXT: Final = re.compile(r"[\x00-\x08\x0e-\x1f]")
+_ENCODED: Final = b"\xfc\xfe"
+"""First byte of encoded modules in public backups [code]."""
 _UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
 
 
@@ -33,19 +35,16 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
         return faults.error(
             "RG218", "the file is UTF-16 text", span, help="save it as UTF-8 or Latin-1"
         )
-    # An encoded module starts readable and goes on in bytes that no text has.
     binary = _BINARY.search(source) if isinstance(source, bytes) else _BINARY_TEXT.search(source)
     if binary is None:
         return None
-    head = source[:4096]
-    text = head.decode("latin-1") if isinstance(head, bytes) else head
-    module = re.search(r"(?im)^\s*MODULE\b", text[: binary.start()])
-    if module or re.search(r"(?i)encoded|%%%", text[:200]):
+    if isinstance(source, bytes) and source[0] in _ENCODED:
         return faults.error(
             "RG219",
             "the module is encoded: only a controller can read it",
             span,
             help="ask its maker for the source, or leave it out",
+            severity=Severity.WARNING,
         )
     return faults.error("RG218", "the file is binary, not RAPID text", span)
 
@@ -83,7 +82,6 @@ def long_names(tokens: Tokens) -> list[Diagnostic]:
                     tokens.source.span(at, at),
                     help="shorten it",
                     notes=("all characters of a name count [K §2.3]",),
-                    severity=Severity.ERROR,
                 )
             )
     return found

@@ -1,0 +1,185 @@
+"""The checker: what a program means, as far as that is known before it runs.
+
+`check` takes a module, modules that belong together, or a `System`. What is unknown is judged
+by what was given: see `given.Extent`.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+
+from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.rapid.checker.declarations import ModuleChecker
+from rapidgen.rapid.checker.given import Extent, Given
+from rapidgen.rapid.checker.symbols import Scope, Symbol, World, collect, task_globals
+from rapidgen.rapid.dialect import Dialect
+from rapidgen.rapid.nodes import Module
+from rapidgen.rapid.parser import parse
+from rapidgen.system import System
+
+_LOADERS = frozenset(("load", "startload"))
+_SIGNAL_TYPES = {
+    "DI": "signaldi",
+    "DO": "signaldo",
+    "GI": "signalgi",
+    "GO": "signalgo",
+    "AI": "signalai",
+    "AO": "signalao",
+}
+
+
+def check(
+    given: Module | Iterable[Module] | System | str | bytes,
+    *,
+    dialect: Dialect | None = None,
+    path: str | None = None,
+    whole_task: bool = False,
+    gaps: bool = False,
+) -> list[Diagnostic]:
+    """Everything wrong with a text, a module, modules that belong together, or a system.
+
+    A text or one module is judged as a lone file: what it does not declare may be anywhere.
+    An iterable of modules is a folder; where it has an entry routine `main`, routines and types
+    must be in it. With `whole_task` they are all modules of one task (or of several), and only
+    what the configuration installs may be unknown. `gaps` says that something is missing that
+    a name could come from. A system's own RobotWare decides unless `dialect` is given.
+    Findings of the parser are included. Sorted by place.
+    """
+    if isinstance(given, System):
+        return _check_system(given, dialect or Dialect(given.robotware), gaps)
+    dialect = dialect or Dialect()
+    if isinstance(given, str | bytes):
+        given = parse(given, path=path, dialect=dialect)
+    if isinstance(given, Module):
+        return _check_modules([given], Given(dialect, Extent.FILE, gaps), World())
+    modules = list(given)
+    extent = Extent.TASK if whole_task else Extent.FOLDER
+    if not whole_task and not any(r.name.lower() == "main" for m in modules for r in m.routines):
+        gaps = True
+    return _check_modules(modules, Given(dialect, extent, gaps), World())
+
+
+def _check_modules(modules: Sequence[Module], given: Given, world: World) -> list[Diagnostic]:
+    """Modules of one folder: they may belong to several tasks, so equal names do not clash."""
+    if _any_unreadable(modules) or _loads(modules):
+        given = Given(given.dialect, given.extent, gaps=True)
+    collected = [collect(module, world) for module in modules]
+    scopes = [scope for scope, _ in collected]
+    names, clashes = task_globals(scopes)
+    for first, second in clashes:
+        _merge(first, second)
+    found: list[Diagnostic] = []
+    for scope, twice in collected:
+        scope.globals = names
+        found += _check_module(scope, given, twice)
+    return _sorted(found)
+
+
+def _merge(first: Symbol, second: Symbol) -> None:
+    """Two tasks' objects of one name: what they differ in is not judged."""
+    if first.kind != second.kind or first.type != second.type or first.degree != second.degree:
+        first.known, first.resolved = True, None
+
+
+def _check_module(
+    scope: Scope, given: Given, twice: Sequence[tuple[Symbol, Symbol]]
+) -> list[Diagnostic]:
+    module = scope.module
+    checker = ModuleChecker(scope, given)
+    for first, second in twice:
+        _clash(checker, first, second, "in this module")
+    errors = any(d.severity is Severity.ERROR for d in module.diagnostics)
+    if not errors:
+        checker.module()
+    return [*module.diagnostics, *checker.found]
+
+
+def _clash(checker: ModuleChecker, first: Symbol, second: Symbol, where: str) -> None:
+    node = second.node
+    at = getattr(node, "name_token", None)
+    place = at if isinstance(at, int) else (node.first if node is not None else 0)
+    checker.report(
+        "RG305",
+        f"'{second.name}' is declared twice {where}",
+        place,
+        notes=("objects of one scope differ in name [K §2.12, 9.1]",),
+        related=checker.declared(first),
+    )
+
+
+# -- systems ---------------------------------------------------------------------------------
+
+
+def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnostic]:
+    installed = _installed(system)
+    parsed: dict[tuple[str, int], Module] = {}
+    found: list[Diagnostic] = []
+    seen: set[Diagnostic] = set()
+    for task in system.tasks:
+        modules = []
+        for file in task.modules:
+            key = (file.path, len(file.data))
+            module = parsed.get(key)
+            if module is None:
+                module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
+            modules.append(module)
+        given = Given(dialect, Extent.SYSTEM, gaps or _loads(modules) or _any_unreadable(modules))
+        for diagnostic in _check_task(modules, given, World(installed)):
+            if diagnostic not in seen:
+                seen.add(diagnostic)
+                found.append(diagnostic)
+    return _sorted(found)
+
+
+def _check_task(modules: Sequence[Module], given: Given, world: World) -> list[Diagnostic]:
+    collected = [collect(module, world) for module in modules]
+    names, clashes = task_globals([scope for scope, _ in collected])
+    found: list[Diagnostic] = []
+    for scope, twice in collected:
+        scope.globals = names
+        found += _check_module(scope, given, twice)
+        checker = ModuleChecker(scope, given)
+        for first, second in clashes:
+            if second.module is scope:
+                _clash(checker, first, second, "in this task")
+        found += checker.found
+    return found
+
+
+def _installed(system: System) -> Mapping[str, Symbol]:
+    """Signals, mechanical units and task identities of a configuration."""
+    found: dict[str, Symbol] = {}
+    for signal in system.signals:
+        kind = _SIGNAL_TYPES[signal.type]
+        found[signal.name.lower()] = Symbol(signal.name, "INSTALLED", kind)
+    for group in system.groups:
+        for unit in (group.robot, *group.units):
+            if unit:
+                found[unit.lower()] = Symbol(unit, "INSTALLED", "mecunit")
+    for task in system.tasks:
+        name = f"{task.name}Id"
+        found[name.lower()] = Symbol(name, "INSTALLED", "taskid")
+    return found
+
+
+def _unreadable(module: Module) -> bool:
+    return not module.name or any(d.severity is Severity.ERROR for d in module.diagnostics)
+
+
+def _any_unreadable(modules: Iterable[Module]) -> bool:
+    return any(_unreadable(module) for module in modules)
+
+
+def _loads(modules: Iterable[Module]) -> bool:
+    """Whether a program loads further modules while it runs."""
+    return any(
+        token.lower() in _LOADERS for module in modules for token in set(module.source.tokens)
+    )
+
+
+def _sorted(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    def key(d: Diagnostic) -> tuple[str, int, int]:
+        return (d.span.path, d.span.line, d.span.column) if d.span else ("", 0, 0)
+
+    return sorted(found, key=key)
+
+
+__all__ = ["check"]
