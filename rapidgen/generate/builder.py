@@ -17,7 +17,7 @@ from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.readme import readme_context
 from rapidgen.generate.render import Renderer
-from rapidgen.system import eio_cfg, sys_cfg, write_cfg
+from rapidgen.system import ModuleFile, System, eio_cfg, expand_lines, sys_cfg, write_cfg
 
 
 def build(config: RobotConfig) -> Output:
@@ -35,10 +35,24 @@ def build(config: RobotConfig) -> Output:
         _cfg("SYS.cfg", write_cfg(sys_cfg(system))),
         _cfg("EIO.cfg", write_cfg(eio_cfg(system))),
     ]
+    if config.robotware[0] >= 7:
+        files.append(_cfg("SIO.cfg", write_cfg(layout.sio_cfg())))
     readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
     files.append(manifest_file(files, _head(config, build_id)))
     return Output(config.name, build_id, tuple(files))
+
+
+def make_system(config: RobotConfig, output: Output) -> System:
+    """The System that the output describes, without a detour over the disk."""
+    modules = {}
+    for file in output.files:
+        if file.kind == "module":
+            name = Path(file.path).stem
+            origin = expand_lines(file.lines, file.data.count(b"\n"))
+            target = "HOME:/" + file.path.removeprefix("HOME/")
+            modules[target] = ModuleFile(name, file.path, file.data, target, origin)
+    return layout.with_data(layout.make_system(config, output.build_id), modules)
 
 
 def make_build_id(config: RobotConfig, templates: Path) -> str:
@@ -67,7 +81,7 @@ def _modules(
         kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
         rendered = renderer.render(f"{module}.{kind}.j2", **context)
         path = f"HOME/{layout.module_file(config, group, module)}"
-        faults += lint(path, rendered.text)
+        faults += lint(path, rendered.text, ascii_only=config.robotware[0] >= 7)
         tasks = tuple(
             layout.task_name(config, group, role) for role in layout.ROLES if module in role.modules
         )

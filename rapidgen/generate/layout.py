@@ -8,9 +8,13 @@ from dataclasses import dataclass, replace
 
 from rapidgen.config.model import MotionGroup, RobotConfig
 from rapidgen.system import (
+    Attribute,
+    CfgText,
     EventRoutine,
+    Instance,
     MechanicalUnitGroup,
     ModuleFile,
+    Section,
     SignalSpec,
     System,
     SystemOutput,
@@ -153,8 +157,18 @@ def with_data(system: System, files: dict[str, ModuleFile]) -> System:
 
 
 def unit_group(group: MotionGroup) -> str:
-    """Name of the mechanical unit group: that of the robot, in lower case, without underscore."""
-    return group.mechanical_unit.replace("_", "").lower()
+    """Name of the mechanical unit group: rob1 of ROB_1, rob_L of ROB_L, as controllers have them."""
+    head, _, tail = group.mechanical_unit.partition("_")
+    return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
+
+
+def sio_cfg() -> CfgText:
+    """The SIO domain of RobotWare 7: its firewall lets RAPID's sockets through.
+
+    [mem] Section and attributes are remembered, not seen; the generated README says so.
+    """
+    rule = Instance((Attribute("Name", ("RapidSockets",)), Attribute("EnablePublic")))
+    return CfgText("SIO", (7, 0), (Section("FIREWALL_MANAGER", (rule,)),))
 
 
 def _task(config: RobotConfig, group: MotionGroup, role: Role) -> TaskSpec:

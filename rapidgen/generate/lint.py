@@ -11,17 +11,21 @@ _TOKEN = re.compile(r'"((?:[^"\\]|""|\\\\|\\[0-9A-Fa-f]{2})*)"|![^\n]*|([A-Za-z]
 _ESCAPE = re.compile(r'""|\\\\|\\[0-9A-Fa-f]{2}')
 
 
-def lint(path: str, text: str) -> list[Diagnostic]:
-    """Faults of one rendered module: all RG101."""
+def lint(path: str, text: str, *, ascii_only: bool = False) -> list[Diagnostic]:
+    """Faults of one rendered module: all RG101.
+
+    RobotWare 7 reads another encoding than 5 and 6 [mem]: ASCII is the same in both.
+    """
     found = []
+    highest = 127 if ascii_only else 255
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > MAX_LINE:
             found.append(_fault(path, number, 1, f"the line has {len(line)} characters"))
         odd = next(
-            (i for i, c in enumerate(line) if ord(c) > 255 or (ord(c) < 32 and c != "\t")), None
+            (i for i, c in enumerate(line) if ord(c) > highest or (ord(c) < 32 and c != "\t")), None
         )
         if odd is not None:
-            found.append(_fault(path, number, odd + 1, f"{line[odd]!r} is not in Latin-1 text"))
+            found.append(_fault(path, number, odd + 1, f"{line[odd]!r} cannot be written"))
         for token in _TOKEN.finditer(line):
             if token[2] and len(token[2]) > MAX_NAME:
                 label = f"the name '{token[2]}' has {len(token[2])} characters"

@@ -5,7 +5,7 @@ from pathlib import Path
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.system.backup import is_backup, read_backup
 from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
-from rapidgen.system.folder import is_generated, read_folder, read_manifest
+from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
 from rapidgen.system.interpret import eio_cfg, sys_cfg
 from rapidgen.system.loose import read_files
 from rapidgen.system.model import (
@@ -36,6 +36,7 @@ __all__ = [
     "SystemOutput",
     "TaskSpec",
     "eio_cfg",
+    "expand_lines",
     "is_backup",
     "is_generated",
     "parse_cfg",

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -109,7 +110,7 @@ def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
         if hashlib.sha256(data).hexdigest() != digests.get(relative):
             continue
         try:
-            origins[relative] = _expanded(
+            origins[relative] = expand_lines(
                 [(int(a), str(b), int(c)) for a, b, c in lines], data.count(b"\n")
             )
         except (TypeError, ValueError) as error:
@@ -117,7 +118,7 @@ def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
     return origins
 
 
-def _expanded(runs: list[tuple[int, str, int]], count: int) -> Origin:
+def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
     """One entry a line; the manifest names only the first line of each run."""
     ends = [line for line, _, _ in runs[1:]] + [count + 1]
     return tuple(
