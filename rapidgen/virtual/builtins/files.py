@@ -2,7 +2,7 @@
 
 Sources: S4 reference, pages Open to ReadBin [manual]: no mode switch means \\Write, \\Bin alone
 reads and writes from the end, a line longer than 80 characters comes in pieces, the end of a file
-is the string EOF, 9.999E36 or -1. \\Line and the layout of WriteAnyBin are ours.
+is the string EOF, 9.999E36 or -1. \\Line, \\Status and the layout of WriteAnyBin are ours.
 """
 
 import os
@@ -262,16 +262,19 @@ def read_str(
     discard: bool | None,
     _time: float | None,
     line_number: float | None,
+    status: Ref | None,
 ) -> str:
-    """The next line, or the string EOF."""
+    r"""The next line, or the string EOF; \Status is then -1, else 0."""
     file = _reader(device)
     ends = (delimiters or "\n").encode("latin-1")
+    skipped: str | None = ""
     if line_number is not None:
         file.seek(0)
         for _ in range(1, whole(line_number, "ERR_ARGVALERR")):
-            if _line(file, ends) is None:
-                return _EOF_TEXT
-    text = _line(file, ends, skip=bool(discard))
+            skipped = _line(file, ends)
+    text = None if skipped is None else _line(file, ends, skip=bool(discard))
+    if status is not None:
+        status.set(-1 if text is None else 0)
     if text is None:
         return _EOF_TEXT
     return text.rstrip("\r") if remove_cr else text
