@@ -1,11 +1,13 @@
 """Clocks, dates, the controller about itself. Sources: S4 reference [manual], [K §15]."""
 
+from types import SimpleNamespace
+
 import pytest
 
 from rapidgen.system.model import System
 from rapidgen.virtual.builtins.clocks import Clock
-from rapidgen.virtual.builtins.system import TextTables
 from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.texts import TextTables
 
 
 def test_a_clock_runs_stops_and_goes_on(bench):
@@ -56,7 +58,8 @@ def test_dates_of_the_virtual_clock_are_the_same_every_time(bench):
 
 def test_system_information(bench):
     bench.controller.system = System("cell", (), robotware=(6, 8))
-    bench.controller.robot_type = "IRB 120-3/0.6"
+    group = SimpleNamespace(config=SimpleNamespace(model="IRB 120-3/0.6"))
+    bench.controller.motion = SimpleNamespace(groups={"rob1": group})
     assert bench("GetSysInfo", LanIp=True) == "127.0.0.1"
     assert bench("GetSysInfo", SWVersion=True) == "6.08.00.00"
     assert bench("GetSysInfo", RobotType=True) == "IRB 120-3/0.6"

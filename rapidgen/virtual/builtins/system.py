@@ -4,8 +4,7 @@ Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the for
 remembered only [mem].
 """
 
-import re
-
+from rapidgen.config.model import MotionGroup
 from rapidgen.system.model import System
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.files import FileSystem
@@ -13,10 +12,9 @@ from rapidgen.virtual.rawbytes import whole
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
 from rapidgen.virtual.text import limited
+from rapidgen.virtual.texts import TextTables
 
 _SERIAL = "00-00000"
-_TABLE_NAME = re.compile(r"(\S.{0,79})::")
-_INDEX = re.compile(r"(\d+):")
 
 
 @builtin("GetSysInfo", cost="string")
@@ -41,7 +39,9 @@ def get_sys_info(
     if version_name:
         return f"{major}.{minor:02d}"
     if robot_type:
-        return limited(str(task.controller.robot_type))
+        groups = task.controller.motion.groups.values()
+        configs: list[MotionGroup] = [group.config for group in groups]
+        return limited(configs[0].model if configs else "")
     if controller_id or system_name:
         return limited(system.name)
     if lan_ip:
@@ -70,50 +70,6 @@ def rob_os(_task: Task) -> bool:
 
 
 # -- text tables ----------------------------------------------------------------------------
-
-
-class TextTables:
-    """Installed text tables: names, numbers from 1, texts by index."""
-
-    def __init__(self) -> None:
-        self._numbers: dict[str, int] = {}
-        self._texts: list[dict[int, str]] = []
-
-    def number(self, name: str) -> int | None:
-        """A table's number."""
-        return self._numbers.get(name)
-
-    def text(self, number: int, index: int) -> str | None:
-        """A text."""
-        if not 1 <= number <= len(self._texts):
-            return None
-        return self._texts[number - 1].get(index)
-
-    def install(self, text: str) -> None:
-        """Read a file of tables [K §15]; a table that exists is extended.
-
-        ValueError: a line that is none of those.
-        """
-        table: dict[int, str] | None = None
-        index: int | None = None
-        for number, line in enumerate(text.splitlines(), 1):
-            if index is not None and table is not None:
-                table[index] = line.replace("\\n", "\n")
-                index = None
-            elif not line.strip() or line.startswith("#"):
-                continue
-            elif match := _TABLE_NAME.fullmatch(line.strip()):
-                table = self._table(match[1])
-            elif (match := _INDEX.fullmatch(line.strip())) and table is not None:
-                index = int(match[1])
-            else:
-                raise ValueError(f"line {number}")
-
-    def _table(self, name: str) -> dict[int, str]:
-        number = self._numbers.setdefault(name, len(self._texts) + 1)
-        if number > len(self._texts):
-            self._texts.append({})
-        return self._texts[number - 1]
 
 
 def _tables(task: Task) -> TextTables:
