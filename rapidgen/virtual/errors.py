@@ -4,40 +4,57 @@
 the task. Numbers of the ERR_ constants are in no public source; they are opaque and distinct.
 """
 
-from collections.abc import Iterable
+from functools import cache
+from typing import Any
 
-from rapidgen.virtual.errnames import ERROR_NAMES
+from rapidgen.diagnostics import Span
+from rapidgen.rapid import signatures
 
-FIRST_SYSTEM_ERROR = 1001
 LARGEST_USER_ERROR = 90
 """RAISE takes 1 to 90 [K §4.8]."""
+FIRST_BOOKED_ERROR = 2001
+"""BookErrNo hands out numbers from here: above every ERR_ constant."""
 
-_NUMBERS = {name: FIRST_SYSTEM_ERROR + i for i, name in enumerate(ERROR_NAMES)}
-_NAMES = {number: name for name, number in _NUMBERS.items()}
-LONG_JMP_ALL_ERR = _NUMBERS["LONG_JMP_ALL_ERR"]
+
+@cache
+def _numbers() -> dict[str, int]:
+    return {
+        name.upper(): int(datum.value)
+        for name, datum in signatures.predefined().items()
+        if datum.type == "errnum" and isinstance(datum.value, int)
+    }
+
+
+@cache
+def _names() -> dict[int, str]:
+    return {number: name for name, number in _numbers().items()}
 
 
 def errnum(name: str) -> int:
     """Number of an ERR_ constant (any case). KeyError: there is no such constant."""
-    return _NUMBERS[name.upper()]
+    return _numbers()[name.upper()]
 
 
 def error_name(number: float) -> str:
     """`ERR_DIVZERO` for its number; the number as text when it is a user's own."""
-    return _NAMES.get(int(number), f"error {number:g}")
+    return _names().get(int(number), f"error {number:g}")
 
 
 class RapidError(Exception):
     """A recoverable error of execution. `text` says more for the event log."""
 
-    __slots__ = ("jumping", "number", "text")
+    __slots__ = ("number", "raised", "settled", "target", "text")
 
     def __init__(self, name: str | int, text: str = "") -> None:
         super().__init__(name)
         self.number: int = errnum(name) if isinstance(name, str) else name
         self.text = text
-        self.jumping = False
-        """Whether it is on its way to a long-jump handler [K §7.2]."""
+        self.settled = False
+        """Whether the task's budget was put right for it."""
+        self.raised = False
+        """Whether RAISE with a number made it."""
+        self.target: Any = None
+        """Python frame of the routine whose listed handler it jumps to [K §7.2]."""
 
     @property
     def name(self) -> str:
@@ -48,13 +65,26 @@ class RapidError(Exception):
 class FatalError(Exception):
     """An error without a number: the event is logged and the task stops."""
 
-    __slots__ = ("arguments", "event", "title")
+    __slots__ = ("arguments", "cause", "event", "span", "stack", "title")
 
-    def __init__(self, event: int, title: str, *arguments: str) -> None:
+    def __init__(
+        self,
+        event: int,
+        title: str,
+        *arguments: str,
+        span: Span | None = None,
+        cause: "RapidError | None" = None,
+    ) -> None:
         super().__init__(title)
         self.event = event
         self.title = title
         self.arguments = arguments
+        self.span = span
+        """Where it is, when that is not where it was raised."""
+        self.cause = cause
+        """The error that nobody handled."""
+        self.stack: tuple[Any, ...] = ()
+        """Call stack at the error, outermost first."""
 
 
 class Unwind(BaseException):
@@ -90,8 +120,3 @@ def as_rapid_error(error: BaseException) -> RapidError:
         if isinstance(error, kind):
             return RapidError(name)
     raise TypeError(f"{type(error).__name__} is no RAPID error") from error
-
-
-def known_names() -> Iterable[str]:
-    """Every ERR_ constant."""
-    return ERROR_NAMES

@@ -30,8 +30,9 @@ Outcome: TypeAlias = Literal["time", "stop", "idle"]
 MS = 1_000_000
 S = 1_000_000_000
 QUANTUM = 2 * MS
-# Budgets stay single-digit integers of CPython, which subtracts them fastest.
-_LARGEST_BUDGET = 2**30 - 1
+# Single-digit integers of CPython, which it subtracts fastest, and short enough that endless
+# recursion is found before it costs much memory.
+_LARGEST_BUDGET = 50 * MS
 _SERVE_EVERY = 2 * MS
 
 
@@ -97,7 +98,7 @@ class Process:
         self._blocked = False
         self._greenlet: greenlet.greenlet | None = None
 
-    # -- for the kernel and its owner --------------------------------------------------------
+    # -- for the kernel and its owner ------------------------------------------------------------
 
     def launch(self, body: Callable[[], None]) -> None:
         """Start `body` in a fresh greenlet at the next turn."""
@@ -124,7 +125,7 @@ class Process:
     def attend(self) -> None:
         """Hook: called in the process after every poll and every wait."""
 
-    # -- inside the process -----------------------------------------------------------------
+    # -- inside the process ----------------------------------------------------------------------
 
     def block(self) -> None:
         """Give the CPU away until somebody calls `wake()`; then `attend()`."""
@@ -142,6 +143,18 @@ class Process:
             kernel.grant(self)
         self.attend()
         return self.b
+
+    def give_way(self) -> None:
+        """Go to the end of the queue when others are ready."""
+        kernel = self.kernel
+        if kernel.catch_up(self):
+            kernel.suspend(self)
+        elif kernel.ready:
+            kernel.ready.append(self)
+            kernel.suspend(self)
+        else:
+            kernel.grant(self)
+        self.attend()
 
     def charge(self, cost: int) -> None:
         """Spend `cost` nanoseconds of CPU."""
@@ -196,7 +209,7 @@ class Kernel:
         self._served_at = 0
         self._origin = (0, time.monotonic_ns())
 
-    # -- time and events --------------------------------------------------------------------
+    # -- time and events -------------------------------------------------------------------------
 
     @property
     def now(self) -> int:
@@ -246,6 +259,12 @@ class Kernel:
                 os.close(handle)
             self._pipe = None
 
+    def close_processes(self) -> None:
+        """Forget what is ready; greenlets end when they are collected."""
+        self.ready.clear()
+        self._front = None
+        self._heap.clear()
+
     def next_event(self) -> int | None:
         """Time of the next event that has not been cancelled."""
         heap = self._heap
@@ -253,7 +272,7 @@ class Kernel:
             heapq.heappop(heap)
         return heap[0][0] if heap else None
 
-    # -- the loop ---------------------------------------------------------------------------
+    # -- the loop --------------------------------------------------------------------------------
 
     def advance(self, until: int | None = None, stop: Callable[[], bool] | None = None) -> Outcome:
         """Let time pass.
@@ -386,7 +405,7 @@ class Kernel:
             return self._order.randrange(1, self.quantum)
         return self.quantum
 
-    # -- called by processes ----------------------------------------------------------------
+    # -- called by processes ---------------------------------------------------------------------
 
     def grant(self, process: Process) -> None:
         """Give the CPU to `process`: its budget lasts until something may concern it."""

@@ -1,21 +1,39 @@
-"""One RAPID task: the process that runs its routines, and what built-ins may ask of it."""
+"""One RAPID task: the process that runs its routines, and what compiled code and built-ins ask
+of it. Errors are in recovery.py, starting and stopping in running.py."""
 
 from collections.abc import Callable, Iterable
 from typing import Any
 
-from rapidgen.virtual.kernel import Kernel, Process, WaitSet
+from rapidgen.virtual.compiler.program import LoadedModule, Program
+from rapidgen.virtual.compiler.runtime import LateArgument
+from rapidgen.virtual.compiler.symbols import Parameter, Routine
+from rapidgen.virtual.errors import EndOfRun, FatalError, RapidError, as_rapid_error
+from rapidgen.virtual.interrupts import Interrupts
+from rapidgen.virtual.kernel import Kernel, WaitSet
+from rapidgen.virtual.recovery import Recovery
+from rapidgen.virtual.registry import COSTS
 
 _NS = 1_000_000_000
 
 
-class Task(Process):
+class Task(Recovery):
     """A task while it runs. `controller` is the whole virtual controller."""
 
-    __slots__ = ("__dict__",)
-
     def __init__(self, kernel: Kernel, name: str, controller: Any) -> None:  # noqa: ANN401
-        super().__init__(kernel, name)
-        self.controller = controller
+        super().__init__(kernel, name, controller)
+        self.interrupts = Interrupts(self)
+        self.program: Program
+        self.held = False
+        """Stopped by Stop, an emergency stop, the operator: goes on when it is released."""
+        self.in_trap = False
+        self.intno = 0
+        self.trap_data: Any = None
+        self.statements = 0
+        self._order: BaseException | None = None
+        self._holds = 0
+        self.waiting_for: Callable[[], bool] | None = None
+
+    # -- waiting ---------------------------------------------------------------------------------
 
     def sleep(self, seconds: float) -> None:
         """Let simulated time pass; traps are served meanwhile."""
@@ -30,7 +48,8 @@ class Task(Process):
     ) -> bool:
         """Wait until `predicate()`, looked at now and whenever a member of `on` changes.
 
-        False when `timeout` seconds passed first. Traps are served meanwhile.
+        False when `timeout` seconds passed first. Traps are served meanwhile. After a program
+        stop the time counts from its beginning again [S4 overview 5-23].
         """
         if predicate():
             return True
@@ -42,22 +61,211 @@ class Task(Process):
             expired = True
             self.wake()
 
-        timer = None if timeout is None else kernel.after(round(timeout * _NS), expire)
+        delay = None if timeout is None else round(timeout * _NS)
+        timer = None if delay is None else kernel.after(delay, expire)
         watched = tuple(on)
         for wait_set in watched:
             wait_set.add(self.wake)
+        holds = self._holds
+        self.waiting_for = predicate
         try:
             while True:
                 self.block()
+                if holds != self._holds:
+                    holds, expired = self._holds, False
+                    if timer is not None and delay is not None:
+                        timer.cancel()
+                        timer = kernel.after(delay, expire)
                 if predicate():
                     return True
                 if expired:
                     return False
         finally:
+            self.waiting_for = None
             if timer is not None:
                 timer.cancel()
             for wait_set in watched:
                 wait_set.remove(self.wake)
+
+    # -- attention: stops, orders, traps ---------------------------------------------------------
+
+    def attend(self) -> None:
+        """What may come between two statements and inside a wait."""
+        if self._order is not None:
+            self._obey()
+        while self.held:
+            self._park()
+        if self.interrupts.queue and not self.in_trap:
+            self._serve_traps()
+
+    def _obey(self) -> None:
+        order, self._order = self._order, None
+        if order is not None:
+            raise order
+
+    def _park(self) -> None:
+        self._blocked = True
+        self.kernel.suspend(self)
+        if self._order is not None:
+            self._obey()
+
+    def order(self, order: BaseException) -> None:
+        """Leave what is being executed by raising `order` in it."""
+        self._order = order
+        self.kick()
+
+    def hold(self) -> None:
+        """Stop before the next statement, or in the wait."""
+        self.held = True
+        self._holds += 1
+        self.kick()
+
+    def release(self) -> None:
+        """Go on."""
+        self.held = False
+        self.wake()
+
+    def stop_here(self) -> None:
+        """Stop the program from inside it, and return when it is started again."""
+        self.held = True
+        self._holds += 1
+        self.attend()
+
+    def _serve_traps(self) -> None:
+        interrupts = self.interrupts
+        while interrupts.waiting:
+            interrupt, data = interrupts.queue.popleft()
+            self.in_trap = True
+            self.intno = interrupt.number
+            self.trap_data = data
+            try:
+                self.program.function(interrupt.trap)()
+            except RapidError as error:
+                if error.target is not None:
+                    raise  # a long jump may leave the trap level [K §7.2]
+                raise self.unhandled(error) from error
+            except (ZeroDivisionError, KeyError, OverflowError) as error:
+                raise self.unhandled(as_rapid_error(error)) from error
+            finally:
+                self.in_trap = False
+                self.trap_data = None
+
+    # -- called by compiled code -----------------------------------------------------------------
+
+    def polls(self, b: int, costs: tuple[int, ...]) -> int:
+        """A block was paid and the budget did not last: pay statement by statement."""
+        b += sum(costs)
+        for cost in costs:
+            b -= cost
+            if b < 0:
+                b = self.poll(b)
+        return b
+
+    def recharge(self, b: int, costs: tuple[int, ...]) -> int:
+        """Pay again what was given back when a statement of the block failed."""
+        for cost in costs:
+            b -= cost
+            if b < 0:
+                b = self.poll(b)
+        return b
+
+    def exit(self) -> None:
+        """EXIT [K §4.9]."""
+        raise EndOfRun
+
+    def connect(self, current: float, trap: Routine) -> int:
+        """CONNECT."""
+        return self.interrupts.connect(current, trap)
+
+    def missing(self, name: str) -> None:
+        """A routine that controllers have and this one has not."""
+        raise FatalError(40001, f"{name} is not available on the virtual controller", name)
+
+    def late(self, name: str, module: LoadedModule | None, arguments: tuple[Any, ...]) -> None:
+        """`%name% arguments;` [K §4.5]."""
+        routine = self._late_routine(name, module)
+        given = [a for a in arguments if a is not None]
+        if routine.node is not None:
+            positional, named = self._late_arguments(routine, given)
+            self.program.function(routine)(*positional, **named)
+            return
+        binding = routine.builtin
+        if binding is None:
+            self.missing(routine.name)
+            return
+        positional, named = self._late_arguments(routine, given)
+        values = [*positional]
+        for parameter in routine.parameters[len(positional) :]:
+            values.append(named.get(f"v_{parameter.name.lower()}"))
+        self.charge(COSTS[binding.cost])
+        binding.function(self, *values)
+
+    def _late_routine(self, name: str, module: LoadedModule | None) -> Routine:
+        program = self.program
+        where, colon, proper = name.rpartition(":")
+        if not proper or not proper.replace("_", "").isalnum() or proper[0].isdigit():
+            raise RapidError("ERR_CALLPROC", name)
+        key = proper.lower()
+        if colon and where:
+            inside = program.modules.get(where.lower())
+            found = inside.symbols.get(key) if inside is not None else None
+        elif colon:
+            found = program.globals.get(key)
+        else:
+            found = program.find_routine(module, key)
+        if found is None:
+            known = program.find_data(module, key) is not None
+            raise RapidError("ERR_CALLPROC" if known else "ERR_REFUNKPRC", name)
+        if not isinstance(found, Routine) or found.kind != "PROC":
+            raise RapidError("ERR_CALLPROC", name)
+        return found
+
+    def _late_arguments(
+        self, routine: Routine, given: list[LateArgument]
+    ) -> tuple[list[Any], dict[str, Any]]:
+        positional: list[Any] = []
+        named: dict[str, Any] = {}
+        required = [p for p in routine.parameters if not p.optional]
+        at = 0
+        for argument in given:
+            if argument.name is None:
+                if at >= len(required):
+                    raise RapidError("ERR_CALLPROC", routine.name)
+                parameter = required[at]
+                at += 1
+            else:
+                index = routine.by_name.get(argument.name)
+                if index is None:
+                    raise RapidError("ERR_CALLPROC", routine.name)
+                parameter = routine.parameters[index]
+                at += not parameter.optional
+            value = self._late_value(parameter, argument, builtin=routine.node is None)
+            key = parameter.name.lower()
+            if parameter.optional or named or len(positional) != routine.by_name[key]:
+                named[f"v_{key}"] = value
+            else:
+                positional.append(value)
+        if at < len(required):
+            raise RapidError("ERR_CALLPROC", routine.name)
+        return positional, named
+
+    def _late_value(self, parameter: Parameter, argument: LateArgument, *, builtin: bool) -> Any:  # noqa: ANN401
+        if argument.read is None:
+            return True
+        kind = parameter.type
+        if kind is not None and argument.type is not None and kind.name != argument.type.name:
+            raise RapidError("ERR_CALLPROC", f"{parameter.name} is {parameter.type_name}")
+        if not parameter.mode:
+            return argument.read()
+        atomic = kind is not None and kind.kind in ("num", "dnum", "bool", "string")
+        objects = kind is not None and kind.kind in ("nonvalue", "semivalue")
+        if objects or (parameter.mode == "VAR" and not builtin and not atomic):
+            if argument.itself is None:
+                raise RapidError("ERR_ARGNOTVAR")
+            return argument.itself()
+        if argument.refer is None:
+            raise RapidError("ERR_ARGNOTVAR")
+        return argument.refer()
 
 
 def _never() -> bool:

@@ -148,7 +148,7 @@ def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Any]:
     return cls
 
 
-# -- predefined records, components in order ------------------------------------------------
+# -- predefined records, components in order -----------------------------------------------------
 
 
 def _predefine(name: str, components: str) -> type[Any]:
@@ -204,7 +204,7 @@ def register_type(name: str, make: Callable[[], Any], kind: Kind = "nonvalue") -
     return kept
 
 
-# -- arrays -----------------------------------------------------------------------------------
+# -- arrays --------------------------------------------------------------------------------------
 
 
 def make_array(dims: Sequence[int], element: Callable[[], Any]) -> dict[int, Any]:
@@ -250,7 +250,7 @@ def assign_array(target: dict[int, Any], value: dict[int, Any]) -> None:
         target.update(value)
 
 
-# -- references and cells -----------------------------------------------------------------------
+# -- references and cells ------------------------------------------------------------------------
 
 
 class Cell(WaitSet):

@@ -1,0 +1,497 @@
+"""The program of one task: modules linked into one Python namespace, compiled on first call."""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any
+
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.rapid import nodes as n
+from rapidgen.rapid import signatures
+from rapidgen.system.model import ModuleFile
+from rapidgen.virtual.compiler import predefined, runtime
+from rapidgen.virtual.compiler.base import CannotCompile, Options
+from rapidgen.virtual.compiler.evaluate import evaluate
+from rapidgen.virtual.compiler.routine import Compiled, compile_routine
+from rapidgen.virtual.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
+from rapidgen.virtual.errors import RECOVERABLE, FatalError
+from rapidgen.virtual.values import NUM, Cell, Type, make_array, make_record
+
+if TYPE_CHECKING:
+    from rapidgen.virtual.task import Task
+
+_ATOMIC = ("num", "dnum", "bool", "string")
+
+
+@dataclass(slots=True, eq=False)
+class LoadedModule:
+    """A module in a task."""
+
+    name: str
+    index: int
+    tree: n.Module
+    file: ModuleFile
+    symbols: dict[str, Symbol] = field(default_factory=dict)
+    """Everything it declares, by lower-case name."""
+    declarations: dict[str, n.DataDeclaration] = field(default_factory=dict)
+    """Of its data."""
+
+    def span(self, node: n.Node) -> Span:
+        """Place of a node."""
+        return self.tree.source.span(node.first, node.last)
+
+
+class Shared:
+    """What the programs of all tasks share: persistents, record classes, configured objects."""
+
+    def __init__(self, configured: dict[str, tuple[Type, Any]] | None = None) -> None:
+        self.cells: dict[str, Cell] = {}
+        self.bare: set[str] = set()
+        """Cells whose declarations so far had no initial value."""
+        self.records: dict[tuple[object, ...], Type] = {}
+        self.configured = configured if configured is not None else {}
+        """Signals, mechanical units and taskids by lower-case name."""
+
+
+class Program:
+    """Modules of one task and their compiled code."""
+
+    def __init__(self, task: "Task", shared: Shared, options: Options) -> None:
+        self.task = task
+        self.shared = shared
+        self.options = options
+        self.modules: dict[str, LoadedModule] = {}
+        self.globals: dict[str, Symbol] = {}
+        self.codes: dict[str, Compiled] = {}
+        self.missing: set[str] = set()
+        self.faults: list[Diagnostic] = []
+        self.trace_points: list[tuple[Routine, n.Statement]] = []
+        self.switch_type = Type("switch", "bool")
+        self._serial = 0
+        self._kept: dict[int, str] = {}
+        self._predefined: dict[str, Data] = {}
+        self._evaluating: set[int] = set()
+        self.space: dict[str, Any] = {
+            **runtime.NAMESPACE,
+            "R": task,
+            "ERRS": RECOVERABLE,
+            "ARRAY": make_array,
+        }
+        dialect = options.dialect
+        if dialect.for_loop == "tested":
+            self.space["STEPS"] = runtime.count_tested
+        if dialect.integer_division == "floor":
+            self.space["DIV"], self.space["MOD"] = runtime.div_floor, runtime.mod_floor
+        if dialect.negative_mod == "error":
+            self.space["MOD"] = runtime.mod_strict
+
+    # -- loading ---------------------------------------------------------------------------------
+
+    def load(self, modules: Iterable[tuple[n.Module, ModuleFile]]) -> list[LoadedModule]:
+        """Link modules; names of all are known before any value is evaluated."""
+        loaded = []
+        for tree, file in modules:
+            self._serial += 1
+            module = LoadedModule(tree.name, self._serial, tree, file)
+            loaded.append(module)
+            self.modules[tree.name.lower()] = module
+            for declaration in tree.declarations:
+                self._declare_type(module, declaration)
+        for module in loaded:
+            for declaration in module.tree.declarations:
+                self._declare(module, declaration)
+        for module in loaded:
+            for key in module.declarations:
+                self._datum(module, key)
+        if loaded:
+            self._reset_code()
+        return loaded
+
+    def unload(self, name: str) -> None:
+        """Remove a module; code that called it is linked anew."""
+        module = self.modules.pop(name.lower())
+        for key, symbol in module.symbols.items():
+            if self.globals.get(key) is symbol:
+                del self.globals[key]
+        self._reset_code()
+
+    def _reset_code(self) -> None:
+        for module in self.modules.values():
+            for symbol in module.symbols.values():
+                if isinstance(symbol, Routine):
+                    self.space[symbol.code] = self._stub(symbol)
+
+    def _declare_type(self, module: LoadedModule, d: n.Declaration) -> None:
+        if isinstance(d, n.RecordDeclaration | n.AliasDeclaration):
+            key = d.name.lower()
+            kind: Type | None
+            if isinstance(d, n.AliasDeclaration):
+                kind = self.find_type(module, d.type.lower())
+            else:
+                kind = self._record(module, d)
+            if kind is None:
+                self._fault(module, f"type {d.type} is not known", d)  # type: ignore[union-attr]
+                return
+            module.symbols[key] = kind
+            if d.scope != "LOCAL":
+                self.globals.setdefault(key, kind)
+
+    def _record(self, module: LoadedModule, d: n.RecordDeclaration) -> Type | None:
+        components = []
+        for component in d.components:
+            kind = self.find_type(module, component.type.lower())
+            if kind is None:
+                self._fault(module, f"type {component.type} is not known", component)
+                return None
+            components.append((component.name, kind))
+        signature = (d.name.lower(), *((c.lower(), t.name) for c, t in components))
+        known = self.shared.records.get(signature)
+        if known is None:
+            known = make_record(d.name, components).rapid_type
+            self.shared.records[signature] = known
+        return known
+
+    def _declare(self, module: LoadedModule, d: n.Declaration) -> None:
+        if isinstance(d, n.DataDeclaration):
+            module.declarations[d.name.lower()] = d
+            if d.scope != "LOCAL":
+                # The module's own entry is made when it is evaluated; this one finds it.
+                self.globals.setdefault(d.name.lower(), Pending(module))
+        elif isinstance(d, n.RoutineDeclaration):
+            routine = self._routine(module, d)
+            module.symbols[d.name.lower()] = routine
+            self.space[routine.code] = self._stub(routine)
+            if d.scope != "LOCAL":
+                self.globals.setdefault(d.name.lower(), routine)
+
+    def _routine(self, module: LoadedModule, d: n.RoutineDeclaration) -> Routine:
+        parameters = []
+        for p in d.parameters:
+            switch = p.type.lower() == "switch"
+            kind = None if switch else self.find_type(module, p.type.lower())
+            if kind is None and not switch:
+                self._fault(module, f"type {p.type} is not known", p)
+                kind = NUM
+            parameters.append(
+                Parameter(p.name, p.mode, kind, p.type, p.dimensions, p.optional, p.group, switch)
+            )
+        result = self.find_type(module, d.type.lower()) if d.type else None
+        if d.type and result is None:
+            self._fault(module, f"type {d.type} is not known", d)
+        code = f"m{module.index}_{d.name.lower()}"
+        return Routine(
+            d.name, d.kind, result, tuple(parameters), code, d, module, type_name=d.type or ""
+        )
+
+    def _fault(self, module: LoadedModule, message: str, node: n.Node) -> None:
+        self.faults.append(Diagnostic("RG401", Severity.ERROR, message, module.span(node)))
+
+    # -- data ------------------------------------------------------------------------------------
+
+    def _datum(self, module: LoadedModule, key: str) -> Data | None:
+        """The symbol of a module datum, evaluated on first need."""
+        symbol = module.symbols.get(key)
+        if isinstance(symbol, Data):
+            return symbol
+        d = module.declarations.get(key)
+        if d is None or id(d) in self._evaluating:
+            return None
+        self._evaluating.add(id(d))
+        try:
+            kind, dims, value = self._evaluate(module, {}, d)
+        except CannotCompile as fault:
+            self._fault(module, str(fault), fault.node)
+            found = self.find_type(module, d.type.lower())
+            if found is None:
+                return None
+            kind, dims, value = found, (), found.default()
+        finally:
+            self._evaluating.discard(id(d))
+        data = self._place(module, d, kind, dims, value)
+        module.symbols[key] = data
+        pending = self.globals.get(key)
+        if isinstance(pending, Pending) and pending.module is module:
+            self.globals[key] = data
+        return data
+
+    def _place(
+        self,
+        module: LoadedModule,
+        d: n.DataDeclaration,
+        kind: Type,
+        dims: tuple[int, ...],
+        value: Any,  # noqa: ANN401
+    ) -> Data:
+        code = f"m{module.index}_{d.name.lower()}"
+        if d.kind == "CONST" and not dims and kind.kind in _ATOMIC:
+            return Data(d.name, "CONST", kind, (), "inline", code, value=value, readonly=True)
+        if d.kind == "PERS":
+            self.space[code] = self._cell(module, d, kind, dims, value)
+            return Data(d.name, "PERS", kind, dims, "cell", code, shared=d.scope == "")
+        self.space[code] = value
+        readonly = d.kind == "CONST"
+        return Data(d.name, d.kind, kind, dims, "global", code, readonly=readonly)
+
+    def _cell(
+        self,
+        module: LoadedModule,
+        d: n.DataDeclaration,
+        kind: Type,
+        dims: tuple[int, ...],
+        value: Any,  # noqa: ANN401
+    ) -> Cell:
+        """The cell of a PERS: one for the whole system by name, unless LOCAL or TASK.
+
+        The first declaration with an initial value gives the value [K §14.4].
+        """
+        if d.scope:
+            return Cell(d.name, kind, dims, value)
+        key = d.name.lower()
+        cell = self.shared.cells.get(key)
+        if cell is None:
+            cell = self.shared.cells[key] = Cell(d.name, kind, dims, value)
+            if d.initial is None:
+                self.shared.bare.add(key)
+            return cell
+        if cell.type.name != kind.name or cell.dims != dims:
+            self._fault(
+                module, f"{d.name} is shared with another task that declares another type", d
+            )
+            return Cell(d.name, kind, dims, value)
+        if d.initial is not None and key in self.shared.bare:
+            self.shared.bare.discard(key)
+            cell.set(value)
+        return cell
+
+    def evaluate_local(
+        self, module: LoadedModule, local: dict[str, Data], d: n.DataDeclaration
+    ) -> tuple[Type, tuple[int, ...], Any]:
+        """Type, sizes and initial value of a routine's variable."""
+        return self._evaluate(module, local, d)
+
+    def _evaluate(
+        self, module: LoadedModule, local: dict[str, Data], d: n.DataDeclaration
+    ) -> tuple[Type, tuple[int, ...], Any]:
+        kind = self.find_type(module, d.type.lower())
+        if kind is None:
+            raise CannotCompile(f"type {d.type} is not known", d)
+
+        def lookup(node: n.Name) -> tuple[Type, tuple[int, ...], Any]:
+            data = local.get(node.name.lower()) or self.find_data(module, node.name.lower())
+            if data is None:
+                raise CannotCompile(f"{node.name} is not known", node)
+            if data.kind != "CONST":
+                raise CannotCompile(f"{node.name} is no constant", node)
+            value = data.value if data.storage == "inline" else self.space[data.code]
+            return data.type, data.dims, value
+
+        dims = tuple(self._dimension(x, lookup) for x in d.dimensions)
+        if d.initial is not None:
+            return kind, dims, evaluate(d.initial, kind, dims, lookup)
+        if dims:
+            return kind, dims, make_array(dims, kind.default)
+        return kind, dims, kind.default()
+
+    def _dimension(self, node: n.Expression, lookup: Any) -> int:  # noqa: ANN401
+        size = evaluate(node, NUM, (), lookup)
+        if not isinstance(size, int) or size < 1:
+            raise CannotCompile("a dimension is a whole number from 1", node)
+        return size
+
+    def reset_variables(self) -> None:
+        """Give every module VAR its initial value: PP to main [S4 overview 4-24]."""
+        for module in self.modules.values():
+            for key, d in module.declarations.items():
+                data = module.symbols.get(key)
+                if d.kind == "VAR" and isinstance(data, Data):
+                    _, _, value = self._evaluate(module, {}, d)
+                    self.space[data.code] = value
+
+    # -- names -----------------------------------------------------------------------------------
+
+    def find_type(self, module: LoadedModule, key: str) -> Type | None:
+        """A type by lower-case name, as seen from a module."""
+        for scope in (module.symbols, self.globals):
+            found = scope.get(key)
+            if isinstance(found, Type):
+                return found
+        for d in module.tree.declarations:
+            if (
+                isinstance(d, n.RecordDeclaration | n.AliasDeclaration)
+                and d.name.lower() == key
+                and key not in module.symbols
+            ):
+                self._declare_type(module, d)
+                found = module.symbols.get(key)
+                return found if isinstance(found, Type) else None
+        for other in self.modules.values():
+            if other is module or key in other.symbols:
+                continue
+            for d in other.tree.declarations:
+                if (
+                    isinstance(d, n.RecordDeclaration | n.AliasDeclaration)
+                    and d.scope != "LOCAL"
+                    and d.name.lower() == key
+                ):
+                    self._declare_type(other, d)
+                    found = other.symbols.get(key)
+                    return found if isinstance(found, Type) else None
+        return predefined.find_type(key)
+
+    def find_data(self, module: LoadedModule | None, key: str) -> Data | None:
+        """A datum by lower-case name, as seen from a module (None: from outside)."""
+        if module is not None:
+            own = module.symbols.get(key)
+            if own is None and key in module.declarations:
+                own = self._datum(module, key)
+            if own is not None:
+                return own if isinstance(own, Data) else None
+        found = self.globals.get(key)
+        if isinstance(found, Pending):
+            found = self._datum(found.module, key)
+        if found is not None:
+            return found if isinstance(found, Data) else None
+        return predefined.constant(key) or self._predefined_data(key)
+
+    def _predefined_data(self, key: str) -> Data | None:
+        known = self._predefined.get(key)
+        if known is not None:
+            return known
+        data: Data | None = None
+        datum = signatures.constant(key)
+        if key in ("errno", "intno"):
+            data = Data(key.upper(), "VAR", NUM, (), "global", f"R.{key}", readonly=True)
+        elif datum is not None:
+            data = self._predefined_datum(key, datum)
+        elif key in self.shared.configured:
+            kind, value = self.shared.configured[key]
+            self.space[f"c_{key}"] = value
+            data = Data(key, "VAR", kind, (), "global", f"c_{key}")
+        if data is not None:
+            self._predefined[key] = data
+        return data
+
+    def _predefined_datum(self, key: str, datum: signatures.Predefined) -> Data | None:
+        kind = predefined.find_type(datum.type.lower())
+        if kind is None:
+            return None
+        value = predefined.build(kind, datum.value)
+        code = f"p_{key}"
+        if datum.kind == "PERS":
+            cell = self.shared.cells.get(f" {key}")
+            if cell is None:
+                cell = self.shared.cells[f" {key}"] = Cell(datum.name, kind, (), value)
+            self.space[code] = cell
+            return Data(datum.name, "PERS", kind, (), "cell", code)
+        self.space[code] = value
+        readonly = datum.kind == "CONST"
+        return Data(datum.name, datum.kind, kind, (), "global", code, readonly=readonly)
+
+    def find_routine(self, module: LoadedModule | None, key: str) -> Routine | None:
+        """A routine by lower-case name, as seen from a module; built-ins come last."""
+        if module is not None:
+            own = module.symbols.get(key)
+            if isinstance(own, Routine):
+                return own
+        found = self.globals.get(key)
+        if isinstance(found, Routine):
+            return found
+        builtin = predefined.routine(key)
+        if builtin is not None and builtin.builtin is not None and builtin.code not in self.space:
+            self.space[builtin.code] = builtin.builtin.function
+        return builtin
+
+    # -- what generated code names ---------------------------------------------------------------
+
+    def keep(self, value: Any) -> str:  # noqa: ANN401
+        """A name in the namespace for any object."""
+        known = self._kept.get(id(value))
+        if known is None:
+            self._serial += 1
+            known = self._kept[id(value)] = f"k{self._serial}"
+            self.space[known] = value
+        return known
+
+    def type_code(self, kind: Type) -> str:
+        """Name of a Type."""
+        return self.keep(kind)
+
+    def record_code(self, kind: Type) -> str:
+        """Name of what makes a datum of a type."""
+        assert kind.make is not None
+        return self.keep(kind.make)
+
+    def global_ref(self, data: Data) -> str:
+        """Name of a reference to module data."""
+        name = f"r_{data.code}"
+        if name not in self.space:
+            self.space[name] = runtime.GlobalRef(
+                self.space, data.code, data.type, data.dims, data.name
+            )
+        return name
+
+    def module_code(self, module: LoadedModule) -> str:
+        """Name of a module."""
+        return self.keep(module)
+
+    def trap_code(self, trap: Routine) -> str:
+        """Name of a trap."""
+        return self.keep(trap)
+
+    def code_name(self, routine: Routine) -> str:
+        """Python file name of a routine's code."""
+        assert routine.module is not None
+        return f"<rapid {self.task.name} {routine.module.name} {routine.name}>"
+
+    def trace_point(self, routine: Routine, statement: n.Statement) -> int:
+        """Number of a statement, for tracing."""
+        self.trace_points.append((routine, statement))
+        return len(self.trace_points) - 1
+
+    def trace_from_now(self) -> None:
+        """Compile with a report of every statement from now on."""
+        if not self.options.tracing:
+            self.options = replace(self.options, tracing=True, accounting="statement")
+            self.codes.clear()
+            self._reset_code()
+
+    def said_missing(self, name: str) -> None:
+        """Remember a routine that is called and does not exist."""
+        self.missing.add(name)
+
+    # -- code ------------------------------------------------------------------------------------
+
+    def _stub(self, routine: Routine) -> Callable[..., Any]:
+        def stub(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401
+            return self.function(routine)(*arguments, **named)
+
+        return stub
+
+    def function(self, routine: Routine) -> Callable[..., Any]:
+        """The compiled function of a routine; FatalError when it breaks the language's rules."""
+        assert routine.module is not None
+        name = self.code_name(routine)
+        known = self.codes.get(name)
+        if known is not None and known.routine is routine:
+            function: Callable[..., Any] = self.space[routine.code]
+            if getattr(function, "__name__", "") != "stub":
+                return function
+        try:
+            function, compiled = compile_routine(self, routine.module, routine, self.options)
+        except CannotCompile as fault:
+            span = routine.module.span(fault.node)
+            self.faults.append(Diagnostic("RG401", Severity.ERROR, str(fault), span))
+            raise FatalError(
+                40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
+            ) from fault
+        self.codes[name] = compiled
+        return function
+
+    def value(self, module: LoadedModule, key: str) -> Any:  # noqa: ANN401
+        """Current value of a module datum. KeyError: there is none."""
+        data = module.symbols[key]
+        if not isinstance(data, Data):
+            raise KeyError(key)
+        if data.storage == "inline":
+            return data.value
+        kept = self.space[data.code]
+        return kept.v if isinstance(kept, Cell) else kept

@@ -1,0 +1,110 @@
+"""Python text under construction: lines, the RAPID they come from, and what they are charged.
+
+Costs are paid before the statements of a block run. A block is a run of statements that touch
+only the routine's own data, with at most one other statement as its last. When the budget does
+not last for the block, `polls` charges it statement by statement, so that block and statement
+accounting tell exactly the same times.
+"""
+
+from dataclasses import dataclass, field
+
+INDENT = " "
+
+
+@dataclass(slots=True, eq=False)
+class Block:
+    """Costs of the statements that are paid together."""
+
+    costs: list[int] = field(default_factory=list)
+
+
+@dataclass(slots=True, eq=False)
+class Line:
+    """One line of Python."""
+
+    depth: int
+    text: str
+    token: int
+    """First token of the RAPID statement."""
+    block: Block | None = None
+    paid: int = 0
+    """Costs of the block up to and with this statement's."""
+    charge: bool = False
+    """This is where the block is paid."""
+    synced: bool = False
+    """The budget was written back before; whoever raised knows better what is left."""
+
+
+class Writer:
+    """Collects lines."""
+
+    def __init__(self, accounting: str) -> None:
+        self.lines: list[Line] = []
+        self.depth = 0
+        self.token = 0
+        self.synced = False
+        self._accounting = accounting
+        self._block: Block | None = None
+
+    def emit(self, text: str) -> None:
+        """Add one line at the current depth."""
+        block = self._block
+        paid = len(block.costs) if block is not None else 0
+        self.lines.append(Line(self.depth, text, self.token, block, paid, synced=self.synced))
+
+    def cost(self, amount: int) -> None:
+        """The next lines belong to a statement of this cost."""
+        if self._accounting == "none":
+            return
+        if self._block is None or self._accounting == "statement":
+            self._block = Block()
+            self.lines.append(Line(self.depth, "", self.token, self._block, charge=True))
+        self._block.costs.append(amount)
+
+    def close(self) -> None:
+        """End the block: what follows is paid on its own."""
+        self._block = None
+
+    @property
+    def block(self) -> Block | None:
+        """The open block."""
+        return self._block
+
+    def render(self) -> tuple[str, list[int], dict[int, int], set[int]]:
+        """Python text; tokens by line (from 1); refunds by line; lines that are synced."""
+        text: list[str] = []
+        tokens = [0]
+        refunds: dict[int, int] = {}
+        synced: set[int] = set()
+
+        def add(depth: int, code: str, token: int) -> None:
+            text.append(INDENT * depth + code)
+            tokens.append(token)
+
+        for line in self.lines:
+            block = line.block
+            if line.charge and block is not None:
+                costs = block.costs
+                total = sum(costs)
+                add(line.depth, f"b -= {total}", line.token)
+                if len(costs) == 1:
+                    add(line.depth, "if b < 0: b = R.poll(b)", line.token)
+                else:
+                    add(line.depth, f"if b < 0: b = R.polls(b, {tuple(costs)})", line.token)
+                continue
+            code = line.text
+            rest = tuple(block.costs[line.paid :]) if block is not None else ()
+            refund = sum(rest)
+            if "@" in code:
+                code = code.replace("@BUDGET@", f"b + {refund}" if refund else "b")
+                code = code.replace("@REST@", repr(rest) if rest else "()")
+                own = block.costs[line.paid - 1] if block is not None and line.paid else 0
+                code = code.replace("@OWN@", str(own))
+            if code in ("", "b = R.recharge(b, ())"):
+                continue
+            add(line.depth, code, line.token)
+            if refund:
+                refunds[len(tokens) - 1] = refund
+            if line.synced:
+                synced.add(len(tokens) - 1)
+        return "\n".join(text) + "\n", tokens, refunds, synced

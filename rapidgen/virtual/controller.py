@@ -1,0 +1,445 @@
+"""The virtual controller: one kernel, tasks, I/O, motion, files, network and event log."""
+
+import threading
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal, Self
+
+from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.rapid import Dialect as TextDialect
+from rapidgen.rapid import nodes as n
+from rapidgen.rapid import parse
+from rapidgen.system.model import ModuleFile, System
+from rapidgen.virtual.compiler.base import Options
+from rapidgen.virtual.compiler.predefined import find_type
+from rapidgen.virtual.compiler.program import Shared
+from rapidgen.virtual.compiler.symbols import Data, Routine
+from rapidgen.virtual.costs import Costs
+from rapidgen.virtual.dialect import Dialect
+from rapidgen.virtual.errors import FatalError
+from rapidgen.virtual.files import FileSystem
+from rapidgen.virtual.io import IOSystem
+from rapidgen.virtual.kernel import ClockKind, Kernel, Schedule
+from rapidgen.virtual.log import EventLog
+from rapidgen.virtual.motion.system import MotionSystem
+from rapidgen.virtual.network.device import SocketTable
+from rapidgen.virtual.network.interface import Network
+from rapidgen.virtual.network.memory import MemoryNetwork
+from rapidgen.virtual.network.system import PortMap, SystemNetwork
+from rapidgen.virtual.operator import Answer, Operator
+from rapidgen.virtual.recovery import Place
+from rapidgen.virtual.running import RapidTask
+from rapidgen.virtual.state import ControllerState
+from rapidgen.virtual.texts import TextTables
+
+_NS = 1_000_000_000
+Cycle = Literal["once", "forever"]
+
+
+class Deadlock(Exception):
+    """Every task waits and nothing is ahead that could wake one."""
+
+
+class Signals(Mapping[str, float]):
+    """Values of the signals by name; assigning sets one."""
+
+    def __init__(self, io: IOSystem) -> None:
+        self._io = io
+
+    def __getitem__(self, name: str) -> float:
+        return self._io[name].value
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self._io.set(self._io[name], value)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([s.name for s in self._io.signals.values()])
+
+    def __len__(self) -> int:
+        return len(self._io.signals)
+
+
+class TaskView:
+    """A task for tests: `task["Module:name"]` is a raw RAPID value (deg, mm)."""
+
+    def __init__(self, task: RapidTask) -> None:
+        self.rapid = task
+
+    @property
+    def name(self) -> str:
+        """Name of the task."""
+        return self.rapid.name
+
+    @property
+    def state(self) -> str:
+        """`ready`, `running`, `stopped`, `finished`, `error` or `empty`."""
+        return self.rapid.state
+
+    @property
+    def fault(self) -> FatalError | None:
+        """Why the task stopped with an error."""
+        return self.rapid.fault
+
+    @property
+    def stack(self) -> tuple[Place, ...]:
+        """Where it is, outermost routine first."""
+        return self.rapid.stack()
+
+    def _data(self, name: str) -> tuple[Data, Any]:
+        program = self.rapid.program
+        where, colon, key = name.lower().rpartition(":")
+        module = program.modules.get(where) if colon else None
+        if colon and module is None:
+            raise KeyError(name)
+        data = program.find_data(module, key)
+        if data is None:
+            raise KeyError(name)
+        return data, program.space.get(data.code)
+
+    def __getitem__(self, name: str) -> Any:  # noqa: ANN401
+        data, kept = self._data(name)
+        if data.storage == "inline":
+            return data.value
+        return kept.v if data.storage == "cell" else kept
+
+    def __setitem__(self, name: str, value: Any) -> None:  # noqa: ANN401
+        data, kept = self._data(name)
+        if data.readonly:
+            raise KeyError(f"{name} is a constant")
+        if data.storage == "cell":
+            kept.set(value)
+        else:
+            program = self.rapid.program
+            program.space[program.global_ref(data)].set(value)
+
+    def start(self) -> None:
+        """Start or go on."""
+        self.rapid.start()
+
+    def stop(self) -> None:
+        """Stop the program."""
+        self.rapid.stop()
+
+    def pp_to_main(self) -> None:
+        """Set the program pointer to main."""
+        self.rapid.pp_to_main()
+
+
+class VirtualController(ControllerState):
+    """Executes the RAPID of a `System`.
+
+    Bound to the thread that steps it, or, after `start()`, to a thread of its own. Positions
+    are rad and m by motion group; `tasks[name]["Module:name"]` gives raw RAPID values.
+    """
+
+    def __init__(
+        self,
+        system: System,
+        robots: Sequence[GroupConfig] = (),
+        *,
+        clock: ClockKind = "virtual",
+        seed: int = 0,
+        speed: float = 1.0,
+        costs: Costs | None = None,
+        dialect: Dialect | None = None,
+        host: str = "",
+        ports: int | Literal["auto"] = 0,
+        cycle: Cycle = "forever",
+        schedule: Schedule = "round-robin",
+        switch_at_pers: bool = False,
+        accounting: Literal["block", "statement", "none"] = "block",
+        tracing: bool = False,
+        answers: Iterable[Answer] | None = None,
+        network: Network | None = None,
+        folder: Path | None = None,
+        autostart: bool = True,
+    ) -> None:
+        """Load every module and, with `autostart`, start all tasks in automatic mode.
+
+        `host` selects the operating system's network (an address to bind); empty = in memory
+        on the virtual clock, 127.0.0.1 on the real one. DiagnosticError when a module cannot
+        be loaded.
+        """
+        self.system = system
+        self.costs = costs if costs is not None else Costs()
+        self.dialect = dialect if dialect is not None else Dialect()
+        self.cycle: Cycle = cycle
+        self.kernel = Kernel(
+            clock=clock,
+            seed=seed,
+            speed=speed,
+            quantum=self.costs.quantum,
+            schedule=schedule,
+        )
+        self.log = EventLog(self.kernel)
+        self.io = IOSystem(self.kernel, self.log, system)
+        self.motion = MotionSystem(self.kernel, robots, self.log, self.io)
+        if network is None:
+            network = (
+                SystemNetwork(self.kernel, host=host or "127.0.0.1", ports=ports)
+                if host or clock == "real"
+                else MemoryNetwork(self.kernel)
+            )
+        self.network = network
+        self.sockets = SocketTable(network)
+        self.files = FileSystem(folder, home=system.home)
+        self.operator = Operator(self.kernel, answers)
+        self.texts = TextTables()
+        self.options = Options(
+            accounting="statement" if tracing or switch_at_pers else accounting,
+            statement=self.costs.statement,
+            operator=self.costs.operator,
+            call=self.costs.call,
+            builtin_scale=self.costs.builtin_scale,
+            switching=switch_at_pers,
+            tracing=tracing,
+            dialect=self.dialect,
+        )
+        self.shared = Shared(self._configured(robots))
+        self._parsed: dict[bytes, n.Module] = {}
+        self._thread: threading.Thread | None = None
+        self._stopping = False
+        super().__init__()
+        self.rapid_tasks = {
+            spec.name: RapidTask(self.kernel, spec, self, self.shared) for spec in system.tasks
+        }
+        self._views = {name: TaskView(task) for name, task in self.rapid_tasks.items()}
+        self.diagnostics: list[Diagnostic] = []
+        self._load()
+        self.io.on_action = self.system_input
+        self.power_up()
+        if autostart:
+            self.start_program()
+
+    # -- other ways in ---------------------------------------------------------------------------
+
+    @classmethod
+    def from_folder(cls, path: Path | str, **options: Any) -> Self:  # noqa: ANN401
+        """A generated folder (its manifest tells the robots) or an ABB backup.
+
+        DiagnosticError when it cannot be read.
+        """
+        from rapidgen.config import from_manifest
+        from rapidgen.system import is_generated, read_manifest, read_system
+
+        folder = Path(path)
+        system = read_system(folder)
+        if "robots" not in options and is_generated(folder):
+            config = from_manifest(read_manifest(folder)["configuration"])
+            options["robots"] = tuple(config.groups)
+        return cls(system, **options)
+
+    @classmethod
+    def from_files(
+        cls,
+        files: Mapping[str, Sequence[Path | str]] | Sequence[Path | str],
+        *,
+        entry: str = "main",
+        **options: Any,  # noqa: ANN401
+    ) -> Self:
+        """Loose module files: one task T_ROB1, or one for each key."""
+        from rapidgen.system import read_files
+
+        return cls(read_files(files, entry=entry), **options)
+
+    @classmethod
+    def from_config(cls, system: System, config: RobotConfig, **options: Any) -> Self:  # noqa: ANN401
+        """A system that was generated from a configuration, without a detour over files."""
+        return cls(system, tuple(config.groups), **options)
+
+    # -- loading ---------------------------------------------------------------------------------
+
+    def _configured(self, robots: Sequence[GroupConfig]) -> dict[str, tuple[Any, Any]]:
+        """Objects that the configuration predefines: signals, mechanical units, taskids."""
+        found: dict[str, tuple[Any, Any]] = {}
+        for task in self.system.tasks:
+            kind = find_type("taskid")
+            if kind is not None:
+                found[f"{task.name.lower()}id"] = (kind, self._named(kind, task.name))
+        for group in robots:
+            for unit in (group.mechanical_unit, *group.external_units):
+                kind = find_type("mecunit")
+                if kind is not None and unit:
+                    found[unit.lower()] = (kind, self._named(kind, unit))
+        for signal in self.io.signals.values():
+            kind = find_type(f"signal{signal.spec.type.lower()}")
+            if kind is not None:
+                found[signal.name.lower()] = (kind, signal)
+        return found
+
+    @staticmethod
+    def _named(kind: Any, name: str) -> Any:  # noqa: ANN401
+        made = kind.default()
+        made.value = name
+        return made
+
+    def parse_module(self, file: ModuleFile) -> n.Module:
+        """The tree of a module file; the same bytes are parsed once."""
+        tree = self._parsed.get(file.data)
+        if tree is None or tree.source.path != file.path:
+            tree = parse(
+                file.data, path=file.path, dialect=TextDialect(robotware=self.system.robotware)
+            )
+            self._parsed[file.data] = tree
+        return tree
+
+    def _load(self) -> None:
+        found: list[Diagnostic] = []
+        for task in self.rapid_tasks.values():
+            trees = [(self.parse_module(file), file) for file in task.spec.modules]
+            for tree, _ in trees:
+                found += [d for d in tree.diagnostics if d not in found]
+            task.program.load([(t, f) for t, f in trees if t.name])
+            found += task.program.faults
+            entry = task.program.globals.get(task.spec.entry.lower())
+            if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
+                task.state = "ready"
+            else:
+                found.append(self._no_entry(task))
+            found += self._missing(task)
+        self.diagnostics = found
+        errors = [d for d in found if d.severity is Severity.ERROR]
+        if errors:
+            raise DiagnosticError(found)
+
+    def _no_entry(self, task: RapidTask) -> Diagnostic:
+        return Diagnostic(
+            "RG402",
+            Severity.WARNING if not task.spec.modules else Severity.ERROR,
+            f"task {task.name} has no procedure {task.spec.entry} without parameters",
+            help=f"declare PROC {task.spec.entry}() in one of its modules, or name another entry",
+        )
+
+    def _missing(self, task: RapidTask) -> list[Diagnostic]:
+        """Routines that are called and do not exist here: said once for each name."""
+        from rapidgen.virtual.compiler.missing import missing_routines
+
+        return missing_routines(task.program)
+
+    # -- stepping --------------------------------------------------------------------------------
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds since the controller was made."""
+        return self.kernel.now / _NS
+
+    @property
+    def tasks(self) -> Mapping[str, TaskView]:
+        """Tasks by name."""
+        return self._views
+
+    def task(self, name: str) -> TaskView:
+        """A task by name."""
+        return self._views[name]
+
+    @property
+    def signals(self) -> Signals:
+        """Values of the signals by name."""
+        return Signals(self.io)
+
+    def run_for(self, seconds: float) -> None:
+        """Let simulated time pass."""
+        self.kernel.advance(until=self.kernel.now + round(seconds * _NS))
+
+    def run_until(self, condition: Callable[[], bool], *, timeout: float | None = None) -> bool:
+        """Let time pass until `condition()`, looked at after every event and slice.
+
+        False when `timeout` s passed first. Deadlock when nothing is ahead that could change
+        anything.
+        """
+        until = None if timeout is None else self.kernel.now + round(timeout * _NS)
+        outcome = self.kernel.advance(until, condition)
+        if outcome == "idle":
+            raise Deadlock("\n".join(self.where()))
+        return outcome == "stop"
+
+    def run(self, *, max_time: float | None = None) -> Literal["finished", "time", "deadlock"]:
+        """Let time pass until no task runs any more."""
+        until = None if max_time is None else self.kernel.now + round(max_time * _NS)
+        outcome = self.kernel.advance(until, self._all_ended)
+        if outcome == "stop":
+            return "finished"
+        return "time" if outcome == "time" else "deadlock"
+
+    def _all_ended(self) -> bool:
+        return all(t.state != "running" for t in self.rapid_tasks.values())
+
+    def where(self) -> list[str]:
+        """For each running task where it is, as `task: file:line (routine)`."""
+        lines = []
+        for task in self.rapid_tasks.values():
+            if task.state not in ("running", "stopped"):
+                continue
+            stack = task.stack()
+            if stack:
+                at = stack[-1]
+                lines.append(f"{task.name}: {at.span.path}:{at.span.line} ({at.routine})")
+            else:
+                lines.append(f"{task.name}: not started")
+        return lines
+
+    # -- real time -------------------------------------------------------------------------------
+
+    def start(self) -> None:
+        """Run in a thread of its own from now on (real clock)."""
+        if self._thread is not None:
+            return
+        self._stopping = False
+        self.kernel.rebase()
+        self._thread = threading.Thread(
+            target=self._run_thread, name=f"virtual controller {self.system.name}", daemon=True
+        )
+        self._thread.start()
+
+    def _run_thread(self) -> None:
+        self.kernel.advance(stop=lambda: self._stopping)
+
+    def stop(self) -> None:
+        """End the thread; the controller can be started again."""
+        thread = self._thread
+        if thread is None:
+            return
+
+        def end() -> None:
+            self._stopping = True
+
+        self.kernel.post(end)
+        thread.join()
+        self._thread = None
+
+    def call(self, function: Callable[[], Any]) -> Any:  # noqa: ANN401
+        """Run `function` on the controller's thread and return what it returns."""
+        if self._thread is None or threading.current_thread() is self._thread:
+            return function()
+        done = threading.Event()
+        result: list[Any] = []
+
+        def run() -> None:
+            try:
+                result.append(function())
+            finally:
+                done.set()
+
+        self.kernel.post(run)
+        done.wait()
+        if not result:
+            raise RuntimeError("the controller's thread could not carry out the request")
+        return result[0]
+
+    def close(self) -> None:
+        """Stop and give everything back: thread, sockets, files."""
+        self.stop()
+        self.kernel.close_processes()
+        for name in self.rapid_tasks:
+            self.sockets.close_task(name)
+        self.network.shut_down()
+        self.files.close()
+        self.kernel.close()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()

@@ -1,0 +1,66 @@
+"""Switches for behaviour that no public source settles.
+
+Every field is a question that the kernel manual leaves open, or on which sources disagree; the
+default is the answer that a source (named) or, failing that, memory of RobotWare 6 gives.
+docs/virtual-controller.md lists them.
+"""
+
+from dataclasses import dataclass, fields
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Dialect:
+    """How the virtual controller decides what is not settled."""
+
+    num_rounding: Literal["store", "operation"] = "store"
+    """Where a num is rounded to IEEE single: when it is stored, passed or returned, or after
+    every operator. No source."""
+
+    for_loop: Literal["kernel", "tested"] = "kernel"
+    """`kernel`: the first pass of FOR is never tested, and without STEP it counts down when
+    the end lies below the start [K §4.15]. `tested`: STEP is 1 and the first pass is tested."""
+
+    unhandled_error: Literal["propagate", "stop"] = "propagate"
+    """What happens to an error in a routine without ERROR: it goes to the caller [K §7.1, S4
+    overview], or straight to the system error handler (later manuals)."""
+
+    integer_division: Literal["truncate", "floor"] = "truncate"
+    """DIV and MOD with a negative left operand. K is silent."""
+
+    retry_raised: bool = True
+    """RETRY is allowed for an error made by RAISE. False: S4 datasys 2-RETRY-1."""
+
+    negative_mod: Literal["allow", "error"] = "allow"
+    """A negative left operand of MOD. `error`: S4 overview 4-26."""
+
+    cycle_resets_interrupts: bool = False
+    """The next cycle of main keeps ordered interrupts (S4 overview 4-24); True deletes them."""
+
+    wait_until: Literal["polled", "event"] = "polled"
+    """WaitUntil looks every 0.1 s [S4 datasys 2-WaitUntil-1], or whenever a persistent or
+    signal in its condition changes (later RobotWare) [mem]."""
+
+    dionum: Literal["strict", "nonzero"] = "strict"
+    """A dionum other than 0 and 1 is an error (S4 datasys 1-dionum-1), or counts as 1."""
+
+
+def parse_dialect(text: str) -> Dialect:
+    """A dialect from `name=value,...`. ValueError: unknown switch or value."""
+    chosen: dict[str, object] = {}
+    known = {f.name: f for f in fields(Dialect)}
+    for part in filter(None, (p.strip() for p in text.split(","))):
+        name, _, value = part.partition("=")
+        if name not in known:
+            raise ValueError(f"there is no switch {name!r}")
+        default = known[name].default
+        if isinstance(default, bool):
+            if value not in ("true", "false"):
+                raise ValueError(f"{name} is true or false")
+            chosen[name] = value == "true"
+        else:
+            allowed = known[name].type.__args__  # type: ignore[union-attr]
+            if value not in allowed:
+                raise ValueError(f"{name} is one of {', '.join(allowed)}")
+            chosen[name] = value
+    return Dialect(**chosen)  # type: ignore[arg-type]

@@ -1,0 +1,300 @@
+"""Errors of a task: handlers, RETRY, long jumps, UNDO, and who is where [K §7]."""
+
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from types import FrameType, TracebackType
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from greenlet import GreenletExit
+
+from rapidgen.diagnostics import Span
+from rapidgen.virtual.errors import (
+    LARGEST_USER_ERROR,
+    RECOVERABLE,
+    FatalError,
+    RapidError,
+    as_rapid_error,
+    errnum,
+    error_name,
+)
+from rapidgen.virtual.kernel import Kernel, Process
+
+if TYPE_CHECKING:
+    from rapidgen.virtual.compiler.program import Program
+
+RETRY, TRYNEXT, RETURN, RAISE = 0, 1, 2, 3
+RETRIES = 4
+"""Recoveries of one statement by RETRY: system parameter No Of Retry [K §7.5]."""
+DEEPEST = 5_000
+"""Python frames of a task; a deeper one is RAPID's stack overflow."""
+
+Listed = Callable[[], tuple[float, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a routine of the call stack is."""
+
+    module: str
+    routine: str
+    span: Span
+    origin: tuple[str, int] | None
+    """Template and line of a generated module."""
+
+    def __str__(self) -> str:
+        made = f" (from {self.origin[0]}:{self.origin[1]})" if self.origin else ""
+        return f"{self.module}/{self.routine}/{self.span.line}{made}"
+
+
+class Recovery(Process):
+    """The part of a task that deals with errors."""
+
+    __slots__ = ("__dict__",)
+
+    program: "Program"
+
+    def __init__(self, kernel: Kernel, name: str, controller: Any) -> None:  # noqa: ANN401
+        super().__init__(kernel, name)
+        self.controller = controller
+        self.errno = 0
+        self.ret: Any = None
+        """Value of RETURN in a handler."""
+        self.retry_number = 0
+        self.retry_base = 0
+        self.skip_warning = False
+        self.handler_level = 0
+        self.undo_level = 0
+
+    # -- handlers --------------------------------------------------------------------------------
+
+    def handle(
+        self,
+        handler: Callable[[], int],
+        error: Exception,
+        budget: int | None,
+        retries: int,
+        listed: Listed | None,
+    ) -> int:
+        """An error reached a statement of a routine with ERROR: 0 RETRY, 1 TRYNEXT, 2 RETURN.
+
+        `budget` is what the task has left when the statement itself failed; None when calls
+        wrote it back. Raises the error again when this handler is not for it.
+        """
+        traceback = error.__traceback__
+        frame = sys._getframe(1)
+        known = self._settled(error, traceback, frame, budget)
+        if known.target is not None:
+            if known.target is not frame:
+                raise known
+        elif listed is not None and not _lists(listed(), known.number):
+            raise known
+        known.target = None
+        return self._run_handler(handler, known, retries, frame, traceback)
+
+    def _run_handler(
+        self,
+        handler: Callable[[], int],
+        error: RapidError,
+        retries: int,
+        frame: FrameType,
+        traceback: TracebackType | None,
+    ) -> int:
+        self.errno = error.number
+        self.retry_number = retries
+        if retries == 0:
+            self.retry_base = 0
+        self.skip_warning = False
+        self.handler_level += 1
+        try:
+            way = handler()
+        except RECOVERABLE as second:
+            # Errors inside a handler go straight to the system error handler [K §7.1].
+            raise self.unhandled(self._settled(second, second.__traceback__, frame, None)) from None
+        finally:
+            self.handler_level -= 1
+        if not self.skip_warning:
+            self.controller.handled(self, error, traceback)
+        if way == RETRY:
+            self._count_retry(error, retries)
+            if retries - self.retry_base >= RETRIES:
+                return self._exhausted(handler, error, retries, frame, traceback)
+            return RETRY
+        if way in (TRYNEXT, RETURN):
+            return way
+        if way == RAISE:
+            error.target = self._recovery_point(frame, error.number)
+            raise error
+        raise self.unhandled(error) from None
+
+    def _count_retry(self, error: RapidError, retries: int) -> None:
+        if error.raised and not self.controller.dialect.retry_raised:
+            raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
+
+    def _exhausted(
+        self,
+        handler: Callable[[], int],
+        error: RapidError,
+        retries: int,
+        frame: FrameType,
+        traceback: TracebackType | None,
+    ) -> int:
+        """The handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; then the task stops."""
+        if error.number == errnum("ERR_EXCRTYMAX"):
+            raise self.unhandled(error) from None
+        last = RapidError("ERR_EXCRTYMAX")
+        last.settled = True
+        last.__traceback__ = traceback
+        return self._run_handler(handler, last, retries, frame, traceback)
+
+    def _settled(
+        self,
+        error: Exception,
+        traceback: TracebackType | None,
+        frame: FrameType,
+        budget: int | None,
+    ) -> RapidError:
+        """The RAPID error, with the task's budget put right for where it was raised."""
+        known = as_rapid_error(error)
+        if known is not error:
+            known.__traceback__ = traceback
+        if known.settled:
+            return known
+        known.settled = True
+        at = traceback
+        inner = None
+        codes = self.program.codes
+        while at is not None:
+            if at.tb_frame.f_code.co_filename in codes:
+                inner = at
+            at = at.tb_next
+        if inner is None:
+            return known
+        if inner.tb_frame is frame:
+            if budget is not None:
+                self.b = budget
+            return known
+        compiled = codes[inner.tb_frame.f_code.co_filename]
+        if inner.tb_lineno not in compiled.synced:
+            left = inner.tb_frame.f_locals.get("b")
+            if left is not None:
+                self.b = left + compiled.refunds.get(inner.tb_lineno, 0)
+        return known
+
+    def throw(self, number: float) -> NoReturn:
+        """RAISE n: 1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
+        whole = int(number) if number == number and abs(number) < 1e9 else 0
+        allowed = whole == number and (
+            1 <= whole <= LARGEST_USER_ERROR
+            or whole in self.controller.booked
+            or error_name(whole).startswith("ERR_")
+        )
+        error = RapidError(whole) if allowed else RapidError("ERR_ILLRAISE")
+        error.raised = True
+        raise error
+
+    def _recovery_point(self, frame: FrameType, number: int) -> FrameType | None:
+        """The nearest caller whose ERROR (list) has the number [K §7.2]."""
+        codes = self.program.codes
+        at = frame.f_back
+        in_handler = False
+        while at is not None:
+            compiled = codes.get(at.f_code.co_filename)
+            if compiled is not None:
+                if at.f_code.co_name in ("_h", "_u"):
+                    in_handler = True
+                else:
+                    if not in_handler and compiled.listed:
+                        numbers = at.f_locals["_l"]()
+                        if _lists(numbers, number):
+                            return at
+                    in_handler = False
+            at = at.f_back
+        return None
+
+    def _has_handler_above(self, frame: FrameType) -> bool:
+        codes = self.program.codes
+        at = frame.f_back
+        while at is not None:
+            compiled = codes.get(at.f_code.co_filename)
+            if compiled is not None:
+                if at.f_code.co_name in ("_h", "_u"):
+                    return False
+                if compiled.handled:
+                    return True
+            at = at.f_back
+        return False
+
+    def undo(self, handler: Callable[[], int], leaving: BaseException) -> None:
+        """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
+        if isinstance(leaving, GreenletExit):
+            return
+        if isinstance(leaving, RECOVERABLE):
+            known = as_rapid_error(leaving)
+            frame = sys._getframe(1)
+            if known.target is None and self._has_handler_above(frame):
+                return
+        self.undo_level += 1
+        try:
+            handler()
+        finally:
+            self.undo_level -= 1
+
+    # -- reports ---------------------------------------------------------------------------------
+
+    def unhandled(self, error: RapidError) -> FatalError:
+        """What the system error handler makes of an error."""
+        name = error_name(error.number)
+        fatal = FatalError(40199, f"Unhandled error {name}", name, error.text, cause=error)
+        fatal.stack = self.stack_of(error.__traceback__)
+        return fatal
+
+    def place_of(self, file: str, line: int) -> Place | None:
+        """RAPID place of a Python line."""
+        compiled = self.program.codes.get(file)
+        if compiled is None or not 0 <= line < len(compiled.tokens):
+            return None
+        module = compiled.module
+        token = compiled.tokens[line]
+        source = module.tree.source
+        span = source.span(token, token)
+        origin = None
+        for rapid_line, template, template_line in module.file.origin:
+            if rapid_line > span.line:
+                break
+            origin = (template, template_line + span.line - rapid_line)
+        return Place(module.name, compiled.routine.name, span, origin)
+
+    def stack_of(self, traceback: TracebackType | None) -> tuple[Place, ...]:
+        """Call stack of an error, outermost first."""
+        found: list[Place] = []
+        while traceback is not None:
+            place = self.place_of(traceback.tb_frame.f_code.co_filename, traceback.tb_lineno)
+            if place is not None:
+                found.append(place)
+            traceback = traceback.tb_next
+        return tuple(found)
+
+    def stack(self) -> tuple[Place, ...]:
+        """Call stack of a suspended or running task, outermost first."""
+        frame: Any = self.frame if self.kernel.running is not self else sys._getframe(1)
+        found: list[Place] = []
+        while frame is not None:
+            place = self.place_of(frame.f_code.co_filename, frame.f_lineno)
+            if place is not None:
+                found.append(place)
+            frame = frame.f_back
+        return tuple(reversed(found))
+
+    def poll(self, b: int) -> int:
+        """See Process.poll; also looks at the depth of the call stack."""
+        try:
+            sys._getframe(DEEPEST)
+        except ValueError:
+            return super().poll(b)
+        self.b = b
+        raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
+
+
+def _lists(numbers: tuple[float, ...], number: int) -> bool:
+    return number in numbers or errnum("LONG_JMP_ALL_ERR") in numbers
