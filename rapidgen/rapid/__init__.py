@@ -2,6 +2,7 @@
 
 from rapidgen.rapid.checker import check
 from rapidgen.rapid.dialect import Dialect
+from rapidgen.rapid.formatter import format_source
 from rapidgen.rapid.parser import parse
 
-__all__ = ["Dialect", "check", "parse"]
+__all__ = ["Dialect", "check", "format_source", "parse"]

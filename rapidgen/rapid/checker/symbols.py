@@ -229,7 +229,7 @@ def task_globals(scopes: Iterable[Scope]) -> tuple[dict[str, Symbol], list[tuple
     for scope in scopes:
         module = Symbol(scope.module.name, "MODULE", node=scope.module, module=scope)
         for key, symbol in [(module.name.lower(), module), *scope.own.items()]:
-            if symbol.local:
+            if symbol.local or not key:
                 continue
             first = found.get(key)
             if first is None:

@@ -167,7 +167,8 @@ class TypeChecker(Reporter):
             return None
         components = self.scope.components(base)
         if components is None:
-            self.report("RG304", f"{base} has no components", node.last, label="not a record")
+            if base in _ATOMIC or degree(base):
+                self.report("RG304", f"{base} has no components", node.last, label="no record")
             return None
         if node.component.lower() not in components:
             likely = closest(node.component, components)
