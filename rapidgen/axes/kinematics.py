@@ -1,0 +1,332 @@
+"""Forward and inverse kinematics of one motion group, from its chain.
+
+Poses are those of the flange (tool0) in the chain's root frame, m; postures are controller
+axis values in wire order, rad and m. External axes that carry the robot (a track) move its
+base; external axes that the chain does not name have no influence here.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan2, floor, hypot, pi
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import IDENTITY, Pose, Quaternion, Vector
+from rapidgen.axes.limits import ROUNDING
+from rapidgen.axes.mapping import JointMap
+from rapidgen.axes.wrist import BRANCHES, Angles, WristArm
+from rapidgen.config.model import Link, MotionGroup
+
+Posture = tuple[float, ...]
+Configuration = tuple[int, int, int, int]
+"""cf1, cf4, cf6, cfx"""
+_NEAR = 1e-6
+_TURN = 2 * pi
+
+
+@dataclass(frozen=True)
+class _Step:
+    """One step of the chain with its fixed part as a pose."""
+
+    fixed: Pose
+    axis: Vector
+    joint: int
+    """Place in wire order, -1 without a joint."""
+    prismatic: bool
+    follows: tuple[tuple[int, float], ...]
+
+
+@dataclass(frozen=True)
+class Kinematics:
+    """What a group's chain can compute. Make it with `Kinematics.of`."""
+
+    group: MotionGroup
+    map: JointMap
+    steps: tuple[_Step, ...]
+
+    @classmethod
+    def of(cls, group: MotionGroup) -> "Kinematics | None":
+        """The kinematics of a group; None when its model has no geometry."""
+        if not group.chain:
+            return None
+        names = [joint.name for joint in group.joints]
+        kinds = {joint.name: joint.kind for joint in group.joints}
+
+        def step(link: Link) -> _Step:
+            return _Step(
+                fixed=(link.xyz, frames.from_rpy(*link.rpy)),
+                axis=link.axis,
+                joint=names.index(link.joint) if link.joint else -1,
+                prismatic=bool(link.joint) and kinds[link.joint] == "prismatic",
+                follows=tuple((names.index(name), k) for name, k in link.follows),
+            )
+
+        return cls(group, JointMap.of(group), tuple(map(step, group.chain)))
+
+    # -- forward ----------------------------------------------------------------------------
+
+    def forward(self, posture: Posture) -> Pose:
+        """Flange of a posture."""
+        values = self.map.to_urdf(posture)
+        if self._arm is None:
+            return self._along(self.steps, values)
+        arm, first, signs, places = self._arm
+        angles = tuple([s * values[i] for s, i in zip(signs, places, strict=True)])
+        pose = arm.forward(angles)  # type: ignore[arg-type]
+        base = self._along(self.steps[:first], values) if first else None
+        return pose if base is None else frames.compose(base, pose)
+
+    @staticmethod
+    def _along(steps: tuple[_Step, ...], values: Posture) -> Pose:
+        pose = IDENTITY
+        for step in steps:
+            pose = frames.compose(pose, step.fixed)
+            if step.joint >= 0:
+                amount = values[step.joint]
+            elif step.follows:
+                amount = sum(values[i] * k for i, k in step.follows)
+            else:
+                continue
+            if step.prismatic:
+                pose = frames.compose(pose, (frames.scale(step.axis, amount), frames.UNIT))
+            else:
+                pose = pose[0], frames.multiply(pose[1], frames.about(step.axis, amount))
+        return pose
+
+    # -- inverse ----------------------------------------------------------------------------
+
+    @property
+    def is_closed_form(self) -> bool:
+        """Whether the inverse is a formula."""
+        return self._arm is not None
+
+    def follow(self, pose: Pose, near: Posture) -> Posture | None:
+        """The posture on the same branch as `near`, turns as close to it as can be.
+
+        External axes are those of `near`. None: out of reach, or the robot is on another
+        branch there. Ranges are not looked at.
+        """
+        arm = self._arm
+        if arm is None:
+            found = self._iterate(pose, near)
+            return found
+        values = self.map.to_urdf(near)
+        angles = self._robot_angles(values)
+        solved = arm[0].solve(self._from_base(pose, values), arm[0].branch(angles), angles[3])
+        return None if solved is None else self._as_posture(solved, angles, values)
+
+    def solutions(self, pose: Pose, near: Posture) -> list[Posture]:
+        """All postures within the ranges that reach a pose, external axes as in `near`.
+
+        Axes that can turn more than once appear with every turn. Closest to `near` first.
+        Without a closed form: what iteration finds from `near` and from other starts.
+        """
+        found: list[Posture] = []
+        if self._arm is None:
+            for start in self._starts(near):
+                posture = self._iterate(pose, start)
+                if posture is not None:
+                    found += [p for p in self._turned(posture) if not _known(p, found)]
+        else:
+            arm = self._arm[0]
+            values = self.map.to_urdf(near)
+            angles = self._robot_angles(values)
+            based = self._from_base(pose, values)
+            for branch in BRANCHES:
+                solved = arm.solve(based, branch, angles[3])
+                if solved is not None:
+                    posture = self._as_posture(solved, angles, values)
+                    found += [p for p in self._turned(posture) if not _known(p, found)]
+        found.sort(key=lambda p: sum(abs(a - b) for a, b in zip(p, near, strict=True)))
+        return found
+
+    def _robot_angles(self, values: Posture) -> Angles:
+        assert self._arm is not None
+        _, _, signs, places = self._arm
+        return tuple([s * values[i] for s, i in zip(signs, places, strict=True)])  # type: ignore[return-value]
+
+    def _from_base(self, pose: Pose, values: Posture) -> Pose:
+        assert self._arm is not None
+        first = self._arm[1]
+        if not first:
+            return pose
+        return frames.compose(frames.invert(self._along(self.steps[:first], values)), pose)
+
+    def _as_posture(self, solved: Angles, near: Angles, values: Posture) -> Posture:
+        """Controller values of solved angles, each on the turn that is closest to `near`."""
+        assert self._arm is not None
+        _, _, signs, places = self._arm
+        urdf = list(values)
+        for angle, old, sign, place in zip(solved, near, signs, places, strict=True):
+            urdf[place] = sign * (angle + _TURN * round((old - angle) / _TURN))
+        return self.map.to_controller(urdf)
+
+    def _iterate(self, pose: Pose, start: Posture) -> Posture | None:
+        from rapidgen.axes.numeric import iterate  # numpy: only where there is no closed form
+
+        moving = [i for i, j in enumerate(self.group.joints) if j.axis.startswith("rax")]
+        values = iterate(
+            lambda urdf: self._along(self.steps, urdf), pose, self.map.to_urdf(start), moving
+        )
+        if values is None:
+            return None
+        return self._near(self.map.to_controller(values), start)
+
+    def _near(self, posture: Posture, near: Posture) -> Posture:
+        return tuple(
+            v + _TURN * round((n - v) / _TURN) if j.kind == "revolute" else v
+            for v, n, j in zip(posture, near, self.group.joints, strict=True)
+        )
+
+    def _starts(self, near: Posture) -> Iterator[Posture]:
+        """Where iteration begins: `near`, then spread over the ranges."""
+        yield near
+        for share in (0.5, 0.25, 0.75):
+            yield tuple(
+                j.lower + (j.upper - j.lower) * share if j.axis.startswith("rax") else n
+                for j, n in zip(self.group.joints, near, strict=True)
+            )
+
+    def _turned(self, posture: Posture) -> list[Posture]:
+        """The posture with every turn of its axes that lies within the ranges."""
+        found: list[list[float]] = [[]]
+        for value, joint in zip(posture, self.group.joints, strict=True):
+            low, high = joint.lower - ROUNDING, joint.upper + ROUNDING
+            if joint.kind == "prismatic":
+                turns = [value] if low <= value <= high else []
+            elif not joint.axis.startswith("rax"):
+                turns = [value]
+            else:
+                first = value - _TURN * floor((value - low) / _TURN)
+                turns = []
+                while first <= high:
+                    turns.append(first)
+                    first += _TURN
+            found = [[*head, turn] for head in found for turn in turns]
+        return [tuple(p) for p in found]
+
+    # -- configuration ----------------------------------------------------------------------
+
+    def configuration(self, posture: Posture) -> Configuration:
+        """confdata of a posture: quarter turns of axes 1, 4 and 6, and cfx.
+
+        cfx (memory of RobotWare): +4 wrist centre behind axis 1, +2 behind the lower arm, +1
+        axis 5 negative. It is 0 for robots with a parallel rod, whose arm cannot turn over
+        (S4 datasys 1-confdata), and where there is no closed form.
+        """
+        quarters = []
+        for axis in ("rax_1", "rax_4", "rax_6"):
+            place = self._axes.get(axis)
+            quarters.append(0 if place is None else quarter(posture[place], self._linear[place]))
+        x = 0
+        if self._arm is not None and not self.group.coupling:
+            angles = self._robot_angles(self.map.to_urdf(posture))
+            back, behind, _ = self._arm[0].branch(angles)
+            x = 4 * back + 2 * behind + (posture[self._axes["rax_5"]] < 0)
+        return quarters[0], quarters[1], quarters[2], x
+
+    def matches(self, posture: Posture, wanted: Configuration, slack: float = pi / 4) -> bool:
+        """Whether a posture has a configuration, axes up to `slack` outside their quarter.
+
+        45 degrees on both sides are accepted (S4 datasys 1-confdata).
+        """
+        for axis, cf in zip(("rax_1", "rax_4", "rax_6"), wanted, strict=False):
+            place = self._axes.get(axis)
+            if place is None:
+                continue
+            size = 1.0 if self._linear[place] else pi / 2
+            room = slack / (pi / 2) * size
+            if not cf * size - room <= posture[place] <= (cf + 1) * size + room:
+                return False
+        return self.configuration(posture)[3] == wanted[3] or bool(self.group.coupling)
+
+    @cached_property
+    def _axes(self) -> dict[str, int]:
+        return {joint.axis: i for i, joint in enumerate(self.group.joints)}
+
+    @cached_property
+    def _linear(self) -> tuple[bool, ...]:
+        return tuple(joint.kind == "prismatic" for joint in self.group.joints)
+
+    # -- recognising a wrist arm ------------------------------------------------------------
+
+    @cached_property
+    def _arm(self) -> tuple[WristArm, int, tuple[int, ...], tuple[int, ...]] | None:
+        """The closed form, the number of steps before it, signs and places of its axes."""
+        steps = self.steps
+        places = [self._axes.get(f"rax_{i}", -1) for i in range(1, 7)]
+        if -1 in places or any(self._linear[i] for i in places):
+            return None
+        order = [s.joint for s in steps if s.joint in places]
+        if order != places or any(step.follows for step in steps):
+            return None
+        first = next(i for i, s in enumerate(steps) if s.joint == places[0])
+        if any(s.joint >= 0 and s.joint not in places for s in steps[first:]):
+            return None
+        points, axes, flange = self._zero_frame(steps[first:])
+        return _recognise(points, axes, flange, first, tuple(places))
+
+    @staticmethod
+    def _zero_frame(steps: tuple[_Step, ...]) -> tuple[list[Vector], list[Vector], Pose]:
+        """A point and the direction of each axis at zero, and the flange, from the base."""
+        pose, points, axes = IDENTITY, [], []
+        for step in steps:
+            pose = frames.compose(pose, step.fixed)
+            if step.joint >= 0:
+                points.append(pose[0])
+                axes.append(frames.rotate(pose[1], step.axis))
+        return points, axes, pose
+
+
+def _recognise(
+    points: list[Vector], axes: list[Vector], flange: Pose, first: int, places: tuple[int, ...]
+) -> tuple[WristArm, int, tuple[int, ...], tuple[int, ...]] | None:
+    signs = []
+    for axis, along in zip(axes, (2, 1, 1, 0, 1, 0), strict=True):
+        if abs(abs(axis[along]) - 1.0) > _NEAR:
+            return None
+        signs.append(1 if axis[along] > 0 else -1)
+    if abs(points[0][0]) > _NEAR or abs(points[0][1]) > _NEAR:
+        return None
+    # Axis 5 is met by axis 4 and axis 6 (both along x) in the wrist centre.
+    x5, z5 = points[4][0], points[4][2]
+    y4, z4 = points[3][1], points[3][2]
+    y6, z6 = points[5][1], points[5][2]
+    if max(abs(z4 - z5), abs(z6 - z5), abs(y4 - y6)) > _NEAR:
+        return None
+    (x2, _, z2), (x3, _, z3) = points[1], points[2]
+    centre = (x5, y4, z5)
+    back = frames.conjugate(flange[1])
+    arm = WristArm(
+        shoulder=(x2, z2),
+        upper=(hypot(x3 - x2, z3 - z2), atan2(z3 - z2, x3 - x2)),
+        fore=(hypot(x5 - x3, z5 - z3), atan2(z5 - z3, x5 - x3)),
+        lateral=y4,
+        flange=frames.rotate(back, frames.subtract(flange[0], centre)),
+        turn=flange[1],
+    )
+    if min(arm.upper[0], arm.fore[0]) < _NEAR:
+        return None
+    return arm, first, tuple(signs), places
+
+
+def quarter(value: float, linear: bool = False) -> int:
+    """confdata of one axis: quarter turns, or metres; 0 at 0, -2 at -90 degrees.
+
+    S4 datasys 1-confdata-1 gives trunc(angle / 90 - 1) for negative angles, which differs from
+    the floor only at exact negative quarters.
+    """
+    size = 1.0 if linear else pi / 2
+    return int(value / size) if value >= 0 else int(value / size - 1)
+
+
+def _known(posture: Posture, found: list[Posture]) -> bool:
+    return any(
+        max(abs(a - b) for a, b in zip(posture, other, strict=True)) < 1e-6 for other in found
+    )
+
+
+def orientation(pose: Pose) -> Quaternion:
+    """Orientation of a pose with a scalar part that is not negative."""
+    q = pose[1]
+    return (-q[0], -q[1], -q[2], -q[3]) if q[0] < 0 else q
