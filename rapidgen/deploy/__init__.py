@@ -1,1 +1,25 @@
 """Plan, apply, verify and roll back what lies on a controller."""
+
+from rapidgen.deploy.apply import apply
+from rapidgen.deploy.driverset import DriverSet, from_files, from_folder
+from rapidgen.deploy.keep import backup_set
+from rapidgen.deploy.plan import Plan, make_plan, plan_json
+from rapidgen.deploy.target import Access, Target, connect, parse_target
+from rapidgen.deploy.transport import Transport, TransportFault
+
+__all__ = [
+    "Access",
+    "DriverSet",
+    "Plan",
+    "Target",
+    "Transport",
+    "TransportFault",
+    "apply",
+    "backup_set",
+    "connect",
+    "from_files",
+    "from_folder",
+    "make_plan",
+    "parse_target",
+    "plan_json",
+]

@@ -1,0 +1,288 @@
+"""Carry out a plan so that a cut at any point leaves the old set, the new set, or a refusal.
+
+Order: journal, backup, every new file beside its old one and read back; then the mark
+`switching`, the fence (a module of each task with a BUILD_ID that none other has, so that all
+tasks refuse to serve and to move), the files, the fence's own files, everything read back once
+more, the manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
+"""
+
+from rapidgen.deploy.driverset import DriverSet, SetFile, digest
+from rapidgen.deploy.keep import (
+    back_up,
+    delete_backup,
+    delete_backups,
+    delete_empty_folders,
+    new_manifest,
+    now,
+)
+from rapidgen.deploy.plan import Change, Plan, make_plan
+from rapidgen.deploy.run import (
+    FENCE,
+    NEW,
+    Run,
+    Say,
+    delete,
+    delete_all,
+    delete_folder,
+    differs,
+    names,
+    probe,
+    swap,
+    write,
+)
+from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
+from rapidgen.deploy.transport import Transport, TransportFault, read_or_none
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+
+def apply(
+    transport: Transport, plan: Plan, *, overwrite: bool = False, say: Say = lambda _: None
+) -> None:
+    """Do exactly what `plan` says; nothing when it is empty.
+
+    Raises DiagnosticError: RG520, RG521 (conflicts), RG522 (the controller moved on), RG527
+    (cut while switching); TransportFault before that: then nothing old was changed.
+    """
+    if plan.conflicts and not overwrite:
+        raise DiagnosticError([_conflict(c) for c in plan.conflicts], exit_code=1)
+    if make_plan(transport, plan.wanted, verb=plan.verb).fingerprint != plan.fingerprint:
+        raise moved_on(plan.target)
+    if plan.is_empty:
+        return
+    run = _begin(transport, plan, say)
+    if plan.interrupted:
+        _clean(run)
+    if not plan.repair and not plan.is_stale and all(c.action == "same" for c in plan.changes):
+        _finish(run, None)
+        return
+    journal = _prepare(run)
+    try:
+        write(run, f"{run.folder}/switching", b"old files are being replaced: see the journal\n")
+        _switch(run)
+        _verify(run)
+        _finish(run, journal)
+    except TransportFault as fault:
+        raise _cut(plan, fault) from fault
+
+
+def moved_on(target: str) -> DiagnosticError:
+    """RG522."""
+    return DiagnosticError(
+        Diagnostic(
+            "RG522",
+            Severity.ERROR,
+            f"{target} has changed since it was planned",
+            help="plan again, and look at what has changed",
+        ),
+        exit_code=1,
+    )
+
+
+def _begin(transport: Transport, plan: Plan, say: Say) -> Run:
+    """The state folder, what rename does here, and room on the disk."""
+    folder = Run(transport, plan, "none", say).folder
+    try:
+        transport.make_folder(folder)
+        run = Run(transport, plan, probe(transport, folder), say, {folder})
+        needed = sum(len(c.before or b"") + 2 * len(c.after or b"") for c in plan.changes)
+        free = transport.free()
+        if free is not None and free < needed:
+            raise TransportFault("full", f"{plan.target}: {free} bytes free, {needed} needed")
+    except TransportFault as fault:
+        if fault.kind not in ("lost", "garbled") and not plan.state.present:
+            delete_folder(Run(transport, plan, "none", say), folder)
+        raise
+    return run
+
+
+def _prepare(run: Run) -> Journal:
+    """Journal, backup and staged files; on a refusal all of it is taken away again."""
+    plan, old = run.plan, run.plan.state.journal
+    number = old.id if old and plan.repair else 1 + (plan.had.id if plan.had else 0)
+    known = {p: set(hashes) for p, hashes in (old.known if old and plan.repair else {}).items()}
+    fences = _fences(run)
+    staged: dict[str, bytes] = {}
+    for change in plan.changes:
+        fence = fences.get(change.path) if change.kind != "syspar" else None
+        if fence is not None:
+            staged[change.where + FENCE] = fence
+        if change.after is not None and (fence is not None or change.action != "same"):
+            staged[change.where + NEW] = change.after
+        if change.kind != "syspar":
+            contents = [d for d in (change.before, change.after, fence) if d is not None]
+            known.setdefault(change.path, set()).update(map(digest, contents))
+    journal = Journal(
+        number,
+        1 + (old.attempt if old else 0),
+        plan.verb,
+        now(),
+        plan.had,
+        new_manifest(plan, plan.wanted, number) if plan.wanted else None,
+        {path: tuple(sorted(hashes)) for path, hashes in known.items()},
+        tuple(staged),
+    )
+    _write_journal(run, journal)
+    try:
+        if not plan.repair:
+            back_up(run, number)
+        for path, data in staged.items():
+            write(run, path, data)
+    except TransportFault as fault:
+        if not plan.repair and fault.kind not in ("lost", "garbled"):
+            _undo_preparation(run, journal)
+        raise
+    return journal
+
+
+def _switch(run: Run) -> None:
+    """Fence in, the old set's own key modules out, the rest, fence out."""
+    plan = run.plan
+    fences = _fences(run)
+    fenced = [c for c in plan.changes if c.path in fences and c.kind != "syspar"]
+    for change in fenced:
+        if change.before != fences[change.path]:
+            exists = change.before is not None
+            swap(run, change.where, FENCE, fences[change.path], exists=exists)
+    first = _old_fences(plan)
+    gone = [c for c in plan.changes if c.after is None and c.before is not None]
+    for change in sorted(gone, key=lambda c: c.path not in first):
+        run.say(f"removing {change.shown}")
+        delete(run, change.where)
+    rest = [c for c in plan.changes if c.after is not None and c.action != "same"]
+    rest = [c for c in rest if c not in fenced]
+    # SYSPAR before the cfg file that says what is ours in it.
+    for change in sorted(rest, key=lambda c: c.kind != "syspar"):
+        run.say(f"switching {change.shown}")
+        swap(run, change.where, NEW, change.after or b"", exists=change.before is not None)
+    for change in fenced:
+        run.say(f"switching {change.shown}")
+        swap(run, change.where, NEW, change.after or b"", exists=True)
+
+
+def _fences(run: Run) -> dict[str, bytes]:
+    """Fences of the new set; none when the whole switch is one atomic rename."""
+    steps = [c for c in run.plan.changes if c.action != "same" and c.kind != "cfg"]
+    if run.plan.wanted is None or not steps or (run.mode == "replace" and len(steps) == 1):
+        return {}
+    return run.plan.wanted.fences()
+
+
+def _old_fences(plan: Plan) -> frozenset[str]:
+    """Modules whose absence keeps every task of the old set from loading: they go first."""
+    if plan.had is None:
+        return frozenset()
+    files = [
+        SetFile(c.path, c.before, "module", c.tasks)
+        for c in plan.changes
+        if c.kind == "module" and c.before is not None
+    ]
+    old = DriverSet(plan.had.name, plan.had.build_id, plan.had.robotware, tuple(files))
+    return frozenset(old.fences())
+
+
+def _verify(run: Run) -> None:
+    """Everything read back once more, in place."""
+    for change in run.plan.changes:
+        if read_or_none(run.transport, change.where) != change.after:
+            raise differs(change.shown)
+
+
+def _finish(run: Run, journal: Journal | None) -> None:
+    """Manifest, then the end of the notes; without a journal only the notes are cleared."""
+    folder = run.folder
+    present = names(run.transport, folder)
+    if journal is not None and journal.new is not None:
+        data = encode(manifest_json(journal.new))
+        path = f"{folder}/manifest.json"
+        if run.mode != "none":
+            write(run, path + NEW, data)
+        swap(run, path, NEW, data, exists="manifest.json" in present)
+    elif run.plan.wanted is None and "manifest.json" in present:
+        delete(run, f"{folder}/manifest.json")
+    delete_all(run, journal.staged if journal else ())
+    if run.plan.wanted is None:
+        delete_backups(run, keep=frozenset())
+    elif journal is not None and journal.new is not None:
+        kept = (str(past.id) for past in journal.new.history)
+        delete_backups(run, keep=frozenset({"origin", *kept}))
+    for name in ("switching", "journal.a", "journal.b"):
+        delete_all(run, [f"{folder}/{name}"])
+    if run.plan.wanted is None:
+        delete_folder(run, folder)
+    delete_empty_folders(run)
+
+
+def _clean(run: Run) -> None:
+    """Take away what an earlier run left half-done; what it switched is in the plan already."""
+    journal = run.plan.state.journal
+    delete_all(run, [*(journal.staged if journal else ()), f"{run.folder}/manifest.json{NEW}"])
+    if run.plan.repair:
+        return
+    finished = journal is not None and run.plan.had is not None and run.plan.had.id == journal.id
+    delete_all(run, [f"{run.folder}/switching"])
+    if journal is not None and journal.new is not None and not finished:
+        delete_backup(run, str(journal.id))
+        if run.plan.had is None:
+            delete_backup(run, "origin")
+    delete_all(run, [f"{run.folder}/journal.a", f"{run.folder}/journal.b"])
+
+
+def _undo_preparation(run: Run, journal: Journal) -> None:
+    """Best effort: what stays is named in the journal, and the next run takes it away."""
+    try:
+        delete_all(run, journal.staged)
+        if run.plan.wanted is not None:
+            delete_backup(run, str(journal.id))
+            if run.plan.had is None:
+                delete_backup(run, "origin")
+        delete_all(run, [f"{run.folder}/journal.a", f"{run.folder}/journal.b"])
+        if run.plan.had is None:
+            delete_folder(run, f"{run.folder}/backup")
+            delete_empty_folders(run)
+            delete_folder(run, run.folder)
+    except TransportFault:
+        return
+
+
+def _write_journal(run: Run, journal: Journal) -> None:
+    """Into the file that is not in use, then the other goes: one of them is always whole."""
+    current = run.plan.state.journal_file
+    name = "journal.b" if current == "journal.a" else "journal.a"
+    write(run, f"{run.folder}/{name}", encode(journal_json(journal)))
+    if current:
+        delete_all(run, [f"{run.folder}/{current}"])
+
+
+def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
+    return DiagnosticError(
+        [
+            *fault.diagnostics,
+            Diagnostic(
+                "RG527",
+                Severity.ERROR,
+                f"{plan.verb} of {plan.target} was cut while it switched files",
+                help=f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
+                notes=("what lies there now is the old set, the new set, or refuses to move",),
+            ),
+        ],
+        exit_code=1,
+    )
+
+
+def _conflict(change: Change) -> Diagnostic:
+    if change.conflict == "stranger":
+        return Diagnostic(
+            "RG521",
+            Severity.ERROR,
+            f"{change.shown} is there already, and rapidgen did not put it there",
+            help="rename or remove it, or --overwrite: a copy stays on the controller, and "
+            "`rapidgen uninstall` puts it back",
+        )
+    return Diagnostic(
+        "RG520",
+        Severity.ERROR,
+        f"{change.shown} was edited by hand since the last deployment",
+        help="take the edit over into the configuration, or --overwrite: a copy stays in the "
+        "backup",
+        notes=(change.note,) if change.note else (),
+    )

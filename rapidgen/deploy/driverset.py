@@ -1,0 +1,136 @@
+"""The set of files that belongs on a controller, made from a generated folder's files."""
+
+import hashlib
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+
+from rapidgen.deploy.transport import TransportFault, safe
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.system import CfgText, parse_cfg, read_manifest
+
+Kind = Literal["module", "cfg"]
+
+STATE = "rapidgen_deploy"
+"""Folder in HOME that a deployment keeps for itself (no dot: some FTP servers hide those)."""
+
+INCOMPLETE = b"incomplete--"
+"""Stands for BUILD_ID in a fence; as long as one, and equal to none."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetFile:
+    """One file as it has to lie on the controller; `path` is relative to HOME."""
+
+    path: str
+    data: bytes
+    kind: Kind
+    tasks: tuple[str, ...] = ()
+
+    @property
+    def sha256(self) -> str:
+        return digest(self.data)
+
+
+@dataclass(frozen=True, slots=True)
+class DriverSet:
+    """A complete driver: modules and cfg files, in the order in which they are written."""
+
+    name: str
+    build_id: str
+    robotware: tuple[int, int]
+    files: tuple[SetFile, ...]
+    generated: Mapping[str, Any] = field(default_factory=dict)
+    """manifest.json of the generated folder without its line map."""
+
+    @property
+    def cfg(self) -> tuple[CfgText, ...]:
+        """The cfg files, parsed. Raises DiagnosticError RG701, RG702."""
+        return tuple(parse_cfg(f.data, path=f.path) for f in self.files if f.kind == "cfg")
+
+    def fences(self) -> dict[str, bytes]:
+        """Modules that, put in place, make every task refuse to serve and to move.
+
+        They are as few modules as touch every task, with another BUILD_ID than all others have:
+        ROS_common compares them when a task starts. Path to bytes.
+        """
+        chosen: dict[str, bytes] = {}
+        reached: set[str] = set()
+        modules = [f for f in self.files if f.kind == "module" and self.build_id.encode() in f.data]
+        for file in sorted(modules, key=lambda f: (-len(f.tasks), f.path)):
+            if not set(file.tasks) <= reached:
+                reached |= set(file.tasks)
+                chosen[file.path] = file.data.replace(self.build_id.encode(), INCOMPLETE)
+        return chosen
+
+
+def digest(data: bytes) -> str:
+    """sha256 in hex."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> DriverSet:
+    """The set that the files of a generated folder make (keys as in manifest.json, and itself).
+
+    Raises DiagnosticError RG530 when files and manifest do not belong together.
+    """
+    try:
+        manifest = json.loads(files["manifest.json"])
+        wanted = []
+        for entry in manifest["files"]:
+            path, kind = str(entry["path"]), str(entry["kind"])
+            if kind not in ("module", "cfg"):
+                continue
+            data = files[path]
+            if digest(data) != entry["sha256"]:
+                raise _bad(f"{path} of {source} is not what its manifest says", "build it again")
+            where = path.removeprefix("HOME/") if kind == "module" else f"{STATE}/{path}"
+            tasks = tuple(str(task) for task in entry.get("task") or ())
+            wanted.append(
+                SetFile(safe(where), data, "module" if kind == "module" else "cfg", tasks)
+            )
+        first, second = manifest["robotware"]
+        result = DriverSet(
+            str(manifest["name"]),
+            str(manifest["build_id"]),
+            (int(first), int(second)),
+            tuple(wanted),
+            {key: value for key, value in manifest.items() if key != "lines"},
+        )
+    except TransportFault as fault:
+        raise _bad(fault.diagnostics[0].message, "module paths stay inside HOME") from None
+    except (KeyError, TypeError, ValueError, RecursionError) as error:
+        raise _bad(f"the manifest of {source} is damaged: {error!r}", "build it again") from None
+    uncovered = {t for f in wanted for t in f.tasks} - {
+        t for f in wanted if f.path in result.fences() for t in f.tasks
+    }
+    if uncovered or not result.build_id:
+        raise _bad(
+            f"no module of {', '.join(sorted(uncovered)) or 'the driver'} carries BUILD_ID",
+            "build it with this rapidgen: a deployment that is cut must leave modules that refuse",
+        )
+    return result
+
+
+def from_folder(folder: Path) -> DriverSet:
+    """The set in a generated folder. Raises DiagnosticError RG530, RG704, RG711."""
+    manifest = read_manifest(folder)
+    files = {"manifest.json": (folder / "manifest.json").read_bytes()}
+    for entry in manifest["files"]:
+        path = str(entry.get("path")) if isinstance(entry, dict) else ""
+        try:
+            target = folder / safe(path)
+            if not target.resolve().is_relative_to(folder.resolve()):
+                raise _bad(f"{path} leads out of {folder}", "build it again")
+            files[path] = target.read_bytes()
+        except TransportFault as fault:
+            raise _bad(fault.diagnostics[0].message, "build it again") from None
+        except OSError as error:
+            raise _bad(f"{path} of {folder}: {error.strerror}", "build it again") from error
+    return from_files(files, source=str(folder))
+
+
+def _bad(message: str, help: str) -> DiagnosticError:
+    return DiagnosticError(Diagnostic("RG530", Severity.ERROR, message, help=help))

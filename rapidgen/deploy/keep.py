@@ -1,0 +1,141 @@
+"""What a run keeps for later: backups, strangers' files, the manifest; and what it throws away."""
+
+from dataclasses import replace
+from datetime import UTC, datetime
+from typing import Any
+
+from rapidgen import __version__
+from rapidgen.deploy.cfg import keyed, remember
+from rapidgen.deploy.driverset import DriverSet, SetFile, digest
+from rapidgen.deploy.plan import Plan
+from rapidgen.deploy.run import Run, delete, delete_folder, names, write
+from rapidgen.deploy.state import (
+    KEPT,
+    Manifest,
+    Past,
+    Record,
+    encode,
+    manifest_json,
+    read_backup,
+)
+from rapidgen.deploy.transport import Transport, parent, read_or_none
+
+
+def back_up(run: Run, number: int) -> None:
+    """Strangers' files for `uninstall`, and the whole set as it lies there, edits included."""
+    plan, had = run.plan, run.plan.had
+    if plan.wanted is None:
+        return
+    for record, data in strangers(plan):
+        run.say(f"keeping a copy of {record.path}")
+        write(run, f"{run.folder}/backup/{record.stored}", data)
+    if had is None:
+        return
+    folder = f"{run.folder}/backup/{number}"
+    run.say(f"backup {number}")
+    by_path = {c.path: c.before for c in plan.changes if c.kind != "syspar"}
+    records = []
+    for index, record in enumerate(had.files):
+        if record.path in by_path:
+            found = by_path[record.path]
+        else:
+            found = read_or_none(run.transport, run.home + record.path)
+        if found is not None:
+            name = f"{index}.bin"
+            write(run, f"{folder}/{name}", found)
+            records.append(replace(record, sha256=digest(found), size=len(found), stored=name))
+    kept = replace(had, files=tuple(records), history=())
+    write(run, f"{folder}/backup.json", encode(manifest_json(kept)))
+
+
+def strangers(plan: Plan) -> list[tuple[Record, bytes]]:
+    """Files that are not ours and are about to be replaced, or taken over because they are equal,
+    and cfg files before our first instance."""
+    count = len(plan.origin)
+    found: list[tuple[Record, bytes]] = []
+    for change in plan.changes:
+        foreign = change.foreign or (change.kind == "syspar" and change.action == "change")
+        if foreign and change.before is not None and change.path not in plan.origin:
+            record = Record(
+                change.path,
+                digest(change.before),
+                len(change.before),
+                change.kind,
+                stored=f"origin/{count + len(found)}.bin",
+            )
+            found.append((record, change.before))
+    return found
+
+
+def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
+    """The manifest that stands when the run is done."""
+    had = plan.had
+    files = tuple(Record(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in wanted.files)
+    history = had.history if had else ()
+    undone = plan.repair and had is not None and had.files == files
+    if had is not None and not undone:
+        history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
+    before: dict[str, Any] = dict(plan.cfg_before)
+    if plan.cfg_seen:
+        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before)
+    return Manifest(
+        number,
+        now(),
+        wanted.name,
+        wanted.build_id,
+        wanted.robotware,
+        files,
+        (*plan.origin.values(), *(record for record, _ in strangers(plan))),
+        history,
+        before,
+        {"written_by": __version__, **wanted.generated},
+    )
+
+
+def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
+    """The set that backup `number` keeps. Raises DiagnosticError RG528."""
+    manifest, files = read_backup(transport, home, number)
+    return DriverSet(
+        manifest.name,
+        manifest.build_id,
+        manifest.robotware,
+        tuple(
+            SetFile(r.path, files[r.path], "cfg" if r.kind == "cfg" else "module", r.tasks)
+            for r in manifest.files
+        ),
+        manifest.generated,
+    )
+
+
+def delete_backups(run: Run, *, keep: frozenset[str]) -> None:
+    """All backups but those named."""
+    folder = f"{run.folder}/backup"
+    for name in sorted(names(run.transport, folder) - keep):
+        delete_backup(run, name)
+    if not keep:
+        delete_folder(run, folder)
+
+
+def delete_backup(run: Run, name: str) -> None:
+    """One backup; `backup.json` first, without which the rest counts as none."""
+    folder = f"{run.folder}/backup/{name}"
+    for member in sorted(names(run.transport, folder), key=lambda n: n != "backup.json"):
+        delete(run, f"{folder}/{member}")
+    delete_folder(run, folder)
+
+
+def delete_empty_folders(run: Run) -> None:
+    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR."""
+    folders: set[str] = set()
+    for change in run.plan.changes:
+        place = parent(change.where) if change.kind != "syspar" else ""
+        while place and place + "/" != run.home:
+            folders.add(place)
+            place = parent(place)
+    for folder in sorted(folders, key=len, reverse=True):
+        delete_folder(run, folder)
+
+
+def now() -> str:
+    """UTC, to the second."""
+    return datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")

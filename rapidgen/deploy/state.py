@@ -1,0 +1,295 @@
+"""What a deployment writes down on the controller, and reads back as a stranger's words.
+
+`manifest.json` says what lies there (written last), `journal.a`/`journal.b` what is under way
+(the one not in use is written, then the other deleted, so that one is always whole), `switching`
+that old files are being replaced, and `backup/<number>/` what was there before a deployment.
+"""
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from rapidgen.deploy.driverset import STATE, digest
+from rapidgen.deploy.transport import Transport, TransportFault, read_or_none, safe
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+FORMAT = 1
+KEPT = 5
+"""Backups that stay on the controller."""
+
+DAMAGE = (
+    ValueError,
+    KeyError,
+    TypeError,
+    AttributeError,
+    OverflowError,
+    RecursionError,
+    TransportFault,
+)
+"""What reading a damaged or hostile state file raises."""
+
+_SHA = re.compile(r"[0-9a-f]{64}")
+
+
+@dataclass(frozen=True, slots=True)
+class Record:
+    """One file: its path in HOME, its hash, and the name of a copy in a backup folder."""
+
+    path: str
+    sha256: str
+    size: int = 0
+    kind: str = "module"
+    tasks: tuple[str, ...] = ()
+    stored: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Past:
+    """A set that a backup keeps: `id` is the deployment that replaced it."""
+
+    id: int
+    time: str
+    name: str
+    build_id: str
+
+
+@dataclass(frozen=True, slots=True)
+class Manifest:
+    """What the last deployment left, or what a backup keeps (with `stored` in its records)."""
+
+    id: int
+    time: str
+    name: str
+    build_id: str
+    robotware: tuple[int, int]
+    files: tuple[Record, ...]
+    origin: tuple[Record, ...] = ()
+    """Strangers' files that were overwritten: kept for `uninstall`."""
+    history: tuple[Past, ...] = ()
+    cfg_before: Mapping[str, Any] = field(default_factory=dict)
+    """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
+    generated: Mapping[str, Any] = field(default_factory=dict)
+
+    def record(self, path: str) -> Record | None:
+        """The record of a path in HOME."""
+        return next((r for r in self.files if r.path == path), None)
+
+
+@dataclass(frozen=True, slots=True)
+class Journal:
+    """A deployment under way: enough to finish or undo it, whatever became of the manifest."""
+
+    id: int
+    attempt: int
+    verb: str
+    started: str
+    old: Manifest | None
+    new: Manifest | None
+    known: Mapping[str, tuple[str, ...]]
+    """Hashes by path that this or an earlier attempt found or put there."""
+    staged: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """All that the state folder says."""
+
+    manifest: Manifest | None = None
+    journal: Journal | None = None
+    journal_file: str = ""
+    switching: bool = False
+    damaged: str = ""
+    """Why manifest.json cannot be used, if so."""
+    digest: str = ""
+    present: bool = False
+
+
+def read_state(transport: Transport, home: str) -> State:
+    """State folder of the HOME with this prefix ('' or 'HOME/')."""
+    folder = home + STATE
+    try:
+        names = {e.name for e in transport.entries(folder)}
+    except TransportFault as fault:
+        if fault.kind != "missing":
+            raise
+        return State(digest=digest(b""))
+    raw = read_or_none(transport, f"{folder}/manifest.json") if "manifest.json" in names else None
+    manifest, damaged = None, ""
+    if raw is not None:
+        try:
+            manifest = manifest_from(json.loads(raw))
+        except DAMAGE as error:
+            damaged = f"manifest.json on the controller is damaged ({type(error).__name__})"
+    journals: list[tuple[int, str, Journal, bytes]] = []
+    for name in sorted(names & {"journal.a", "journal.b"}):
+        text = read_or_none(transport, f"{folder}/{name}") or b""
+        try:
+            journal = journal_from(json.loads(text))
+        except DAMAGE:
+            # Cut while it was written: then nothing that it announces was done.
+            continue
+        journals.append((journal.attempt, name, journal, text))
+    switching = "switching" in names
+    latest = max(journals, key=lambda j: j[0]) if journals else None
+    seen = (raw or b"") + (latest[3] if latest else b"") + (b"switching" if switching else b"")
+    if latest is None:
+        return State(manifest, None, "", switching, damaged, digest(seen), True)
+    return State(manifest, latest[2], latest[1], switching, damaged, digest(seen), True)
+
+
+def manifest_json(manifest: Manifest) -> dict[str, Any]:
+    """As it stands on the controller."""
+    return {
+        "format": FORMAT,
+        "id": manifest.id,
+        "time": manifest.time,
+        "name": manifest.name,
+        "build_id": manifest.build_id,
+        "robotware": list(manifest.robotware),
+        "files": [_record_json(r) for r in manifest.files],
+        "origin": [_record_json(r) for r in manifest.origin],
+        "history": [
+            {"id": p.id, "time": p.time, "name": p.name, "build_id": p.build_id}
+            for p in manifest.history
+        ],
+        "cfg_before": dict(manifest.cfg_before),
+        "generated": dict(manifest.generated),
+    }
+
+
+def manifest_from(data: Any) -> Manifest:  # noqa: ANN401 - whatever JSON held
+    """Raises one of DAMAGE for anything unexpected."""
+    if data["format"] != FORMAT:
+        raise ValueError("a later format")
+    first, second = data["robotware"]
+    return Manifest(
+        int(data["id"]),
+        _text(data["time"]),
+        _text(data["name"]),
+        _text(data["build_id"]),
+        (int(first), int(second)),
+        tuple(_record(r) for r in data["files"]),
+        tuple(_record(r) for r in data["origin"]),
+        tuple(
+            Past(int(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
+            for p in data["history"]
+        ),
+        dict(data["cfg_before"]),
+        dict(data["generated"]),
+    )
+
+
+def journal_json(journal: Journal) -> dict[str, Any]:
+    """As it stands on the controller."""
+    return {
+        "format": FORMAT,
+        "id": journal.id,
+        "attempt": journal.attempt,
+        "verb": journal.verb,
+        "started": journal.started,
+        "old": manifest_json(journal.old) if journal.old else None,
+        "new": manifest_json(journal.new) if journal.new else None,
+        "known": {path: list(hashes) for path, hashes in journal.known.items()},
+        "staged": list(journal.staged),
+    }
+
+
+def journal_from(data: Any) -> Journal:  # noqa: ANN401 - whatever JSON held
+    """Raises one of DAMAGE for anything unexpected."""
+    if data["format"] != FORMAT:
+        raise ValueError("a later format")
+    return Journal(
+        int(data["id"]),
+        int(data["attempt"]),
+        _text(data["verb"]),
+        _text(data["started"]),
+        manifest_from(data["old"]) if data["old"] is not None else None,
+        manifest_from(data["new"]) if data["new"] is not None else None,
+        {safe(path): tuple(_sha(h) for h in hashes) for path, hashes in data["known"].items()},
+        tuple(_staged(path) for path in data["staged"]),
+    )
+
+
+def encode(data: dict[str, Any]) -> bytes:
+    """JSON as it is stored: stable, readable, ASCII."""
+    return (json.dumps(data, indent=1, sort_keys=False) + "\n").encode("ascii")
+
+
+def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest, dict[str, bytes]]:
+    """A backup: its manifest and its files by path in HOME, checked against their hashes.
+
+    Raises DiagnosticError RG528 when it is not there or not whole.
+    """
+    folder = f"{home}{STATE}/backup/{number}"
+    raw = read_or_none(transport, f"{folder}/backup.json")
+    if raw is None:
+        raise _no_backup(f"there is no backup {number} on the controller")
+    try:
+        manifest = manifest_from(json.loads(raw))
+    except DAMAGE as error:
+        raise _no_backup(f"backup {number} is damaged: {error!r}") from None
+    files = {}
+    for record in manifest.files:
+        data = read_or_none(transport, f"{folder}/{safe(record.stored)}")
+        if data is None or digest(data) != record.sha256:
+            raise _no_backup(f"backup {number} is damaged: {record.path}")
+        files[record.path] = data
+    return manifest, files
+
+
+def _no_backup(message: str) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            "RG528",
+            Severity.ERROR,
+            message,
+            help="`rapidgen rollback --list` shows which there are",
+        ),
+        exit_code=1,
+    )
+
+
+def _record_json(record: Record) -> dict[str, Any]:
+    data: dict[str, Any] = {
+        "path": record.path,
+        "sha256": record.sha256,
+        "size": record.size,
+        "kind": record.kind,
+        "task": list(record.tasks),
+    }
+    if record.stored:
+        data["stored"] = record.stored
+    return data
+
+
+def _record(data: Any) -> Record:  # noqa: ANN401 - whatever JSON held
+    return Record(
+        safe(_text(data["path"])),
+        _sha(data["sha256"]),
+        int(data["size"]),
+        _text(data["kind"]),
+        tuple(_text(t) for t in data["task"]),
+        safe(data["stored"]) if "stored" in data else "",
+    )
+
+
+def _staged(value: object) -> str:
+    """Only such names are ever deleted on a journal's word."""
+    path = safe(_text(value))
+    if not path.endswith((".rg-new", ".rg-fence")):
+        raise ValueError("not a staged file")
+    return path
+
+
+def _sha(value: object) -> str:
+    if not isinstance(value, str) or not _SHA.fullmatch(value):
+        raise ValueError("not a sha256")
+    return value
+
+
+def _text(value: object) -> str:
+    if not isinstance(value, str) or len(value) > 500:
+        raise ValueError("not a short text")
+    return value

@@ -1,0 +1,84 @@
+"""What files alone do not do: loading parameters, restarts, and who does it where.
+
+Which restart makes a task read its modules again follows the task's type: a SEMISTATIC task
+starts from the beginning at every restart and reads its modules then [manual]; a STATIC one goes
+on where it was and needs its program reset; modules of NORMAL tasks that CAB_TASK_MODULES names
+are loaded at a restart when the file is newer ([mem]). Nothing here restarts anything.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rapidgen.deploy.cfg import CfgChange
+from rapidgen.deploy.driverset import STATE
+from rapidgen.system import CfgText
+
+_LOAD = "Control Panel > Configuration > (topic) > File > Load parameters, replacing duplicates"
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One thing that a person does; `stops_motion` means that every motion ends with it."""
+
+    who: str
+    what: str
+    stops_motion: bool = False
+
+
+def steps_of(
+    modules: Sequence[tuple[str, tuple[str, ...]]],
+    cfg: Sequence[CfgChange],
+    texts: Sequence[CfgText],
+    *,
+    written: bool,
+    touched: bool,
+) -> tuple[Step, ...]:
+    """Steps after the files have been switched.
+
+    `modules` are the changed ones with their tasks, `texts` the cfg that names the tasks,
+    `written` that SYSPAR itself was changed, `touched` that any file was.
+    """
+    steps: list[Step] = []
+    for domain in sorted({c.domain for c in cfg}) if not written else ():
+        counts = [
+            sum(1 for c in cfg if c.domain == domain and c.action == action)
+            for action in ("add", "change")
+        ]
+        if any(counts):
+            words = f"{counts[0]} instances to add, {counts[1]} to change"
+            file = f"HOME:/{STATE}/{domain}.cfg"
+            steps.append(Step("pendant", f"load {file} ({words}): {_LOAD}"))
+    gone = [c.key for c in cfg if c.action == "remove"] if not written else []
+    if gone:
+        what = "loading removes nothing: delete in Control Panel > Configuration: "
+        steps.append(Step("pendant", what + "; ".join(gone)))
+    if not touched:
+        return tuple(steps)
+    types = {
+        i.text("Name"): i.text("Type") or "SEMISTATIC"
+        for text in texts
+        for i in text.instances("CAB_TASKS")
+    }
+    tasks: dict[str, list[str]] = {}
+    for path, names in modules:
+        for name in names:
+            tasks.setdefault(name, []).append(path.rpartition("/")[2])
+    for name, files in tasks.items():
+        kind = types.get(name, "NORMAL")
+        restart = "Reset RAPID" if kind == "STATIC" else "Restart"
+        steps.append(
+            Step(
+                "pendant",
+                f"{name} ({kind}) reads {', '.join(files)} at the next {restart} "
+                f"of the controller (menu > {restart})",
+                stops_motion=True,
+            )
+        )
+    if not tasks:
+        steps.append(
+            Step("pendant", "Restart of the controller (menu > Restart)", stops_motion=True)
+        )
+    steps.append(
+        Step("pendant", "program pointer to main, motors on and start: a person at the robot")
+    )
+    return tuple(steps)

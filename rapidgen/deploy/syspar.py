@@ -1,0 +1,86 @@
+"""SYSPAR beside HOME: the cfg that a backup, or a virtual controller's next start, is made of."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from rapidgen.deploy.cfg import keyed, merged
+from rapidgen.deploy.transport import Transport, read_or_none
+from rapidgen.system import CfgText, parse_cfg, write_cfg
+
+
+@dataclass(frozen=True, slots=True)
+class SysparFile:
+    """One cfg file as it lies there."""
+
+    text: CfgText
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
+class SysparChange:
+    """A file with our instances merged in (`before` is None for a new one)."""
+
+    path: str
+    before: bytes | None
+    after: bytes | None
+
+
+def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
+    """All cfg files of the folder ('SYSPAR/'; '' means there is none).
+
+    Raises DiagnosticError RG701, RG702 for one that cannot be read.
+    """
+    found = []
+    for entry in transport.entries(folder.rstrip("/")) if folder else ():
+        if entry.name.casefold().endswith(".cfg") and entry.folder is not True:
+            data = transport.read(folder + entry.name)
+            found.append(SysparFile(parse_cfg(data, path=folder + entry.name), data))
+    return tuple(found)
+
+
+def syspar_changes(
+    transport: Transport,
+    folder: str,
+    files: tuple[SysparFile, ...],
+    wanted: tuple[CfgText, ...],
+    ours: frozenset[str],
+    before: Mapping[str, Any],
+    originals: Mapping[str, str],
+) -> list[SysparChange]:
+    """Files in which something differs.
+
+    `before` has the instances from before the first deployment, `originals` the paths of copies
+    of the files from then (by SYSPAR path): such a file comes back byte for byte where nothing
+    else was changed since, and one that was not there goes.
+    """
+    present = {f.text.domain: f for f in files}
+    changes = []
+    domains = [*(t.domain for t in wanted), *(name.split(" ")[0] for name in sorted(ours))]
+    for domain in dict.fromkeys(domains):
+        file = present.get(domain)
+        if file is not None:
+            text = file.text
+        else:
+            versions = [t.version for t in wanted if t.domain == domain]
+            if not versions:
+                continue
+            text = CfgText(domain, versions[0], (), f"{folder}{domain}.cfg")
+        new = merged(text, keyed(wanted), ours, before)
+        if _plain(new) == _plain(text):
+            continue
+        after: bytes | None = write_cfg(new).encode("latin-1", "replace")
+        if file is not None and b"\r\n" in file.data:
+            after = (after or b"").replace(b"\n", b"\r\n")
+        copy = originals.get(text.path)
+        if copy is None and not _plain(new):
+            after = None
+        original = read_or_none(transport, copy) if copy else None
+        if original is not None and _plain(parse_cfg(original)) == _plain(new):
+            after = original
+        changes.append(SysparChange(text.path, file.data if file else None, after))
+    return changes
+
+
+def _plain(text: CfgText) -> list[object]:
+    return [(s.name, [i.attributes for i in s.instances]) for s in text.sections if s.instances]

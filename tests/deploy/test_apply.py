@@ -1,0 +1,215 @@
+"""Deploy, deploy again, roll back, uninstall: on a folder."""
+
+import json
+import os
+
+import pytest
+
+from rapidgen.deploy import apply, backup_set, make_plan
+from rapidgen.deploy.folder import FolderTransport
+from rapidgen.diagnostics import DiagnosticError
+
+OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
+
+
+def tree(folder):
+    return {
+        str(p.relative_to(folder)): p.read_bytes() for p in folder.rglob("*") if p.is_file()
+    } | {str(p.relative_to(folder)) + "/": b"" for p in folder.rglob("*") if p.is_dir()}
+
+
+def codes(caught):
+    return [d.code for d in caught.value.diagnostics]
+
+
+def test_first_deployment_and_nothing_to_do_after_it(kit, home):
+    transport = FolderTransport(home)
+    wanted = kit.driver(OLD)
+    plan = kit.deploy(transport, wanted)
+    assert {c.action for c in plan.changes} == {"add"}
+    assert kit.verdict(home, wanted) == "set 0"
+    assert (home / "rapidgen_deploy/SYS.cfg").is_file()
+    names = {p.name for p in (home / "rapidgen_deploy").iterdir()}
+    assert names == {"SYS.cfg", "EIO.cfg", "manifest.json"}
+    before = tree(home)
+    again = kit.deploy(transport, wanted)
+    assert again.is_empty
+    assert tree(home) == before
+
+
+def test_update_keeps_a_backup_and_rollback_restores_it_with_fresh_stamps(kit, home):
+    transport = FolderTransport(home)
+    old, new = kit.driver(OLD), kit.driver(NEW, drop=("rapidgen/ROS_stateServer.mod",))
+    kit.deploy(transport, old)
+    for path in kit.MODULES:
+        os.utime(home / path, (1_000_000_000, 1_000_000_000))
+    plan = kit.deploy(transport, new)
+    assert {c.path: c.action for c in plan.changes if c.kind == "module"} == {
+        "rapidgen/ROS_common.sys": "change",
+        "rapidgen/ROS_motion.mod": "change",
+        "rapidgen/ROS_motionServer.mod": "change",
+        "rapidgen/ROS_stateServer.mod": "remove",
+    }
+    assert kit.verdict(home, new, old) == "set 0"
+    stamps = {p: (home / p).stat().st_mtime_ns for p in kit.modules_on(home)}
+    manifest = make_plan(transport, new).had
+    assert manifest is not None
+    (past,) = manifest.history
+    assert (past.id, past.build_id) == (2, OLD)
+    back = backup_set(transport, "", past.id)
+    kit.deploy(transport, back, verb="rollback")
+    assert kit.verdict(home, new, old) == "set 1"
+    for path in kit.modules_on(home):
+        assert (home / path).stat().st_mtime_ns > stamps.get(path, 0)
+
+
+def test_uninstall_leaves_the_state_before_the_first_deployment(kit, home):
+    (home / "mine.mod").write_text("MODULE mine\nENDMODULE\n")
+    (home / "rapidgen").mkdir()
+    before = tree(home)
+    del before["rapidgen/"]  # an empty folder of that name is taken away with ours
+    transport = FolderTransport(home)
+    kit.deploy(transport, kit.driver(OLD))
+    kit.deploy(transport, kit.driver(NEW))
+    kit.deploy(transport, None, verb="uninstall")
+    assert tree(home) == before
+    with pytest.raises(DiagnosticError) as caught:
+        make_plan(transport, None, verb="uninstall")
+    assert codes(caught) == ["RG529"]
+
+
+def test_an_edit_by_hand_is_kept_until_overwrite_and_then_saved(kit, home):
+    transport = FolderTransport(home)
+    old, new = kit.driver(OLD), kit.driver(NEW)
+    kit.deploy(transport, old)
+    target = home / "rapidgen/ROS_motion.mod"
+    edited = target.read_bytes().replace(b"line 1 of", b"line 1, by hand, of")
+    target.write_bytes(edited)
+    assert [c.note for c in make_plan(transport, old).conflicts] == ["lines 4"]
+    before = tree(home)
+    for wanted in (old, new, None):
+        plan = make_plan(transport, wanted, verb="deploy" if wanted else "uninstall")
+        with pytest.raises(DiagnosticError) as caught:
+            apply(transport, plan)
+        assert codes(caught) == ["RG520"]
+        assert tree(home) == before
+    kit.deploy(transport, new, overwrite=True)
+    assert kit.verdict(home, new) == "set 0"
+    kit.deploy(transport, backup_set(transport, "", 2), verb="rollback")
+    assert target.read_bytes() == edited
+
+
+def test_a_strangers_file_is_refused_then_kept_and_put_back(kit, home):
+    transport = FolderTransport(home)
+    target = home / "rapidgen/ROS_motion.mod"
+    target.parent.mkdir()
+    target.write_text("MODULE ROS_motion\nENDMODULE\n")
+    equal = home / "rapidgen/ROS_common.sys"
+    wanted = kit.driver(OLD)
+    equal.write_bytes(next(f.data for f in wanted.files if f.path.endswith("common.sys")))
+    before = tree(home)
+    with pytest.raises(DiagnosticError) as caught:
+        kit.deploy(transport, wanted)
+    assert codes(caught) == ["RG521"]
+    assert tree(home) == before
+    kit.deploy(transport, wanted, overwrite=True)
+    kit.deploy(transport, kit.driver(NEW))
+    kit.deploy(transport, None, verb="uninstall")
+    assert tree(home) == before
+
+
+def test_the_plan_is_refused_when_the_controller_moved_on(kit, home):
+    transport = FolderTransport(home)
+    old, new = kit.driver(OLD), kit.driver(NEW)
+    kit.deploy(transport, old)
+    plan = make_plan(transport, new)
+    (home / "rapidgen/ROS_motion.mod").write_text("x")
+    with pytest.raises(DiagnosticError) as caught:
+        apply(transport, plan, overwrite=True)
+    assert codes(caught) == ["RG522"]
+
+
+def test_another_robots_driver_is_not_replaced(kit, home):
+    transport = FolderTransport(home)
+    kit.deploy(transport, kit.driver(OLD))
+    with pytest.raises(DiagnosticError) as caught:
+        make_plan(transport, kit.driver(NEW, name="cell2"))
+    assert codes(caught) == ["RG524"]
+
+
+def test_backups_are_pruned_and_all_of_them_can_be_restored(kit, home):
+    transport = FolderTransport(home)
+    sets = [kit.driver(f"{n:012x}") for n in range(1, 9)]
+    for wanted in sets:
+        kit.deploy(transport, wanted)
+    kept = {p.name for p in (home / "rapidgen_deploy/backup").iterdir()}
+    assert kept == {"4", "5", "6", "7", "8"}
+    history = make_plan(transport, sets[-1]).had.history
+    assert {str(p.id) for p in history} == kept
+    for past in history:
+        assert backup_set(transport, "", past.id).build_id == past.build_id
+
+
+def test_a_damaged_backup_is_refused(kit, home):
+    transport = FolderTransport(home)
+    kit.deploy(transport, kit.driver(OLD))
+    kit.deploy(transport, kit.driver(NEW))
+    (home / "rapidgen_deploy/backup/2/0.bin").write_bytes(b"spoilt")
+    for number in (2, 7):
+        with pytest.raises(DiagnosticError) as caught:
+            backup_set(transport, "", number)
+        assert codes(caught) == ["RG528"]
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [
+        lambda m: b"{",
+        lambda m: b"[" * 100_000,
+        lambda m: b"\xff\xfe",
+        lambda m: json.dumps({**m, "files": [{**m["files"][0], "path": "../../etc/x"}]}).encode(),
+        lambda m: json.dumps({**m, "files": [{**m["files"][0], "sha256": "0"}]}).encode(),
+        lambda m: json.dumps({**m, "id": float("inf")}).encode(),
+        lambda m: json.dumps({**m, "history": {"id": 1}}).encode(),
+        lambda m: json.dumps({**m, "format": 2}).encode(),
+    ],
+)
+def test_a_hostile_manifest_is_refused(kit, home, spoil):
+    transport = FolderTransport(home)
+    wanted = kit.driver(OLD)
+    kit.deploy(transport, wanted)
+    path = home / "rapidgen_deploy/manifest.json"
+    path.write_bytes(spoil(json.loads(path.read_bytes())))
+    with pytest.raises(DiagnosticError) as caught:
+        make_plan(transport, wanted)
+    assert codes(caught) == ["RG531"]
+
+
+def test_a_hostile_journal_deletes_nothing(kit, home):
+    transport = FolderTransport(home)
+    wanted = kit.driver(OLD)
+    (home / "mine.mod").write_text("mine")
+    kit.deploy(transport, wanted)
+    journal = {
+        "format": 1,
+        "id": 9,
+        "attempt": 1,
+        "verb": "deploy",
+        "started": "",
+        "old": None,
+        "new": None,
+        "known": {},
+        "staged": ["mine.mod"],
+    }
+    (home / "rapidgen_deploy/journal.a").write_text(json.dumps(journal))
+    kit.deploy(transport, kit.driver(NEW))
+    assert (home / "mine.mod").read_text() == "mine"
+
+
+def test_a_link_out_of_home_is_refused(kit, home, tmp_path):
+    (tmp_path / "elsewhere").mkdir()
+    (home / "rapidgen").symlink_to(tmp_path / "elsewhere")
+    with pytest.raises(DiagnosticError) as caught:
+        kit.deploy(FolderTransport(home), kit.driver(OLD))
+    assert codes(caught) == ["RG508"]
+    assert list((tmp_path / "elsewhere").iterdir()) == []
