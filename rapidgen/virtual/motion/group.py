@@ -116,6 +116,7 @@ class MotionGroup:
         self._path = Path(start)
         self._motion = Motion(kernel.now, TimeLaw(0.0), (), start)
         self._report(True)
+        io.report("MechUnitActive", 1, config.mechanical_unit)
 
     # -- where it is ------------------------------------------------------------------------
 
