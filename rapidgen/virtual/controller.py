@@ -19,12 +19,15 @@ from rapidgen.virtual.compiler.symbols import Data, Routine
 from rapidgen.virtual.costs import Costs
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError
+from rapidgen.virtual.faults import FaultPlan
+from rapidgen.virtual.faults import schedule as schedule_faults
 from rapidgen.virtual.files import FileSystem
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import ClockKind, Kernel, Schedule
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
+from rapidgen.virtual.network.faulty import FaultyNetwork
 from rapidgen.virtual.network.interface import Network
 from rapidgen.virtual.network.memory import MemoryNetwork
 from rapidgen.virtual.network.system import PortMap, SystemNetwork
@@ -145,7 +148,7 @@ class VirtualController(ControllerState):
         costs: Costs | None = None,
         dialect: Dialect | None = None,
         host: str = "",
-        ports: int | Literal["auto"] = 0,
+        ports: PortMap = 0,
         cycle: Cycle = "forever",
         schedule: Schedule = "round-robin",
         switch_at_pers: bool = False,
@@ -154,6 +157,7 @@ class VirtualController(ControllerState):
         answers: Iterable[Answer] | None = None,
         network: Network | None = None,
         folder: Path | None = None,
+        faults: FaultPlan | None = None,
         autostart: bool = True,
     ) -> None:
         """Load every module and, with `autostart`, start all tasks in automatic mode.
@@ -182,6 +186,8 @@ class VirtualController(ControllerState):
                 if host or clock == "real"
                 else MemoryNetwork(self.kernel)
             )
+        if faults is not None and faults.network:
+            network = FaultyNetwork(network, self.kernel, faults.network)
         self.network = network
         self.sockets = SocketTable(network)
         self.files = FileSystem(folder, home=system.home)
@@ -210,6 +216,8 @@ class VirtualController(ControllerState):
         self._load()
         self.io.on_action = self.system_input
         self.power_up()
+        if faults is not None:
+            schedule_faults(faults, self)
         if autostart:
             self.start_program()
 
