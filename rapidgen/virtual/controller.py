@@ -36,6 +36,7 @@ from rapidgen.virtual.recovery import Place
 from rapidgen.virtual.running import RapidTask
 from rapidgen.virtual.state import ControllerState
 from rapidgen.virtual.texts import TextTables
+from rapidgen.virtual.values import Type
 
 _NS = 1_000_000_000
 Cycle = Literal["once", "forever"]
@@ -116,6 +117,11 @@ class TaskView:
         else:
             program = self.rapid.program
             program.space[program.global_ref(data)].set(value)
+
+    def type_of(self, name: str) -> tuple[Type, tuple[int, ...]]:
+        """Type and dimensions of a datum. KeyError: there is none."""
+        data, _ = self._data(name)
+        return data.type, data.dims
 
     def start(self) -> None:
         """Start or go on."""
