@@ -1,10 +1,13 @@
 """Joint messages kept: as arrays, and as CSV `time,<joint names>` in s and rad (m)."""
 
 from pathlib import Path
+from types import TracebackType
+from typing import Self
 
 import numpy as np
 
 from rapidgen.client.group import Group
+from rapidgen.client.state import State
 from rapidgen.client.tracker import Sample
 from rapidgen.client.trajectory import Array, Trajectory
 
@@ -48,3 +51,41 @@ class Recording:
     def to_csv(self, path: Path) -> None:
         """Write `time,<joint names>`. Raises OSError."""
         self.trajectory().to_csv(path)
+
+
+class CsvWriter:
+    """States to a CSV file as they come; nothing is kept. Raises OSError.
+
+    The first line says the units, as a comment; then `time,<joint names>`, s from the first.
+    """
+
+    def __init__(self, path: Path, group: Group) -> None:
+        self.count = 0
+        self._began = 0.0
+        self._last = -1.0
+        units = ["rad" if joint.kind == "revolute" else "m" for joint in group.joints]
+        pairs = [f"{name} {unit}" for name, unit in zip(group.names, units, strict=True)]
+        self._file = path.open("w", encoding="utf-8", newline="")
+        self._file.write(f"# time s, {', '.join(pairs)}\n")
+        self._file.write(",".join(["time", *group.names]) + "\n")
+
+    def write(self, state: State) -> None:
+        """Add one state, unless it came together with the one before."""
+        if not self.count:
+            self._began = state.time
+        time = state.time - self._began
+        if time > self._last:
+            self._file.write(",".join([f"{time:.6f}", *(f"{v:.9g}" for v in state.joints)]) + "\n")
+            self.count += 1
+            self._last = time
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        self._file.close()

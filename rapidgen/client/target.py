@@ -9,7 +9,6 @@ from rapidgen.config import load_config, shipped_names
 from rapidgen.config.model import MotionGroup, RobotConfig
 from rapidgen.diagnostics import DiagnosticError, suggest
 
-Target = "str | PathLike[str] | RobotConfig"
 _SUFFIXES = (".yaml", ".yml")
 
 
@@ -41,6 +40,13 @@ def resolve(
     if isinstance(address, Address):
         return address, Group.of(config, chosen)
     return parse_address(address or LOOPBACK, chosen.ports), Group.of(config, chosen)
+
+
+def groups_of(target: str) -> list[str]:
+    """Motion groups of a configuration; one without a name for an address."""
+    if target.endswith(_SUFFIXES) or target in shipped_names():
+        return [group.name for group in load_config(target).groups]
+    return [""]
 
 
 def _group(config: RobotConfig, name: str) -> MotionGroup:
