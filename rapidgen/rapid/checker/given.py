@@ -2,11 +2,14 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from difflib import SequenceMatcher
 from enum import IntEnum
 from typing import Final
 
 from rapidgen.rapid.dialect import Dialect
+
+
+_SHORT: Final = 3
+_LONG: Final = 7
 
 
 class Extent(IntEnum):
@@ -41,30 +44,45 @@ class Given:
         return self.extent == Extent.SYSTEM and not self.gaps
 
 
-_CLOSE: Final = 0.8
-
-
 def closest(word: str, known: Iterable[str]) -> str:
-    """The known name that `word` looks like a slip of, or an empty text.
+    """The known name that `word` looks like a slip of the keyboard for, or an empty text.
 
-    Names that differ in their digits only (p10, p20) are siblings, not slips.
+    One slip, or two in a long name: a letter too many, too few, wrong, or two swapped. Names
+    that differ in their digits only (p10, p20) are siblings, not slips.
     """
     folded = word.lower()
-    matcher = SequenceMatcher(autojunk=False)
-    matcher.set_seq2(folded)
+    allowed = 1 if len(folded) < _LONG else 2
+    letters = set(folded)
     bare = _without_digits(folded)
-    best, found = _CLOSE, ""
+    best, found = allowed + 1, ""
     for name in known:
         other = name.lower()
-        if abs(len(other) - len(folded)) > 2 or (bare != folded and _without_digits(other) == bare):
+        if (
+            abs(len(other) - len(folded)) > allowed
+            or len(letters.symmetric_difference(other)) > 2 * allowed
+            or (bare != folded and _without_digits(other) == bare)
+        ):
             continue
-        matcher.set_seq1(other)
-        if matcher.real_quick_ratio() < best or matcher.quick_ratio() < best:
-            continue
-        ratio = matcher.ratio()
-        if ratio > best or (ratio == best and not found):
-            best, found = ratio, name
-    return found
+        slips = _slips(folded, other, best)
+        if slips < best:
+            best, found = slips, name
+    return found if len(folded) >= _SHORT else ""
+
+
+def _slips(one: str, other: str, limit: int) -> int:
+    """Slips that make one word from the other, or `limit` when there are as many or more."""
+    before: list[int] = []
+    row = list(range(len(other) + 1))
+    for i, letter in enumerate(one, 1):
+        earlier, before, row = before, row, [i]
+        for j, against in enumerate(other, 1):
+            cost = min(before[j] + 1, row[j - 1] + 1, before[j - 1] + (letter != against))
+            if i > 1 and j > 1 and letter == other[j - 2] and one[i - 2] == against:
+                cost = min(cost, earlier[j - 2] + 1)
+            row.append(cost)
+        if min(row) >= limit:
+            return limit
+    return min(row[-1], limit)
 
 
 def _without_digits(text: str) -> str:

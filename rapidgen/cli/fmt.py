@@ -1,0 +1,99 @@
+"""`rapidgen fmt`: RAPID files in ABB's style."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
+
+
+def fmt(
+    paths: Annotated[
+        list[Path], typer.Argument(help="RAPID files, or folders of them.", metavar="PATH...")
+    ],
+    check: Annotated[
+        bool, typer.Option("--check", help="Write nothing; exit 1 if a file would change.")
+    ] = False,
+    diff: Annotated[
+        bool, typer.Option("--diff", help="Write nothing; show what would change.")
+    ] = False,
+) -> int:
+    """Format RAPID: keywords in upper case, four spaces a level, comments kept.
+
+    Encoding and line ends stay as they are. A file with syntax errors is not touched.
+    """
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError
+    from rapidgen.rapid import format_source
+    from rapidgen.system.paths import read_limited
+
+    wrong: list[Diagnostic] = []
+    changed = 0
+    for path in _files(paths):
+        before = read_limited(path)
+        try:
+            after = format_source(before, path=str(path))
+        except DiagnosticError as error:
+            wrong += error.diagnostics
+            continue
+        if after == before:
+            continue
+        changed += 1
+        if diff:
+            typer.echo(_difference(path, before, after), nl=False)
+        elif check:
+            typer.echo(f"would format {path}", err=True)
+        else:
+            _replace(path, after)
+            typer.echo(f"formatted {path}", err=True)
+    if wrong:
+        raise DiagnosticError(wrong, exit_code=1)
+    return 1 if changed and (check or diff) else 0
+
+
+def _files(paths: list[Path]) -> list[Path]:
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    found: list[Path] = []
+    for path in paths:
+        if path.is_dir():
+            found += sorted(
+                file
+                for file in path.rglob("*")
+                if file.suffix.lower() in _SUFFIXES and file.is_file()
+            )
+        elif path.exists():
+            found.append(path)
+        else:
+            raise DiagnosticError(
+                Diagnostic(
+                    "RG904",
+                    Severity.ERROR,
+                    f"there is no {path}",
+                    help="name RAPID files or folders",
+                )
+            )
+    return found
+
+
+def _replace(path: Path, data: bytes) -> None:
+    """Write beside the file and rename: a reader never sees half of it."""
+    import os
+    import tempfile
+
+    target = path.resolve()
+    descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    with open(descriptor, "wb") as file:
+        file.write(data)
+    os.chmod(name, target.stat().st_mode & 0o7777)
+    os.replace(name, target)
+
+
+def _difference(path: Path, before: bytes, after: bytes) -> str:
+    from difflib import unified_diff
+
+    from rapidgen.rapid.lexer import decode
+
+    old = [line + "\n" for line in decode(before)[0].splitlines()]
+    new = [line + "\n" for line in decode(after)[0].splitlines()]
+    return "".join(unified_diff(old, new, f"a/{path}", f"b/{path}"))
