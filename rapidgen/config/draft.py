@@ -53,6 +53,10 @@ class Report:
         """True when `path`, a part around it or its own value has been reported."""
         return any(path[: len(known)] == known for known in self._removed)
 
+    def mute(self, path: Path) -> None:
+        """Nothing more about what lies under `path`: its cause has been reported."""
+        self._removed.add(path)
+
     def span(self, path: Path, *, key: bool = False) -> Span:
         """Place of the value (or key) at `path` or of the nearest part that exists."""
         at_key, at_value = place_of(self.root, path)

@@ -66,6 +66,24 @@ def load_config(
         for name, keys in valid.configuration.groups.items()
     ]
     for draft in drafts:
+        keys = valid.configuration.groups[draft.name]
+        if keys.urdf:
+            from rapidgen.config.urdf.group import complete
+
+            elsewhere = {j.name for other in drafts if other is not draft for j in other.joints}
+            where = ("groups", draft.name, "urdf", "file")
+            faults, read = complete(
+                draft,
+                keys.urdf,
+                path.parent,
+                [Path(p) for p in package_paths],
+                frozenset(elsewhere),
+                report.span(where),
+            )
+            report.found += faults
+            inputs += read
+            if any(d.severity is Severity.ERROR for d in faults):
+                report.mute(("groups", draft.name, "joints"))
         _report_unsure(draft, valid.configuration.groups[draft.name], report)
     config = build(valid.configuration, drafts, path, report)
     if config is None:

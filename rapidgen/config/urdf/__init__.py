@@ -1,0 +1,1 @@
+"""URDF and xacro without ROS: read, check, and map joints to controller axes."""

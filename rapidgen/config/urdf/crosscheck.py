@@ -1,0 +1,112 @@
+"""What a URDF says against what is known of the model: coupling, sign, ranges."""
+
+import math
+import re
+
+from rapidgen.config.draft import GroupDraft, JointDraft
+from rapidgen.config.tree import error
+from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+
+COUPLED = frozenset({"2400", "4400", "6660", "460", "660", "760", "8700"})
+SERIAL = frozenset(
+    {"120", "140", "1100", "1200", "1300", "1600", "2600", "4600", "6640", "6650", "6700", "7600"}
+)
+_FAMILY = re.compile(r"[ic]rb[_ -]?(\d{3,5})", re.IGNORECASE)
+_CLOSE = 0.6
+"""deg or mm"""
+
+
+def family(*names: str) -> str:
+    """The number of an ABB type in one of the names (model, robot, file), else empty."""
+    for name in names:
+        hit = _FAMILY.search(name)
+        if hit:
+            return hit[1]
+    return ""
+
+
+def check_coupling(
+    draft: GroupDraft, robot: UrdfRobot, file: str, place: Span | None
+) -> list[Diagnostic]:
+    """A lever robot needs `coupling`, a serial one has none (RG047)."""
+    known = family(draft.model, robot.name, file)
+    if draft.coupling is None and known in COUPLED:
+        return [
+            error(
+                "RG047",
+                f"IRB {known} couples axes 2 and 3; `coupling` is not given",
+                place,
+                "",
+                "add `coupling: 1` (controller axis 3 = joint_3 + joint_2), or 0 where the URDF "
+                "already has ABB's sense",
+            )
+        ]
+    if draft.coupling and known in SERIAL:
+        return [
+            Diagnostic(
+                "RG047",
+                Severity.WARNING,
+                f"IRB {known} is a serial robot, yet `coupling` is {draft.coupling:g}",
+                place,
+                "",
+                "launch files of ROS-Industrial before 2025 were wrong for some models",
+            )
+        ]
+    return []
+
+
+def check_joint(
+    draft: JointDraft, joint: UrdfJoint, place: Span | None
+) -> tuple[list[Diagnostic], str]:
+    """The URDF's range against the known one (before it is completed): faults, and a difference.
+
+    A mirrored range is an error (RG048); other differences are returned as a phrase.
+    """
+    if None in (draft.lower, draft.upper, joint.lower, joint.upper) or joint.kind == "continuous":
+        return [], ""
+    assert draft.lower is not None
+    assert draft.upper is not None
+    assert joint.lower is not None
+    assert joint.upper is not None
+    factor = 1000.0 if joint.kind == "prismatic" else 180 / math.pi
+    lower, upper = sorted(
+        draft.sign * end * factor + draft.offset for end in (joint.lower, joint.upper)
+    )
+    if _near(lower, draft.lower) and _near(upper, draft.upper):
+        return [], ""
+    unit = "mm" if joint.kind == "prismatic" else "deg"
+    if _near(lower, -draft.upper) and _near(upper, -draft.lower):
+        return [
+            error(
+                "RG048",
+                f"joint '{joint.name}': {lower:.4g}..{upper:.4g} {unit} is the mirror of the known "
+                f"range {draft.lower:g}..{draft.upper:g} {unit}",
+                joint.span or place,
+                "turns the other way",
+                f"set joints.{joint.name}.sign: {-draft.sign}, or correct the URDF",
+            )
+        ], ""
+    return [], (
+        f"{joint.name} {lower:.4g}..{upper:.4g} (known {draft.lower:g}..{draft.upper:g} {unit})"
+    )
+
+
+def differences(phrases: list[str], place: Span | None) -> list[Diagnostic]:
+    """One warning for all ranges that differ from the model's (RG049)."""
+    if not phrases:
+        return []
+    return [
+        Diagnostic(
+            "RG049",
+            Severity.WARNING,
+            f"the URDF contradicts the known ranges: {'; '.join(phrases)}",
+            place,
+            "the configuration's figures are used",
+            "give the right ones with their `source:` under `joints:`",
+        )
+    ]
+
+
+def _near(a: float, b: float) -> bool:
+    return abs(a - b) <= _CLOSE

@@ -1,0 +1,278 @@
+"""xacro to URDF, with our own `$(find)`; every file read is remembered.
+
+xacro has no hook for `$(find)` and for reading files: two private names are replaced while it
+runs (held by a test and the pin `xacro>=2.1.1,<3`). It is not thread-safe, nor is this.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+from xml.dom import minidom
+from xml.parsers.expat import ExpatError
+from xml.sax.saxutils import quoteattr
+
+from rapidgen.config.tree import error
+from rapidgen.config.urdf.packages import PackageNotFound, Packages
+from rapidgen.config.urdf.source import (
+    Macro,
+    declared_arguments,
+    is_xacro,
+    leftovers,
+    macros,
+    read_xml,
+)
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+
+_NAMESPACE = "http://www.ros.org/wiki/xacro"
+
+
+@dataclass(slots=True)
+class Description:
+    """An expanded robot description with the files it came from."""
+
+    path: Path
+    text: str
+    expanded: bool
+    inputs: list[tuple[str, bytes]] = field(default_factory=list)
+    found: list[Diagnostic] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What to read and how; `place` is where the configuration asks for it."""
+
+    path: Path
+    packages: Packages
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    macro: str = ""
+    macro_arguments: Mapping[str, str] = field(default_factory=dict)
+    place: Span | None = None
+
+
+def expand(request: Request) -> Description:
+    """Read a description; raises DiagnosticError (RG031..RG033, RG056, RG060, RG061)."""
+    text, data = read_xml(request.path, place=request.place)
+    if not is_xacro(request.path, text):
+        made = Description(request.path, text, False, [(request.path.name, data)])
+        if request.arguments or request.macro:
+            raise DiagnosticError(
+                error(
+                    "RG056",
+                    f"{request.path.name} is a plain URDF and takes no arguments or macro",
+                    request.place,
+                )
+            )
+    else:
+        made = _expand_xacro(request, text)
+    found = leftovers(made.text, str(request.path) if not made.expanded else "(expanded)")
+    if found:
+        if made.expanded:
+            found = [
+                error(
+                    "RG033",
+                    d.message + f" of {request.path.name}",
+                    request.place,
+                    d.label,
+                    d.help,
+                )
+                for d in found
+            ]
+        raise DiagnosticError(found)
+    return made
+
+
+def _expand_xacro(request: Request, text: str) -> Description:
+    made = Description(request.path, "", True)
+    texts: list[str] = []
+    defined = macros(text)
+    if request.macro:
+        document = _wrapper(request, defined)
+    else:
+        document = text
+        texts.append(text)
+        made.inputs.append((request.path.name, text.encode()))
+    failure: Diagnostic | None = None
+    try:
+        made.text = _run(request, document, made, texts)
+    except DiagnosticError as fault:
+        (failure,) = fault.diagnostics
+    unknown = _unknown_arguments(request, declared_arguments([*texts, text]))
+    if unknown or failure:
+        raise DiagnosticError([*unknown, *([failure] if failure else [])])
+    for name, (first, second) in request.packages.doubles.items():
+        made.found.append(
+            Diagnostic(
+                "RG057",
+                Severity.WARNING,
+                f"two packages are called '{name}'",
+                request.place,
+                f"used: {first}",
+                f"the other is {second}; name one under urdf.packages",
+            )
+        )
+    if not request.macro and "<link" not in made.text and defined:
+        raise DiagnosticError(_macro_only(request, defined))
+    return made
+
+
+def _run(request: Request, document: str, made: Description, texts: list[str]) -> str:
+    import xacro
+    from xacro import substitution_args
+
+    original_parse, original_find = xacro.parse, substitution_args._eval_find
+
+    def parse(given: Any, filename: str | None = None) -> Any:
+        if given is None and filename is not None:
+            path = Path(filename)
+            content, data = read_xml(path, place=request.place)
+            texts.append(content)
+            made.inputs.append((path.name, data))
+            return minidom.parseString(content)
+        return original_parse(given, filename)
+
+    def find(name: str) -> str:
+        return str(request.packages.find(name))
+
+    xacro.parse = parse
+    substitution_args._eval_find = find
+    substitution_args._eval_dict["find"] = find
+    try:
+        xacro.init_stacks(str(request.path))
+        tree = minidom.parseString(document)
+        xacro.process_doc(tree, mappings=dict(request.arguments), verbosity=0)
+        return str(tree.toprettyxml(indent="  "))
+    except (
+        xacro.XacroException,
+        substitution_args.SubstitutionException,
+        ExpatError,
+        ArithmeticError,
+        AssertionError,
+        AttributeError,
+        LookupError,
+        NameError,
+        OSError,
+        RecursionError,
+        SyntaxError,
+        TypeError,
+        ValueError,
+    ) as fault:
+        raise DiagnosticError(_translate(request, fault)) from None
+    finally:
+        xacro.parse = original_parse
+        substitution_args._eval_find = original_find
+        substitution_args._eval_dict["find"] = original_find
+
+
+def _translate(request: Request, fault: BaseException) -> Diagnostic:
+    inner: BaseException = fault
+    while getattr(inner, "exc", None) is not None:
+        inner = inner.exc  # type: ignore[attr-defined]
+    name = request.path.name
+    if isinstance(inner, DiagnosticError):
+        return inner.diagnostics[0]
+    if isinstance(inner, PackageNotFound):
+        package = str(inner).split("'")[1]
+        return error(
+            "RG032",
+            str(inner),
+            request.place,
+            f"needed by {name}",
+            f"add\n  urdf:\n    packages: {{{package}: FOLDER}}\nor give --package-path FOLDER",
+        )
+    if isinstance(inner, ExpatError):
+        hint = "declare xmlns:xacro on <robot>" if "unbound prefix" in str(inner) else ""
+        return error(
+            "RG060",
+            f"{name} is not well-formed XML: {inner}",
+            Span(str(request.path), max(1, inner.lineno), inner.offset + 1),
+            help=hint,
+        )
+    if isinstance(inner, RecursionError):
+        return error("RG061", f"xacro: a macro of {name} calls itself without end", request.place)
+    text = " ".join(str(fault).split()) or type(inner).__name__
+    hint = ""
+    if "Undefined substitution argument" in text or type(inner).__name__ == "ArgException":
+        wanted = text.split()[-1]
+        hint = f"add\n  urdf:\n    args: {{{wanted}: VALUE}}"
+    return error("RG061", f"xacro cannot expand {name}: {text}", request.place, help=hint)
+
+
+def _unknown_arguments(request: Request, known: set[str]) -> list[Diagnostic]:
+    return [
+        error(
+            "RG056",
+            f"{request.path.name} has no xacro argument '{name}'",
+            request.place,
+            help=suggest(name, sorted(known))
+            or f"it declares: {', '.join(sorted(known)) or 'none'}",
+        )
+        for name in request.arguments
+        if name not in known
+    ]
+
+
+def _macro_only(request: Request, defined: tuple[Macro, ...]) -> Diagnostic:
+    shown = ", ".join(macro.shown for macro in defined)
+    return error(
+        "RG031",
+        f"{request.path.name} only defines macros: {shown}",
+        request.place,
+        "expands to an empty robot",
+        f"give the top-level file, or add\n  urdf:\n    macro: {defined[0].name}",
+    )
+
+
+def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
+    """A document that includes the file and calls the macro."""
+    macro = next((m for m in defined if m.name == request.macro), None)
+    if macro is None:
+        known = [m.name for m in defined]
+        raise DiagnosticError(
+            error(
+                "RG031",
+                f"{request.path.name} defines no macro '{request.macro}'",
+                request.place,
+                help=suggest(request.macro, known) or f"it defines: {', '.join(known) or 'none'}",
+            )
+        )
+    given = dict(request.macro_arguments)
+    names = {name for name, _ in macro.parameters}
+    if "prefix" in names:
+        given.setdefault("prefix", "")
+    faults = [
+        error(
+            "RG056",
+            f"macro '{macro.name}' has no parameter '{name}'",
+            request.place,
+            help=suggest(name, sorted(names)) or f"it is {macro.shown}",
+        )
+        for name in given
+        if name not in names
+    ]
+    blocks = [name for name, _ in macro.parameters if name.startswith("*")]
+    missing = [n for n, has in macro.parameters if not has and n not in given and n not in blocks]
+    missing += [name for name in blocks if name.lstrip("*") != "origin"]
+    faults += [
+        error(
+            "RG056",
+            f"macro '{macro.name}' needs a value for '{name}'",
+            request.place,
+            help=f"it is {macro.shown}; "
+            + (
+                "a block cannot be given here: write a xacro file that calls the macro"
+                if name.startswith("*")
+                else f"add\n  urdf:\n    macro_args: {{{name}: VALUE}}"
+            ),
+        )
+        for name in missing
+    ]
+    if faults:
+        raise DiagnosticError(faults)
+    attributes = "".join(f" {name}={quoteattr(str(value))}" for name, value in given.items())
+    inner = '<origin xyz="0 0 0" rpy="0 0 0"/>' if blocks else ""
+    return (
+        f'<robot name="robot" xmlns:xacro="{_NAMESPACE}">'
+        f"<xacro:include filename={quoteattr(str(request.path.resolve()))}/>"
+        f"<xacro:{macro.name}{attributes}>{inner}</xacro:{macro.name}></robot>"
+    )

@@ -1,0 +1,126 @@
+"""The shape of a description: which joint hangs on which, and what no robot can be."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from rapidgen.config.tree import error
+from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Graph:
+    """A checked tree: at most one joint above each link."""
+
+    robot: UrdfRobot
+    above: dict[str, UrdfJoint]
+    """link: the joint that it is the child of"""
+
+    def path_to(self, link: str) -> tuple[UrdfJoint, ...]:
+        """All joints from the root to a link."""
+        path: list[UrdfJoint] = []
+        while link in self.above:
+            path.append(self.above[link])
+            link = self.above[link].parent
+        return tuple(reversed(path))
+
+    def ancestors(self, joint: UrdfJoint) -> tuple[UrdfJoint, ...]:
+        """Joints between the root and a joint, without it."""
+        return self.path_to(joint.parent)
+
+    def below(self, link: str) -> tuple[UrdfJoint, ...]:
+        """Joints that hang on a link."""
+        return tuple(j for j in self.robot.joints if j.parent == link)
+
+    def chains(self, among: Iterable[UrdfJoint]) -> tuple[tuple[UrdfJoint, ...], ...]:
+        """The joints of `among` as paths from the root, one for each that ends a path."""
+        wanted = {joint.name: joint for joint in among}
+        inner = {a.name for joint in wanted.values() for a in self.ancestors(joint)}
+        ends = [joint for joint in wanted.values() if joint.name not in inner]
+        return tuple(
+            tuple(j for j in (*self.ancestors(end), end) if j.name in wanted) for end in ends
+        )
+
+    def tip_link(self, joint: UrdfJoint) -> str:
+        """The flange behind a joint: `tool0` or `flange` over fixed joints, else its link."""
+        found, queue = [joint.child], [joint.child]
+        while queue:
+            for fixed in self.below(queue.pop()):
+                if fixed.kind == "fixed" and fixed.child not in found:
+                    found.append(fixed.child)
+                    queue.append(fixed.child)
+        for ending in ("tool0", "flange"):
+            hits = [link for link in found if link.endswith(ending)]
+            if hits:
+                return hits[0]
+        return joint.child
+
+
+def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagnostic]]:
+    """The graph and its faults (RG042, RG051, RG053); errors among them mean it is no tree."""
+    found: list[Diagnostic] = []
+    links, names = set(robot.links), {joint.name for joint in robot.joints}
+    above: dict[str, UrdfJoint] = {}
+    for joint in robot.joints:
+        for role, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in links:
+                found.append(
+                    error(
+                        "RG051",
+                        f"joint '{joint.name}': its {role} link '{link}' does not exist",
+                        joint.span,
+                    )
+                )
+        if joint.child in above:
+            first = above[joint.child].name
+            found.append(
+                error(
+                    "RG051",
+                    f"link '{joint.child}' has two parents, by '{first}' and '{joint.name}'",
+                    joint.span,
+                    "closes a loop",
+                    "a controller needs a tree: export the open chain, without rods and cylinders",
+                )
+            )
+        above.setdefault(joint.child, joint)
+        if joint.mimic and joint.mimic not in names:
+            found.append(
+                error(
+                    "RG042",
+                    f"joint '{joint.name}' mimics '{joint.mimic}', which does not exist",
+                    joint.span,
+                )
+            )
+    found += _loops(robot, above)
+    roots = [link for link in robot.links if link not in above]
+    if len(roots) > 1 and not found:
+        found.append(
+            Diagnostic(
+                "RG051",
+                Severity.WARNING,
+                f"{len(roots)} links have no parent: {', '.join(roots[:6])}",
+                place,
+                "",
+                "one root is usual; what is not below the robot's root is ignored",
+            )
+        )
+    return Graph(robot, above), found
+
+
+def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> list[Diagnostic]:
+    for joint in robot.joints:
+        seen: set[str] = set()
+        link = joint.child
+        while link in above:
+            if link in seen:
+                return [
+                    error(
+                        "RG051",
+                        f"the joints run in a circle through link '{link}'",
+                        above[link].span,
+                        "closes a loop",
+                    )
+                ]
+            seen.add(link)
+            link = above[link].parent
+    return []

@@ -1,0 +1,287 @@
+"""One group's `urdf:` section: read it, map its joints, complete the draft."""
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+from rapidgen.config import schema
+from rapidgen.config.draft import GroupDraft, JointDraft
+from rapidgen.config.model import Link
+from rapidgen.config.tree import error
+from rapidgen.config.urdf import crosscheck, limits
+from rapidgen.config.urdf.expand import Request, expand
+from rapidgen.config.urdf.graph import Graph, build_graph
+from rapidgen.config.urdf.mapping import ROBOT_AXES, infer, paste, unmapped
+from rapidgen.config.urdf.packages import Packages
+from rapidgen.config.urdf.robot import UrdfJoint, read_robot
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+
+Found = list[Diagnostic]
+
+
+def complete(
+    draft: GroupDraft,
+    given: schema.Urdf,
+    folder: Path,
+    package_paths: Sequence[Path],
+    elsewhere: frozenset[str],
+    place: Span | None,
+) -> tuple[Found, list[tuple[str, bytes]]]:
+    """Complete `draft` from its URDF; findings, and the files that were read.
+
+    `folder` is where relative paths of the configuration start; `elsewhere` are the joints
+    that other groups drive.
+    """
+    try:
+        description = expand(request(given, folder, package_paths, place))
+        robot = read_robot(description, place)
+    except DiagnosticError as fault:
+        return list(fault.diagnostics), []
+    graph, found = build_graph(robot, place)
+    found = [*description.found, *found]
+    if any(d.severity is Severity.ERROR for d in found):
+        return found, description.inputs
+    candidates, faults = _candidates(graph, given, elsewhere, place)
+    found += faults
+    if not faults:
+        found += _map(draft, graph, candidates, elsewhere, place)
+        found += crosscheck.check_coupling(draft, robot, description.path.name, place)
+    if not any(d.severity is Severity.ERROR for d in found):
+        found += _fill(draft, graph, place)
+        if not draft.chain:
+            draft.chain = chain(graph, draft, given.tip or "")
+    return found, description.inputs
+
+
+def request(
+    given: schema.Urdf, folder: Path, package_paths: Sequence[Path], place: Span | None
+) -> Request:
+    """What to read, with paths relative to the configuration's folder."""
+    path = folder / given.file
+    explicit = {name: folder / where for name, where in given.packages.items()}
+    return Request(
+        path,
+        Packages(explicit, [Path(p) for p in package_paths], path.resolve().parent),
+        _texts(given.args),
+        given.macro or "",
+        _texts(given.macro_args),
+        place,
+    )
+
+
+def _texts(values: Mapping[str, object]) -> dict[str, str]:
+    return {
+        name: str(value).lower() if isinstance(value, bool) else str(getattr(value, "text", value))
+        for name, value in values.items()
+    }
+
+
+def _candidates(
+    graph: Graph, given: schema.Urdf, elsewhere: frozenset[str], place: Span | None
+) -> tuple[list[UrdfJoint], Found]:
+    """Joints that move by themselves and concern this group."""
+    robot = graph.robot
+    names = [joint.name for joint in robot.joints]
+    found: Found = []
+    for name in given.ignore_joints:
+        if name not in names:
+            meant = suggest(name, names)
+            found.append(error("RG043", f"ignore_joints: no joint '{name}'", place, help=meant))
+    joints = [
+        j
+        for j in robot.joints
+        if j.is_actuated and j.name not in given.ignore_joints and j.name not in elsewhere
+    ]
+    if given.tip:
+        end = robot.joint(given.tip)
+        link = end.child if end else given.tip
+        if link not in robot.links:
+            meant = suggest(given.tip, [*robot.links, *names])
+            return [], [
+                *found,
+                error("RG052", f"no link or joint '{given.tip}'", place, help=meant),
+            ]
+        path = {j.name for j in graph.path_to(link)}
+        joints = [j for j in joints if j.name in path]
+    for joint in joints:
+        if joint.kind in ("floating", "planar"):
+            found.append(
+                error(
+                    "RG053",
+                    f"joint '{joint.name}' is {joint.kind}; no controller axis is",
+                    joint.span or place,
+                    "",
+                    f"name it under urdf.ignore_joints, or make it fixed: [{joint.name}]",
+                )
+            )
+    return joints, found
+
+
+def _map(
+    draft: GroupDraft,
+    graph: Graph,
+    candidates: list[UrdfJoint],
+    elsewhere: frozenset[str],
+    place: Span | None,
+) -> Found:
+    """Settle which joint is which axis: as the configuration says, else as inferred."""
+    robot = graph.robot
+    named = [joint for joint in draft.joints if robot.joint(joint.name)]
+    if not named:
+        mapping, found = infer(graph, candidates, place)
+        if mapping and draft.joints:
+            found += _rename(draft, mapping, place)
+        elif mapping:
+            draft.joints = [JointDraft(name, axis) for name, axis in mapping.items()]
+        return found
+    found = []
+    for joint in draft.joints:
+        found += _named(joint, graph, place)
+    if found:
+        return found
+    if any(not joint.axis for joint in draft.joints):
+        mapping, found = infer(graph, candidates, place)
+        for joint in draft.joints:
+            joint.axis = joint.axis or mapping.get(joint.name, "")
+        if found:
+            return found
+    mapped = {joint.name for joint in draft.joints}
+    left = [j for j in candidates if j.name not in mapped]
+    if left:
+        return [unmapped(graph, left, place)]
+    return _order(draft, graph, place)
+
+
+def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> Found:
+    """Give the model's joints the URDF's names, axis by axis."""
+    by_axis = {axis: name for name, axis in mapping.items()}
+    if set(by_axis) != {joint.axis for joint in draft.joints}:
+        shown = ", ".join(joint.axis for joint in draft.joints)
+        return [
+            error(
+                "RG034",
+                f"the model has the axes {shown}; the URDF has {', '.join(mapping)}",
+                place,
+                "",
+                "map them under `joints:`",
+            )
+        ]
+    names = {joint.name: by_axis[joint.axis] for joint in draft.joints}
+    for joint in draft.joints:
+        joint.name = names[joint.name]
+    draft.chain = [
+        Link(
+            names.get(link.joint, link.joint),
+            link.xyz,
+            link.rpy,
+            link.axis,
+            tuple((names.get(name, name), factor) for name, factor in link.follows),
+        )
+        for link in draft.chain
+    ]
+    return []
+
+
+def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Found:
+    known = graph.robot.joint(joint.name)
+    if known is None:
+        names = [j.name for j in graph.robot.joints]
+        return [
+            error(
+                "RG034",
+                f"the URDF has no joint '{joint.name}'",
+                place,
+                "",
+                suggest(joint.name, names) or f"it has {', '.join(names[:20])}",
+            )
+        ]
+    if known.mimic:
+        return [
+            error(
+                "RG042",
+                f"joint '{joint.name}' mimics '{known.mimic}' and is no axis of its own",
+                known.span or place,
+                "",
+                f"map '{known.mimic}' instead",
+            )
+        ]
+    if known.kind == "fixed":
+        return [error("RG034", f"joint '{joint.name}' is fixed", known.span or place)]
+    return []
+
+
+def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
+    """Robot axes stand in one chain, in order; external axes may be anywhere."""
+    by_axis = {joint.axis: graph.robot.joint(joint.name) for joint in draft.joints}
+    robot_axes = [by_axis[axis] for axis in ROBOT_AXES if by_axis.get(axis)]
+    found: Found = []
+    for before, after in pairwise(robot_axes):
+        assert before is not None
+        assert after is not None
+        if before.name not in {j.name for j in graph.ancestors(after)}:
+            axis = next(j.axis for j in draft.joints if j.name == after.name)
+            found.append(
+                error(
+                    "RG046",
+                    f"'{after.name}' cannot be {axis}: it does not hang on '{before.name}'",
+                    after.span or place,
+                    "",
+                    "an axis on another branch or under the robot is external: eax_a..eax_f\n"
+                    + paste([j for j in graph.robot.joints if j.is_actuated]),
+                )
+            )
+    first = robot_axes[0] if robot_axes else None
+    if first and not found:
+        below = {j.name for j in graph.ancestors(first)}
+        moving = [j.name for j in draft.joints if j.name in below]
+        if moving:
+            found.append(
+                Diagnostic(
+                    "RG046",
+                    Severity.INFO,
+                    f"{', '.join(moving)} carries the robot: its base moves",
+                    place,
+                    "",
+                    "positions that RAPID gives are in the frames of the controller, not of "
+                    "the URDF's root",
+                )
+            )
+    return found
+
+
+def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
+    found: Found = []
+    phrases: list[str] = []
+    for joint in draft.joints:
+        known = graph.robot.joint(joint.name)
+        assert known is not None
+        faults, phrase = crosscheck.check_joint(joint, known, place)
+        found += faults
+        phrases += [phrase] if phrase and draft.model else []
+        found += limits.fill(joint, known, place)
+    return [*found, *crosscheck.differences(phrases, place)]
+
+
+def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[Link]:
+    """The kinematic chain from the root to the flange, in the URDF's sense."""
+    by_axis = {joint.axis: joint.name for joint in draft.joints}
+    last = next(
+        (by_axis[axis] for axis in reversed(ROBOT_AXES) if axis in by_axis), draft.joints[-1].name
+    )
+    end = graph.robot.joint(last)
+    assert end is not None
+    if tip in graph.robot.links:
+        tip_link = tip
+    else:
+        tip_link = graph.tip_link(end)
+    mapped = {joint.name for joint in draft.joints}
+    made = []
+    for joint in graph.path_to(tip_link):
+        if joint.name in mapped:
+            made.append(Link(joint.name, joint.xyz, joint.rpy, joint.axis))
+        elif joint.mimic in mapped:
+            follows = ((joint.mimic, joint.multiplier),)
+            made.append(Link("", joint.xyz, joint.rpy, joint.axis, follows))
+        elif any(joint.xyz) or any(joint.rpy):
+            made.append(Link("", joint.xyz, joint.rpy))
+    return made

@@ -1,0 +1,233 @@
+"""Which joint drives which controller axis: inferred only where nothing else is possible.
+
+Six turning joints in one chain whose names end in 1 to 6 in that order are rax_1..rax_6.
+Everything else is an error that prints the candidates and the lines to paste.
+"""
+
+import re
+from collections.abc import Sequence
+
+from rapidgen.config.tree import error
+from rapidgen.config.urdf.graph import Graph
+from rapidgen.config.urdf.robot import UrdfJoint
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+
+ROBOT_AXES = tuple(f"rax_{n}" for n in range(1, 7))
+_NUMBER = re.compile(r"^(?P<prefix>.*?)(?P<number>\d+)(?P<suffix>\D{0,12})$")
+_GRIPPER_STROKE = 0.1
+_USUAL = ("joint_", "joint", "j", "axis", "axis_", "a")
+
+
+def number_of(name: str) -> tuple[str, int, str] | None:
+    """Prefix, number and suffix of a joint's name: `arm_joint_3_l` is (arm_joint_, 3, _l)."""
+    hit = _NUMBER.match(name)
+    return (hit["prefix"], int(hit["number"]), hit["suffix"]) if hit else None
+
+
+def infer(
+    graph: Graph, joints: Sequence[UrdfJoint], place: Span | None
+) -> tuple[dict[str, str], list[Diagnostic]]:
+    """Axis by joint name for `joints` (actuated, not ignored), or the findings that say why not."""
+    if not joints:
+        return {}, [
+            error(
+                "RG031",
+                "the description has no joint that moves by itself",
+                place,
+                help="is this the top-level file of the robot?",
+            )
+        ]
+    chains = graph.chains(joints)
+    problem = _shape(graph, joints, chains, place) or _numbers(joints, chains[0], place)
+    if problem:
+        return {}, [problem]
+    mapping = {joint.name: axis for joint, axis in zip(chains[0], ROBOT_AXES, strict=True)}
+    parts = number_of(chains[0][0].name)
+    assert parts is not None
+    found: list[Diagnostic] = []
+    if parts[0].lower() not in _USUAL or parts[2]:
+        table = ", ".join(f"{name} = {axis}" for name, axis in mapping.items())
+        found.append(
+            Diagnostic(
+                "RG036",
+                Severity.WARNING,
+                f"joint names have a prefix or suffix; read as {table}",
+                place,
+                "",
+                "write the mapping under `joints:` to settle it",
+            )
+        )
+    return mapping, found
+
+
+def paste(joints: Sequence[UrdfJoint]) -> str:
+    """YAML lines that settle the mapping, with what the names suggest."""
+    numbers = [parts[1] if (parts := number_of(j.name)) else 0 for j in joints]
+    plain = len(set(numbers)) == len(numbers) and set(numbers) <= set(range(1, 8))
+    lines = ["joints:   # check every line against the robot; unused joints: urdf.ignore_joints"]
+    for joint, number in zip(joints, numbers, strict=True):
+        axis = "rax_?  or eax_?"
+        if plain:
+            axis = f"rax_{number}" if number <= 6 else "eax_a"
+        unit = ", unit: mm" if joint.kind == "prismatic" else ""
+        name = joint.name if re.fullmatch(r"\w+", joint.name) else f'"{joint.name}"'
+        lines.append(f"  {name}: {{axis: {axis}{unit}}}")
+    return "\n".join(lines)
+
+
+def _shape(
+    graph: Graph,
+    joints: Sequence[UrdfJoint],
+    chains: tuple[tuple[UrdfJoint, ...], ...],
+    place: Span | None,
+) -> Diagnostic | None:
+    """Too many, too few, or branching: which pitfall it is."""
+    arms = [c for c in chains if sum(j.kind != "prismatic" for j in c) >= 4]
+    ends = {chain[-1].child for chain in arms}
+    if len(arms) > 1 and len({chain[0].name for chain in arms}) == len(ends):
+        tips = ", ".join(graph.tip_link(chain[-1]) for chain in arms)
+        return error(
+            "RG052",
+            f"{len(arms)} robots are in one description (tips: {tips})",
+            place,
+            "which of them is this group?",
+            f"add\n  urdf:\n    tip: {graph.tip_link(arms[0][-1])}\n"
+            "one group for each robot, each with its own task",
+        )
+    gripper = next((j for j in joints if _is_gripper(graph, j)), None)
+    if gripper and len(joints) > 6:
+        return error(
+            "RG044",
+            f"'{gripper.name}' looks like a gripper",
+            gripper.span or place,
+            "moves less than 0.1 m behind the arm",
+            f"add\n  urdf:\n    ignore_joints: [{gripper.name}]\nor map it:\n{paste(joints)}",
+        )
+    still = [j for j in joints if j.lower is not None and j.lower == j.upper]
+    if still and len(joints) > 6:
+        names = ", ".join(j.name for j in still)
+        return error(
+            "RG043",
+            f"{len(joints)} joints move by themselves; {names} cannot be a controller axis",
+            still[0].span or place,
+            "its range is 0..0",
+            f"add\n  urdf:\n    ignore_joints: [{names}]",
+        )
+    if len(joints) > 6 and (outside := _outside(graph, joints)):
+        names = ", ".join(j.name for j in outside)
+        return error(
+            "RG046",
+            f"{names}: an external axis on or under the robot?",
+            outside[0].span or place,
+            "not one of the robot's six",
+            "map it to eax_a, eax_b, ... in the order of the controller:\n" + paste(joints),
+        )
+    if len(joints) == 7 and len(chains) == 1:
+        return error(
+            "RG045",
+            "seven joints in one chain: which one is the seventh axis?",
+            place,
+            "controllers call it eax_a, and names of joints often number it otherwise",
+            paste(joints),
+        )
+    if len(joints) > 6:
+        return error(
+            "RG043",
+            f"{len(joints)} joints move by themselves; a robot has six axes",
+            place,
+            ", ".join(j.name for j in joints[:12]),
+            "name the others under urdf.ignore_joints, or map all:\n" + paste(joints),
+        )
+    if len(joints) == 4:
+        return error(
+            "RG050",
+            "four joints: a SCARA or a palletiser?",
+            place,
+            "",
+            "a SCARA has rax_1, rax_2, rax_3, rax_4; a palletiser rax_1, rax_2, rax_3, rax_6:\n"
+            + paste(joints),
+        )
+    if len(joints) < 6 or len(chains) > 1:
+        return error(
+            "RG034",
+            f"cannot infer the axes of {len(joints)} joints in {len(chains)} chain(s)",
+            place,
+            ", ".join(j.name for j in joints[:12]),
+            paste(joints),
+        )
+    return None
+
+
+def unmapped(graph: Graph, left: Sequence[UrdfJoint], place: Span | None) -> Diagnostic:
+    """The finding for joints that a given mapping leaves out."""
+    first = left[0]
+    names = ", ".join(joint.name for joint in left)
+    code, what = "RG043", f"{names}: neither mapped nor ignored"
+    if _is_gripper(graph, first):
+        code, what = "RG044", f"'{first.name}' looks like a gripper: neither mapped nor ignored"
+    return error(
+        code,
+        what,
+        first.span or place,
+        "moves by itself",
+        f"add\n  urdf:\n    ignore_joints: [{names}]\nor map it:\n{paste(left)}",
+    )
+
+
+def _is_gripper(graph: Graph, joint: UrdfJoint) -> bool:
+    if joint.kind != "prismatic" or joint.lower is None or joint.upper is None:
+        return False
+    behind = sum(j.is_actuated and j.kind != "prismatic" for j in graph.ancestors(joint))
+    return behind >= 4 and 0 < joint.upper - joint.lower < _GRIPPER_STROKE
+
+
+def _outside(graph: Graph, joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
+    """Joints beside a run of six numbered ones: ancestors, or another branch."""
+    six = [j for j in joints if (p := number_of(j.name)) and 1 <= p[1] <= 6 and _turns(j)]
+    if len({number_of(j.name)[1] for j in six}) != 6 or len(six) != 6:  # type: ignore[index]
+        return []
+    arm = {a.name for a in (*graph.ancestors(six[-1]), six[-1])}
+    if not all(j.name in arm or j is six[-1] for j in six):
+        return []
+    return [j for j in joints if j not in six and not (number_of(j.name) or ("", 0, ""))[1] == 7]
+
+
+def _turns(joint: UrdfJoint) -> bool:
+    return joint.kind in ("revolute", "continuous")
+
+
+def _numbers(
+    joints: Sequence[UrdfJoint], chain: Sequence[UrdfJoint], place: Span | None
+) -> Diagnostic | None:
+    """Six in one chain: do the names count 1 to 6 along it?"""
+    sliding = next((j for j in chain if not _turns(j)), None)
+    if sliding:
+        return error(
+            "RG034",
+            f"cannot infer the axis of '{sliding.name}': it is {sliding.kind}",
+            sliding.span or place,
+            "",
+            paste(joints),
+        )
+    parts = [number_of(joint.name) for joint in chain]
+    numbers = [p[1] if p else None for p in parts]
+    if numbers == [1, 2, 3, 4, 5, 6] and len({(p[0], p[2]) for p in parts if p}) == 1:
+        return None
+    if sorted(n or 0 for n in numbers) == [1, 2, 3, 4, 5, 6]:
+        index = next((i for i, n in enumerate(numbers) if n != i + 1), 0)
+        return error(
+            "RG034",
+            f"cannot infer the axis of '{chain[index].name}': it is number {index + 1} in the "
+            f"chain and says {numbers[index]}",
+            chain[index].span or place,
+            "",
+            paste(chain),
+        )
+    shown = ", ".join(joint.name for joint in chain)
+    return error(
+        "RG035",
+        f"the numbers in the joint names are not 1 to 6: {shown}",
+        place,
+        "the number in a name need not be the axis",
+        paste(chain),
+    )

@@ -1,0 +1,106 @@
+"""`$(find PACKAGE)` without ROS: where a package's folder is.
+
+Order: the configuration's `packages`, `--package-path`, AMENT_PREFIX_PATH, ROS_PACKAGE_PATH,
+then upwards from the robot file. A package is known by the name in its package.xml.
+"""
+
+import os
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+MAX_FOLDERS = 20_000
+MAX_DEPTH = 6
+_NAME = re.compile(rb"<name>\s*([^<\s]+)\s*</name>")
+_SKIPPED = frozenset({".git", "build", "log", "node_modules", "__pycache__", "meshes", ".venv"})
+
+
+class PackageNotFound(LookupError):
+    """No folder for a package; the message lists where it was looked for."""
+
+
+@dataclass
+class Packages:
+    """Finds packages and remembers which were found twice."""
+
+    explicit: Mapping[str, Path]
+    paths: Sequence[Path]
+    start: Path
+    environment: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
+    doubles: dict[str, tuple[Path, Path]] = field(default_factory=dict)
+    _scans: dict[Path, dict[str, list[Path]]] = field(default_factory=dict)
+
+    def find(self, name: str) -> Path:
+        """Folder of a package; raises PackageNotFound."""
+        if name in self.explicit:
+            if self.explicit[name].is_dir():
+                return self.explicit[name]
+            raise PackageNotFound(
+                f"package '{name}': the configured folder {self.explicit[name]} does not exist"
+            )
+        searched: list[str] = []
+        for label, folders in self._places(name):
+            searched.append(label)
+            if folders:
+                if len(folders) > 1:
+                    self.doubles.setdefault(name, (folders[0], folders[1]))
+                return folders[0]
+        where = "; ".join(searched)
+        raise PackageNotFound(f"package '{name}' was not found (searched: {where})")
+
+    def _places(self, name: str) -> Iterator[tuple[str, list[Path]]]:
+        both = [folder for path in self.paths for folder in self._scan(path).get(name, [])]
+        if self.paths:
+            yield "--package-path " + ", ".join(map(str, self.paths)), both
+        prefixes = [p for p in self.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if p]
+        for prefix in prefixes:
+            share = Path(prefix) / "share"
+            marker = share / "ament_index" / "resource_index" / "packages" / name
+            yield f"AMENT_PREFIX_PATH {prefix}", [share / name] if marker.exists() else []
+        roots = [p for p in self.environment.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if p]
+        for root in roots:
+            yield f"ROS_PACKAGE_PATH {root}", self._scan(Path(root)).get(name, [])
+        for folder in (self.start, *self.start.parents):
+            if (folder / "package.xml").is_file():
+                # The file is inside a package: that one and its neighbours.
+                found = self._scan(folder.parent).get(name, [])
+                yield f"beside {folder}", found
+                if (folder.parent.parent / "package.xml").is_file():
+                    continue
+                return
+        yield f"upwards from {self.start}", []
+
+    def _scan(self, root: Path) -> dict[str, list[Path]]:
+        if root not in self._scans:
+            known: dict[str, list[Path]] = {}
+            for count, folder in enumerate(_folders(root, 0)):
+                if count > MAX_FOLDERS:
+                    break
+                name = _package_name(folder)
+                if name:
+                    known.setdefault(name, []).append(folder)
+            self._scans[root] = known
+        return self._scans[root]
+
+
+def _folders(root: Path, depth: int) -> Iterator[Path]:
+    yield root
+    if depth >= MAX_DEPTH or (depth and (root / "package.xml").is_file()):
+        return
+    try:
+        inside = sorted(entry.name for entry in os.scandir(root) if entry.is_dir())
+    except OSError:
+        return
+    for name in inside:
+        if name not in _SKIPPED:
+            yield from _folders(root / name, depth + 1)
+
+
+def _package_name(folder: Path) -> str:
+    try:
+        with (folder / "package.xml").open("rb") as stream:
+            hit = _NAME.search(stream.read(20_000))
+    except OSError:
+        return ""
+    return hit[1].decode("utf-8", "replace") if hit else ""

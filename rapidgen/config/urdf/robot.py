@@ -1,0 +1,251 @@
+"""URDF text to joints and links, read by yourdfpy with meshes off; our checks stand before it.
+
+yourdfpy accepts loops, duplicates, NaN and unknown types (and ends with Python's own errors on
+others), so whatever it takes for granted is checked on the XML first. No mesh is opened.
+"""
+
+import math
+from dataclasses import dataclass
+from io import BytesIO
+from typing import Any
+
+from rapidgen.config.tree import error
+from rapidgen.config.urdf.expand import Description
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+
+KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+_NUMBERS = {
+    "limit": ("lower", "upper", "velocity"),
+    "mimic": ("multiplier", "offset"),
+}
+_VECTORS = {"origin": ("xyz", "rpy"), "axis": ("xyz",)}
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfJoint:
+    """One joint as the file has it: rad, m, s; None is what the file leaves out."""
+
+    name: str
+    kind: str
+    parent: str
+    child: str
+    xyz: Vector
+    rpy: Vector
+    axis: Vector
+    lower: float | None
+    upper: float | None
+    velocity: float | None
+    mimic: str
+    multiplier: float
+    offset: float
+    span: Span | None
+
+    @property
+    def is_actuated(self) -> bool:
+        """Moves by itself: neither fixed nor a mimic."""
+        return self.kind != "fixed" and not self.mimic
+
+
+@dataclass(frozen=True, slots=True)
+class UrdfRobot:
+    """Joints in the order of the document."""
+
+    name: str
+    links: tuple[str, ...]
+    joints: tuple[UrdfJoint, ...]
+
+    def joint(self, name: str) -> UrdfJoint | None:
+        """A joint by name."""
+        return next((j for j in self.joints if j.name == name), None)
+
+
+def read_robot(description: Description, place: Span | None) -> UrdfRobot:
+    """The robot of a description; raises DiagnosticError (RG031, RG051, RG053, RG060)."""
+    from lxml import etree
+
+    parser = etree.XMLParser(resolve_entities=False, no_network=True, load_dtd=False)
+    data = description.text.encode()
+    try:
+        root = etree.fromstring(data, parser)
+    except etree.XMLSyntaxError as fault:
+        line, column = fault.position
+        span = place if description.expanded else Span(str(description.path), line, column or 1)
+        raise DiagnosticError(
+            error("RG060", f"{description.path.name} is not well-formed XML: {fault.msg}", span)
+        ) from None
+
+    def span_of(element: Any) -> Span | None:
+        if description.expanded or not element.sourceline:
+            return place
+        return Span(str(description.path), element.sourceline, 1)
+
+    if etree.QName(root).localname != "robot":
+        raise DiagnosticError(
+            error(
+                "RG060",
+                f"{description.path.name} is no robot description: its root is <{root.tag}>",
+                span_of(root),
+                help="the root of a URDF is <robot>",
+            )
+        )
+    faults = _structure(root, span_of, description.path.name)
+    if faults:
+        raise DiagnosticError(faults)
+    root.set("name", root.get("name") or description.path.stem)
+    lines = {e.get("name"): span_of(e) for e in root.iterchildren("joint")}
+    return _read(etree.tostring(_skeleton(root)), lines)
+
+
+def _skeleton(root: Any) -> Any:
+    """The robot with links and joints only: no geometry, so that no mesh is even looked at."""
+    from lxml import etree
+
+    made = etree.Element("robot", name=root.get("name"))
+    for element in root:
+        if element.tag == "link":
+            etree.SubElement(made, "link", name=element.get("name"))
+        elif element.tag == "joint":
+            joint = etree.SubElement(made, "joint", dict(element.attrib))
+            for part in element:
+                if part.tag in ("parent", "child", "origin", "axis", "limit", "mimic"):
+                    etree.SubElement(joint, part.tag, dict(part.attrib))
+    return made
+
+
+def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
+    import yourdfpy
+
+    made = yourdfpy.URDF.load(BytesIO(data), load_meshes=False, build_scene_graph=False)
+    robot = made.robot
+    joints = []
+    for joint in robot.joints:
+        matrix = joint.origin
+        limit, mimic = joint.limit, joint.mimic
+        factor = mimic.multiplier if mimic and mimic.multiplier is not None else 1.0
+        offset = mimic.offset if mimic and mimic.offset is not None else 0.0
+        joints.append(
+            UrdfJoint(
+                joint.name,
+                joint.type,
+                joint.parent,
+                joint.child,
+                _vector(matrix[:3, 3]) if matrix is not None else (0.0, 0.0, 0.0),
+                _rpy(matrix) if matrix is not None else (0.0, 0.0, 0.0),
+                _unit(_vector(joint.axis)),
+                None if limit is None else limit.lower,
+                None if limit is None else limit.upper,
+                None if limit is None else limit.velocity,
+                mimic.joint if mimic else "",
+                float(factor),
+                float(offset),
+                lines.get(joint.name),
+            )
+        )
+    return UrdfRobot(robot.name, tuple(link.name for link in robot.links), tuple(joints))
+
+
+def _vector(values: Any) -> Vector:
+    x, y, z = (float(v) for v in values)
+    return (x, y, z)
+
+
+def _unit(values: Vector) -> Vector:
+    norm = math.sqrt(sum(v * v for v in values)) or 1.0
+    x, y, z = (v / norm for v in values)
+    return (x, y, z)
+
+
+def _rpy(matrix: Any) -> Vector:
+    """Roll, pitch, yaw about fixed axes of a rotation matrix."""
+    cosine = math.hypot(matrix[0, 0], matrix[1, 0])
+    pitch = math.atan2(-matrix[2, 0], cosine)
+    if cosine < 1e-9:
+        return (math.atan2(-matrix[1, 2], matrix[1, 1]), pitch, 0.0)
+    return (
+        math.atan2(matrix[2, 1], matrix[2, 2]),
+        pitch,
+        math.atan2(matrix[1, 0], matrix[0, 0]),
+    )
+
+
+def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
+    """What yourdfpy takes for granted: names, parent and child, numbers, known types."""
+    found: list[Diagnostic] = []
+    seen: dict[tuple[str, str], int] = {}
+    for element in root:
+        if element.tag not in ("link", "joint"):
+            continue
+        own = element.get("name")
+        if not own:
+            found.append(error("RG053", f"a <{element.tag}> has no name", span_of(element)))
+            continue
+        if (element.tag, own) in seen:
+            found.append(
+                error(
+                    "RG051",
+                    f"two {element.tag}s are called '{own}'",
+                    span_of(element),
+                    "second time",
+                )
+            )
+        seen[element.tag, own] = 1
+        if element.tag == "joint":
+            found += _joint_structure(element, own, span_of)
+    if not any(tag == "joint" for tag, _ in seen):
+        found.append(
+            error(
+                "RG031",
+                f"{name} is an empty robot: it has no joints",
+                span_of(root),
+                help="give the top-level file of the description",
+            )
+        )
+    return found
+
+
+def _joint_structure(element: Any, name: str, span_of: Any) -> list[Diagnostic]:
+    found: list[Diagnostic] = []
+    kind = element.get("type")
+    if kind not in KINDS:
+        found.append(
+            error(
+                "RG053",
+                f"joint '{name}' has the unknown type '{kind}'",
+                span_of(element),
+                help=f"a joint is {', '.join(KINDS[:4])}",
+            )
+        )
+    for part in ("parent", "child"):
+        inner = element.find(part)
+        if inner is None or not inner.get("link"):
+            found.append(error("RG053", f"joint '{name}' has no {part} link", span_of(element)))
+    mimic = element.find("mimic")
+    if mimic is not None and not mimic.get("joint"):
+        found.append(error("RG042", f"joint '{name}' mimics no joint", span_of(element)))
+    for part, attributes in (*_NUMBERS.items(), *_VECTORS.items()):
+        inner = element.find(part)
+        for attribute in attributes if inner is not None else ():
+            text = inner.get(attribute)
+            wanted = 1 if part in _NUMBERS else 3
+            if text is not None and not _is_numbers(text, wanted):
+                found.append(
+                    error(
+                        "RG053",
+                        f"joint '{name}': {part} {attribute}=\"{text}\" is not "
+                        + ("a finite number" if wanted == 1 else "three finite numbers"),
+                        span_of(inner),
+                        help="write a decimal point, not a comma" if "," in text else "",
+                    )
+                )
+    return found
+
+
+def _is_numbers(text: str, count: int) -> bool:
+    words = text.split()
+    if len(words) != count:
+        return False
+    try:
+        return all(math.isfinite(float(word)) for word in words)
+    except ValueError:
+        return False

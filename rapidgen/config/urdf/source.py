@@ -1,0 +1,123 @@
+"""Files of a robot description as checked XML text.
+
+XML from elsewhere is read with limits: no document type, hence no entities, at most 20 MB.
+xacro input is code (it reads files and the environment); plain URDF is only data.
+"""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from rapidgen.config.tree import error
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+
+MAX_BYTES = 20_000_000
+_DOCTYPE = re.compile(r"<!\s*(DOCTYPE|ENTITY)", re.IGNORECASE)
+_ARG = re.compile(r"""<xacro:arg\s[^>]*?name\s*=\s*["']([^"']+)["']""")
+_ARG_USE = re.compile(r"""\$\(arg\s+([^)\s]+)\s*\)|\barg\(\s*["']([^"']+)["']""")
+_MACRO = re.compile(r"<xacro:macro\s([^>]*)>", re.DOTALL)
+_ATTRIBUTE = re.compile(r"""([\w:]+)\s*=\s*(?:"([^"]*)"|'([^']*)')""", re.DOTALL)
+_COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Macro:
+    """A xacro macro: parameters in order as (name, has a default)."""
+
+    name: str
+    parameters: tuple[tuple[str, bool], ...]
+
+    @property
+    def shown(self) -> str:
+        """As in its definition: `name(a, b=)`."""
+        names = [f"{name}=" if has else name for name, has in self.parameters]
+        return f"{self.name}({', '.join(names)})"
+
+
+def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
+    """Text and bytes of an XML file; raises DiagnosticError (RG060)."""
+    try:
+        with path.open("rb") as stream:
+            data = stream.read(MAX_BYTES + 1)
+    except (OSError, ValueError) as fault:
+        reason = getattr(fault, "strerror", None) or str(fault)
+        raise DiagnosticError(
+            error("RG060", f"cannot read {path}: {reason}", place, help="give the path of a file")
+        ) from None
+    if len(data) > MAX_BYTES:
+        raise DiagnosticError(error("RG060", f"{path} is larger than {MAX_BYTES:,} bytes", place))
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise DiagnosticError(
+            error("RG060", f"{path} is not UTF-8 text", place, help="save the file as UTF-8")
+        ) from None
+    hit = _DOCTYPE.search(_COMMENT.sub(lambda m: " " * len(m[0]), text))
+    if hit or "\x00" in text:
+        line = text.count("\n", 0, hit.start()) + 1 if hit else 1
+        raise DiagnosticError(
+            error(
+                "RG060",
+                "a robot description has no document type and no entities",
+                Span(str(path), line, 1),
+                "refused",
+                "remove the <!DOCTYPE ...>",
+            )
+        )
+    return text, data
+
+
+def is_xacro(path: Path, text: str) -> bool:
+    """True for what xacro has to expand first."""
+    return path.suffix == ".xacro" or "xmlns:xacro" in text or "<xacro:" in text
+
+
+def macros(text: str) -> tuple[Macro, ...]:
+    """Macros that a xacro text defines, in order."""
+    found = []
+    for hit in _MACRO.finditer(_COMMENT.sub("", text)):
+        given = {m[1]: m[2] if m[2] is not None else m[3] for m in _ATTRIBUTE.finditer(hit[1])}
+        if "name" in given:
+            found.append(Macro(given["name"], _parameters(given.get("params", ""))))
+    return tuple(found)
+
+
+def _parameters(text: str) -> tuple[tuple[str, bool], ...]:
+    made = []
+    for word in re.findall(r"""(?:[^\s'"]|'[^']*'|"[^"]*")+""", text):
+        name, default, _ = re.split(r"(:?=|$)", word, maxsplit=1)
+        made.append((name, bool(default)))
+    return tuple(made)
+
+
+def declared_arguments(texts: list[str]) -> set[str]:
+    """Names of all xacro arguments that the texts declare or use."""
+    names: set[str] = set()
+    for text in texts:
+        names.update(_ARG.findall(text))
+        names.update(a or b for a, b in _ARG_USE.findall(text))
+    return names
+
+
+def leftovers(text: str, shown: str) -> list[Diagnostic]:
+    """What expansion should have replaced (pitfall 3 of the field: RG033)."""
+    found = []
+    for hit in re.finditer(
+        r"\$\{[^}]*\}|\$\([^)]*\)|<(xacro:)?(macro|include|property|if|unless)[\s>/]",
+        _COMMENT.sub(lambda m: re.sub(r"[^\n]", " ", m[0]), text),
+    ):
+        line = text.count("\n", 0, hit.start()) + 1
+        column = hit.start() - text.rfind("\n", 0, hit.start())
+        found.append(
+            error(
+                "RG033",
+                f"'{hit[0].strip()}' is left over after expansion",
+                Span(shown, line, column),
+                "not replaced",
+                "xacro only replaces tags with the prefix `xacro:`; declare xmlns:xacro on "
+                "<robot> and write <xacro:macro>, <xacro:include>",
+            )
+        )
+        if len(found) == 5:
+            break
+    return found
