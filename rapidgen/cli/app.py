@@ -12,31 +12,15 @@ import typer
 from typer.exceptions import TyperException
 
 from rapidgen import __version__
+from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, render
 
 VERBS = (
     "robots",
     "new",
-    "check",
     "explain",
     "schema",
     "build",
-    "fmt",
-    "run",
-    "sim",
-    "test",
-    "probe",
-    "move",
-    "stop",
-    "monitor",
-    "record",
-    "plot",
-    "plan",
-    "deploy",
-    "rollback",
-    "uninstall",
-    "doctor",
-    "demo",
 )
 
 # Verbs that take words of other programs' kind (`--profile` with or without a value).
@@ -69,12 +53,6 @@ def _root(
 
 for _verb in VERBS:
     app.command(_verb)(getattr(import_module(f"rapidgen.cli.{_verb}"), _verb))
-
-
-def use_colour(stream: object = None) -> bool:
-    """Whether a stream (default: stderr) may be coloured: a terminal, and NO_COLOR not set."""
-    is_terminal = getattr(stream or sys.stderr, "isatty", lambda: False)
-    return is_terminal() and not os.environ.get("NO_COLOR")
 
 
 def run(arguments: list[str] | None = None) -> None:

@@ -1,0 +1,126 @@
+"""Mutants of a RAPID module: one small, deliberate defect each, from one fixed list of operators.
+
+The suite is worth as much as the share of them that it notices. Nobody picks: every place in a
+routine where an operator fits is a mutant, equivalent ones included.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
+
+from rapidgen.rapid import parse
+from rapidgen.rapid.nodes import (
+    Assignment,
+    Branch,
+    CompactIf,
+    Connect,
+    Module,
+    Node,
+    NumberLiteral,
+    ProcedureCall,
+    Raise,
+    Retry,
+    TryNext,
+    While,
+)
+
+_SWAPS = {
+    "<": "<=",
+    "<=": "<",
+    ">": ">=",
+    ">=": ">",
+    "=": "<>",
+    "<>": "=",
+    "+": "-",
+    "-": "+",
+    "*": "/",
+    "/": "*",
+    "AND": "OR",
+    "OR": "AND",
+    "TRUE": "FALSE",
+    "FALSE": "TRUE",
+}
+# Words to an operator or the log change no behaviour that a client or a robot could notice.
+_TALK = frozenset({"tpwrite", "tperase", "errwrite", "skipwarn"})
+
+
+@dataclass(frozen=True, slots=True)
+class Mutant:
+    """One changed text of a module. `line` is where; `change` says what was done."""
+
+    module: str
+    line: int
+    change: str
+    text: bytes
+
+
+def mutants(data: bytes, path: str = "") -> Iterator[Mutant]:
+    """All mutants of a module's text, in the order of the text, one operator after another.
+
+    Operators: a relation, an arithmetic or logical operator or a truth value swapped; a number
+    one larger; a condition negated; a simple statement left out.
+    """
+    module = parse(data, path=path)
+    source = module.source
+
+    def mutant(start: int, end: int, new: str, change: str) -> Mutant:
+        text = source.text[:start] + new + source.text[end:]
+        return Mutant(module.name, source.position(start)[0], change, text.encode(source.encoding))
+
+    def of(node: Node) -> tuple[int, int]:
+        return source.starts[node.first], source.starts[node.last] + len(source.tokens[node.last])
+
+    for node in _inside_routines(module):
+        start, end = of(node)
+        if isinstance(node, NumberLiteral):
+            yield mutant(start, end, f"{node.value + 1:g}", f"{node.text} -> {node.value + 1:g}")
+        elif isinstance(node, Branch | While | CompactIf):
+            first, last = of(node.condition)
+            inner = source.text[first:last]
+            yield mutant(first, last, f"(NOT ({inner}))", f"condition negated: {inner}")
+        if isinstance(node, Assignment | ProcedureCall | Connect | Raise | Retry | TryNext):
+            if isinstance(node, ProcedureCall) and node.name.casefold() in _TALK:
+                continue
+            yield mutant(start, end, _nothing(module, node), f"left out: {source.text[start:end]}")
+    for first, last in _bodies(module):
+        for token in range(first, last + 1):
+            word = source.tokens[token]
+            swapped = _SWAPS.get(word.upper())
+            if swapped is not None and not _is_sign(source.tokens, token):
+                at = source.starts[token]
+                yield mutant(at, at + len(word), swapped, f"{word} -> {swapped}")
+
+
+def _nothing(module: Module, node: Node) -> str:
+    # A compact IF needs a statement: an assignment to itself would have effects, so RAPID's
+    # cheapest no-operation stands in.
+    before = module.source.tokens[node.first - 1] if node.first else ""
+    return "" if before in (";", ":", "THEN", "DO", "ELSE") else "WaitTime 0;"
+
+
+def _is_sign(tokens: list[str], token: int) -> bool:
+    if tokens[token] not in "+-":
+        return False
+    before = tokens[token - 1]
+    return before in ("(", "[", ",", ":=", "=", "<", ">", "<=", ">=", "<>") or before.isupper()
+
+
+def _bodies(module: Module) -> Iterator[tuple[int, int]]:
+    for routine in module.routines:
+        yield routine.first, routine.last
+
+
+def _inside_routines(module: Module) -> Iterator[Node]:
+    for routine in module.routines:
+        yield from _walk(routine)
+
+
+def _walk(node: Node) -> Iterator[Node]:
+    yield node
+    for field in fields(node):
+        value = getattr(node, field.name)
+        if isinstance(value, Node):
+            yield from _walk(value)
+        elif isinstance(value, list):
+            for item in value:
+                if isinstance(item, Node):
+                    yield from _walk(item)

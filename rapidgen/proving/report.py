@@ -1,0 +1,138 @@
+"""A report as JUnit XML and as one self-contained HTML page."""
+
+import html
+from pathlib import Path
+from xml.etree import ElementTree
+
+from rapidgen.proving.model import Outcome, Report, Series
+
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999")
+_STYLE = """
+body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 62rem; color: #222 }
+table { border-collapse: collapse; width: 100% }
+td, th { text-align: left; vertical-align: top; padding: .25rem .6rem }
+td, th { border-bottom: 1px solid #ddd }
+.ok { color: #007a33 } .bad { color: #b00020; font-weight: 600 }
+pre { background: #f6f6f6; padding: .6rem; overflow-x: auto }
+svg { background: #fafafa; border: 1px solid #ddd }
+"""
+
+
+def write_junit(report: Report, path: Path) -> None:
+    """JUnit XML: one test case an outcome, one for each schedule that broke the invariant."""
+    failures = sum(not o.passed for o in report.outcomes) + len(report.findings)
+    suite = ElementTree.Element(
+        "testsuite",
+        name=f"rapidgen {report.name}",
+        tests=str(len(report.outcomes) + max(1, len(report.findings))),
+        failures=str(failures),
+        errors="0",
+        time=f"{report.elapsed:.3f}",
+    )
+    for outcome in report.outcomes:
+        case = ElementTree.SubElement(
+            suite,
+            "testcase",
+            classname=f"{report.name}.{outcome.case.group}",
+            name=_name(outcome),
+            time=f"{outcome.elapsed:.3f}",
+        )
+        if not outcome.passed:
+            failure = ElementTree.SubElement(case, "failure", message=_xml(outcome.detail))
+            failure.text = _xml("\n".join(outcome.log))
+    if not report.findings:
+        ElementTree.SubElement(
+            suite, "testcase", classname=f"{report.name}.exploration", name="schedules"
+        )
+    for finding in report.findings:
+        case = ElementTree.SubElement(
+            suite,
+            "testcase",
+            classname=f"{report.name}.exploration",
+            name=f"seed {finding.seed}",
+        )
+        failure = ElementTree.SubElement(case, "failure", message=_xml(finding.detail))
+        failure.text = _xml("\n".join((finding.plan, *finding.log)))
+    root = ElementTree.Element("testsuites")
+    root.append(suite)
+    ElementTree.indent(root)
+    path.write_bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n")
+
+
+def write_html(report: Report, path: Path) -> None:
+    """One page: verdict, table, plots of commanded and executed joints, logs of failures."""
+    verdict = "everything held" if report.passed else "something did not hold"
+    rows = "".join(_row(outcome) for outcome in report.outcomes)
+    details = "".join(_details(o) for o in report.outcomes if o.series or not o.passed)
+    findings = "".join(
+        f"<h3>seed {f.seed}</h3><p>{html.escape(f.detail)}</p>"
+        f"<pre>{html.escape(chr(10).join((f.plan, *f.log)))}</pre>"
+        for f in report.findings
+    )
+    path.write_text(
+        f"""<!doctype html>
+<html lang="en"><meta charset="utf-8"><title>{html.escape(report.name)}</title>
+<style>{_STYLE}</style>
+<h1>{html.escape(report.name)}: {verdict}</h1>
+<p>BUILD_ID {html.escape(report.build_id)} · {len(report.outcomes)} cases ·
+{report.schedules} schedules explored · on the virtual controller; no real controller was asked.</p>
+<table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>
+{rows}</table>
+{"<h2>Schedules that broke the invariant</h2>" + findings if findings else ""}
+{details}
+</html>
+""",
+        encoding="utf-8",
+    )
+
+
+def _name(outcome: Outcome) -> str:
+    return outcome.case.name + (f" [{outcome.setting}]" if outcome.setting else "")
+
+
+def _xml(text: str) -> str:
+    return "".join(c if c >= " " or c in "\n\t" else "?" for c in text)
+
+
+def _row(outcome: Outcome) -> str:
+    verdict = '<td class="ok">ok' if outcome.passed else '<td class="bad">failed'
+    return (
+        f"<tr><td>{html.escape(_name(outcome))}<td>{html.escape(outcome.case.title)}"
+        f"<td>{html.escape(outcome.case.answers)}<td>{outcome.simulated:.2f} s{verdict}</tr>\n"
+    )
+
+
+def _details(outcome: Outcome) -> str:
+    text = f"<h2>{html.escape(_name(outcome))}</h2><p>{html.escape(outcome.detail)}</p>"
+    if outcome.series:
+        text += _plot(outcome.series)
+    if not outcome.passed and outcome.log:
+        text += f"<pre>{html.escape(chr(10).join(outcome.log))}</pre>"
+    return text
+
+
+def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> str:
+    times = [t for s in series for t in s.times]
+    values = [v for s in series for row in s.values for v in row]
+    if not values or max(times) <= min(times):
+        return ""
+    left, low = min(times), min(values)
+    across, up = max(times) - left, (max(values) - low) or 1.0
+    lines = []
+    for number, one in enumerate(series):
+        dash = ' stroke-dasharray="5 4"' if number else ""
+        for joint in range(len(one.values[0]) if one.values else 0):
+            points = " ".join(
+                f"{(t - left) / across * width:.1f},{height - (row[joint] - low) / up * height:.1f}"
+                for t, row in zip(one.times, one.values, strict=True)
+            )
+            colour = _COLOURS[joint % len(_COLOURS)]
+            lines.append(f'<polyline fill="none" stroke="{colour}"{dash} points="{points}"/>')
+    legend = ", ".join(
+        f"{'dashed' if number else 'solid'}: {html.escape(s.label)}"
+        for number, s in enumerate(series)
+    )
+    return (
+        f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
+        f"{''.join(lines)}</svg><p>{legend}; rad (m) over {across:.2f} s</p>"
+    )

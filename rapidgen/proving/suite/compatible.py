@@ -1,0 +1,218 @@
+"""What the unmodified ROS-Industrial nodes send and expect."""
+
+from rapidgen.protocol import decode, messages, spec
+from rapidgen.proving.bench import STOP, Bench, Point, distance, point_frame, raw_point
+from rapidgen.proving.model import Broken, Case
+
+_REPLY = 2.0
+
+
+def _whole_trajectory(bench: Bench) -> None:
+    points = bench.wave(12)
+    link = bench.motion()
+    bench.moves_through(link, points)
+    if link.read():
+        raise Broken("points sent as topics were answered")
+
+
+def _first_point_of_ten_seconds(bench: Bench) -> None:
+    points = bench.wave(4)
+    link = bench.motion()
+    started = bench.now
+    link.send(bench.download(points))
+    bench.wait_until_at(points[-1][0], 30)
+    taken, asked = bench.now - started, sum(d for _, d in points[1:])
+    if taken > asked + 3:
+        raise Broken(f"{asked:.1f} s of motion took {taken:.1f} s: the first 10 s were waited for")
+
+
+def _single_point_sent_twice(bench: Bench) -> None:
+    target = bench.wave(3)[-1][0]
+    link = bench.motion()
+    link.send(point_frame(0, 2, target, 10.0) + point_frame(1, 2, target, 10.0))
+    bench.wait_until_at(target, 40)
+
+
+def _equal_stamps(bench: Bench) -> None:
+    first, second, third = bench.wave(3)
+    # The node turns equal stamps into 10 s; the robot stays for them, and goes on.
+    points: list[Point] = [first, second, (second[0], 10.0), third]
+    link = bench.motion()
+    bench.moves_through(link, points)
+
+
+def _more_trajectories(bench: Bench) -> None:
+    link = bench.motion()
+    for _ in range(5):
+        bench.moves_through(link, bench.wave(5))
+
+
+def _state_stream(bench: Bench) -> None:
+    link = bench.state()
+    bench.run(1)
+    before = len(link.frames)
+    bench.run(20)
+    frames = link.frames[before:]
+    period = bench.config.state_period
+    for number, size in ((spec.JOINT_POSITION.number, 44), (spec.STATUS.number, 28)):
+        stamps = [when for when, f in frames if f.number == number]
+        if any(
+            f.comm != spec.Comm.TOPIC or f.reply or len(f.data) != size
+            for _, f in frames
+            if f.number == number
+        ):
+            raise Broken(f"a message {number} is no plain topic of {size} bytes")
+        if abs(len(stamps) - 20 / period) > 2:
+            raise Broken(f"{len(stamps)} messages {number} in 20 s, wanted {20 / period:.0f}")
+        for i, when in enumerate(stamps):
+            if abs(when - (stamps[0] + i * period)) > period:
+                raise Broken(f"message {number} at {when:.3f} s is more than a period off")
+    if {f.number for _, f in frames} != {spec.JOINT_POSITION.number, spec.STATUS.number}:
+        raise Broken("a client that did not say hello gets messages of ours")
+
+
+def _state_is_true(bench: Bench) -> None:
+    link, motion = bench.state(), bench.motion()
+    bench.run(1)
+    idle = bench.status(link)
+    if (idle.drives_powered, idle.e_stopped, idle.in_error, idle.in_motion) != (1, 0, 0, 0):
+        raise Broken(f"an idle robot says {idle}")
+    if (idle.mode, idle.motion_possible) != (2, 1):
+        raise Broken(f"a robot in automatic mode with its program running says {idle}")
+    points = bench.wave(6)
+    motion.send(bench.download(points))
+    bench.wait_until_moving()
+    if bench.status(link).in_motion != 1:
+        raise Broken("a moving robot says that it is not in motion")
+    bench.wait_until_at(points[-1][0])
+    bench.run(1)
+    joints = [decode(f) for _, f in link.frames if f.number == spec.JOINT_POSITION.number]
+    last = joints[-1]
+    assert isinstance(last, messages.JointPosition)
+    here = bench.position
+    if distance(last.joints[: len(here)], here) > 1e-4 or any(last.joints[len(here) :]):
+        raise Broken(f"JOINT says {last.joints}, the robot stands at {here}")
+    if bench.status(link).in_motion != 0:
+        raise Broken("a standing robot says that it is in motion")
+
+
+def _short_movements_show(bench: Bench) -> None:
+    link, motion = bench.state(), bench.motion()
+    bench.run(0.5)
+    for attempt in range(5):
+        here = bench.position
+        step = 0.0005 if attempt % 2 else -0.0005
+        target = tuple(
+            min(max(h + step, j.lower), j.upper)
+            for h, j in zip(here, bench.group.joints, strict=True)
+        )
+        before = len(link.frames)
+        motion.send(bench.download([(here, 10.0), (target, 0.1), (target, 0.1)]))
+        bench.run(1.0)
+        seen = [decode(f) for _, f in link.frames[before:] if f.number == spec.STATUS.number]
+        if not any(isinstance(s, messages.Status) and s.in_motion == 1 for s in seen):
+            raise Broken("a movement between two STATUS messages was in none of them")
+
+
+def _stop_is_answered(bench: Bench) -> None:
+    link = bench.motion()
+    link.send(STOP)
+    frame = link.expect_reply(_REPLY, "STOP is answered by an idle driver")
+    if frame != (11, spec.Comm.REPLY, spec.ReplyCode.SUCCESS, b""):
+        raise Broken(f"the reply to STOP is {frame}")
+
+
+def _limits_are_reached(bench: Bench) -> None:
+    link = bench.motion()
+    # What is a limit in 64 bits may lie outside of it by a rounding to 32.
+    for index, joint in enumerate(bench.group.joints):
+        for limit in (joint.lower, joint.upper):
+            here = bench.position
+            target = (*here[:index], limit, *here[index + 1 :])
+            seconds = max(0.5, 2 * abs(limit - here[index]) / joint.speed)
+            link.send(bench.download([(here, 10.0), (target, seconds), (target, 0.5)]))
+            bench.wait_until_at(target, 20 + 4 * seconds)
+            link.send(bench.download([(target, 10.0), (here, seconds), (here, 0.5)]))
+            bench.wait_until_at(here, 20 + 4 * seconds)
+
+
+def _in_pieces(bench: Bench) -> None:
+    link = bench.motion()
+    points = bench.wave(4)
+    since = bench.now
+    for byte in bench.download(points):
+        link.send(bytes([byte]))
+        bench.run(0.001)
+    bench.wait_until_at(points[-1][0])
+    bench.followed([p for p, _ in points], since=since)
+
+
+def _in_one_piece_with_a_stop(bench: Bench) -> None:
+    link = bench.motion()
+    points = bench.wave(6)
+    link.send(bench.download(points) + STOP)
+    link.expect_reply(5, "STOP behind a trajectory in one segment is answered")
+    bench.wait_until_standing()
+    bench.stays(2, "it was stopped")
+    bench.moves_through(link, bench.wave(4))
+
+
+def _full_capacity(bench: Bench) -> None:
+    count = bench.config.trajectory.capacity
+    link = bench.motion()
+    bench.moves_through(link, bench.wave(min(count, 1000), duration=0.2, size=0.01))
+
+
+def _ping(bench: Bench) -> None:
+    link = bench.motion()
+    link.send(b"\x0c\0\0\0\x01\0\0\0\x02\0\0\0\0\0\0\0")
+    if link.expect_reply(_REPLY, "PING is answered").comm != spec.Comm.REPLY:
+        raise Broken("PING was not answered by a reply")
+
+
+def _requests_are_answered(bench: Bench) -> None:
+    link = bench.motion()
+    points = bench.wave(3)
+    for number, (joints, duration) in enumerate(points):
+        link.send(point_frame(number, len(points), joints, duration, spec.Comm.REQUEST))
+        frame = link.expect_reply(_REPLY, f"point {number} sent as a request is answered")
+        if frame.reply != spec.ReplyCode.SUCCESS:
+            raise Broken(f"point {number} of a good trajectory was refused: {decode(frame)}")
+    bench.wait_until_at(points[-1][0])
+
+
+def _stray_point(bench: Bench) -> None:
+    link = bench.motion()
+    link.send(raw_point(3, bench.wave(3)[-1][0], 1.0))
+    bench.stays(2, "a point without a start")
+
+
+CASES = (
+    Case("whole-trajectory", "a trajectory sent as topics is executed whole, in order",
+         "compatible", _whole_trajectory),
+    Case("first-point-10s", "the 10 s that the node gives the first point are not waited for",
+         "compatible", _first_point_of_ten_seconds, "R8"),
+    Case("single-point", "a single point, sent as -1 and -3, is reached", "compatible",
+         _single_point_sent_twice),
+    Case("equal-stamps", "equal stamps are a stay, and the rest follows", "compatible",
+         _equal_stamps),
+    Case("more-trajectories", "trajectory after trajectory over one connection", "compatible",
+         _more_trajectories),
+    Case("state-stream", "JOINT and STATUS as plain topics at the set rate", "compatible",
+         _state_stream, "R16"),
+    Case("state-true", "JOINT and STATUS tell what the robot does", "compatible", _state_is_true),
+    Case("short-movements", "every movement is in at least one STATUS", "compatible",
+         _short_movements_show, "R16"),
+    Case("stop-answered", "STOP is answered at once, in the node's bytes", "compatible",
+         _stop_is_answered),
+    Case("at-the-limits", "every limit of every joint can be reached", "compatible",
+         _limits_are_reached),
+    Case("in-pieces", "a trajectory byte by byte", "compatible", _in_pieces, "R2"),
+    Case("in-one-piece", "a trajectory and a STOP in one segment", "compatible",
+         _in_one_piece_with_a_stop),
+    Case("full-capacity", "as many points as the driver says it holds", "compatible",
+         _full_capacity, "R1"),
+    Case("ping", "PING as a request is answered", "compatible", _ping),
+    Case("requests", "points sent as requests are answered", "compatible", _requests_are_answered),
+    Case("stray-point", "a point without a start moves nothing", "compatible", _stray_point),
+)  # fmt: skip

@@ -1,0 +1,185 @@
+"""What happens to the controller: stops, modes, power, missing signals, mixed builds."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from rapidgen.protocol import spec
+from rapidgen.protocol.spec import Reason
+from rapidgen.proving.bench import Bench, Point, distance, with_module
+from rapidgen.proving.model import Broken, Case
+
+
+def _back_to_work(bench: Bench) -> None:
+    for action in ("reset-e-stop", "auto", "motors-on", "start"):
+        bench.controller.perform(action)
+    bench.run(1)
+
+
+def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None:
+    """After `action` nothing of the old path resumes, and a new trajectory moves."""
+    for delay in (0.05, 0.7):
+        state, link = bench.state(), bench.motion()
+        points = bench.wave(10)
+        since = bench.now
+        link.send(bench.download(points))
+        bench.wait_until_moving()
+        bench.run(delay)
+        bench.controller.perform(action)
+        bench.wait_until_standing(10)
+        bench.followed([p for p, _ in points], since=since)
+        bench.stays(2, f"{action}")
+        if pp_to_main:
+            bench.controller.perform("pp-to-main")
+            bench.run(0.5)
+        _back_to_work(bench)
+        bench.stays(5, f"the program was started again after {action}, nobody asked for motion")
+        if action != "power-loss":
+            status = bench.status(state)
+            if status.motion_possible != 1:
+                raise Broken(f"STATUS says that no motion is possible after {action}: {status}")
+        link.close()
+        state.close()
+        bench.run(1.5)
+        link = bench.motion()
+        bench.moves_through(link, bench.wave(3))
+        link.close()
+        bench.run(1.5)
+
+
+def _case(action: str, *, pp_to_main: bool = False) -> Callable[[Bench], None]:
+    return lambda bench: _interrupted(bench, action, pp_to_main=pp_to_main)
+
+
+def _refused_while_not_executing(bench: Bench) -> None:
+    for action, reasons in (
+        ("stop", (Reason.NOT_EXECUTING,)),
+        ("motors-off", (Reason.MOTORS_OFF, Reason.NOT_EXECUTING)),
+        ("e-stop", (Reason.EMERGENCY_STOP, Reason.MOTORS_OFF)),
+    ):
+        state, link = bench.state(), bench.motion()
+        bench.controller.perform(action)
+        bench.run(1)
+        link.send(bench.download(bench.wave(4)))
+        bench.stays(5, f"the controller is in {action}")
+        status = bench.status(state)
+        reason, _ = spec.split_error_code(status.error_code)
+        if status.in_error != 1 or reason not in reasons:
+            raise Broken(f"after {action} a trajectory is answered by {status}")
+        if status.motion_possible != 0:
+            raise Broken(f"after {action} STATUS says that motion is possible")
+        _back_to_work(bench)
+        bench.stays(5, "what came while nothing was executing is not kept")
+        bench.moves_through(link, bench.wave(3))
+        link.close()
+        state.close()
+        bench.run(1.5)
+
+
+def _e_stop_shows(bench: Bench) -> None:
+    state = bench.state()
+    bench.controller.perform("e-stop")
+    bench.run(0.5)
+    status = bench.status(state)
+    if (status.e_stopped, status.drives_powered, status.motion_possible) != (1, 0, 0):
+        raise Broken(f"during an emergency stop STATUS says {status}")
+    _back_to_work(bench)
+    status = bench.status(state)
+    if (status.e_stopped, status.drives_powered, status.motion_possible) != (0, 1, 1):
+        raise Broken(f"after an emergency stop STATUS says {status}")
+
+
+def _manual_mode_shows(bench: Bench) -> None:
+    state = bench.state()
+    bench.controller.perform("manual")
+    bench.run(0.5)
+    if bench.status(state).mode != spec.Mode.MANUAL:
+        raise Broken("in manual mode STATUS does not say so")
+
+
+def _pp_to_main_idle(bench: Bench) -> None:
+    for _ in range(3):
+        bench.controller.perform("stop")
+        bench.run(0.3)
+        bench.controller.perform("pp-to-main")
+        bench.run(0.3)
+        bench.controller.perform("start")
+        bench.run(1)
+        link = bench.motion()
+        bench.moves_through(link, bench.wave(3))
+        link.close()
+        bench.run(1.5)
+
+
+def _half_speed(bench: Bench) -> None:
+    group = bench.controller.motion.group(bench.group.name)
+    group.override = 0.5
+    link = bench.motion()
+    points: list[Point] = bench.wave(4)
+    bench.moves_through(link, points)
+    group.override = 1.0
+
+
+def _without_signals(bench: Bench) -> None:
+    bare = replace(bench.system, signals=(), outputs=(), cross=())
+    other = Bench(bench.config, bare, bench.setting)
+    try:
+        state, link = other.state(), other.motion()
+        status = other.status(state)
+        if status.drives_powered != spec.TriState.UNKNOWN:
+            raise Broken(f"without signals STATUS says {status}")
+        other.moves_through(link, other.wave(4))
+    finally:
+        other.close()
+
+
+def _mixed_builds(bench: Bench) -> None:
+    build = bench.system.build_id.encode()
+    names = {m.name for task in bench.system.tasks for m in task.modules if build in m.data}
+    for name in sorted(names):
+        data = next(m.data for task in bench.system.tasks for m in task.modules if m.name == name)
+        mixed = with_module(bench.system, name, data.replace(build, b"0123456789ab"))
+        other = Bench(bench.config, mixed, bench.setting)
+        try:
+            state, link = other.state(), other.motion()
+            link.send(other.download(other.wave(4)))
+            other.stays(4, f"{name} is of another build")
+            status = other.status(state)
+            if status.motion_possible != 0:
+                raise Broken(f"with {name} of another build STATUS says that motion is possible")
+        finally:
+            other.close()
+
+
+def _no_task_ends(bench: Bench) -> None:
+    state, link = bench.state(), bench.motion()
+    bench.moves_through(link, bench.wave(4))
+    bench.status(state)
+    bench.run(60)
+    ended = [name for name, task in bench.controller.tasks.items() if task.state != "running"]
+    if ended:
+        raise Broken(f"tasks that ended by themselves: {', '.join(ended)}")
+    if distance(bench.position, bench.track[-1][1]) > 1e-6:
+        raise Broken("the record does not end where the robot stands")
+
+
+CASES = (
+    Case("e-stop", "nothing resumes after an emergency stop", "controller", _case("e-stop")),
+    Case("program-stop", "nothing resumes after a program stop", "controller", _case("stop"),
+         "R7a"),
+    Case("stop-pp-to-main", "nothing resumes after a stop and PP to main", "controller",
+         _case("stop", pp_to_main=True), "R7a"),
+    Case("motors-off", "nothing resumes after motors off", "controller", _case("motors-off")),
+    Case("manual-mode", "nothing resumes after a change of mode", "controller", _case("manual")),
+    Case("power-loss", "nothing resumes after a power failure", "controller", _case("power-loss")),
+    Case("not-executing", "what comes while nothing executes is refused", "controller",
+         _refused_while_not_executing, "R7a"),
+    Case("e-stop-status", "STATUS shows an emergency stop", "controller", _e_stop_shows, "R15"),
+    Case("manual-status", "STATUS shows manual mode", "controller", _manual_mode_shows),
+    Case("pp-to-main", "PP to main leaves nothing taken", "controller", _pp_to_main_idle, "R7a"),
+    Case("half-speed", "a speed override changes the time, not the path", "controller",
+         _half_speed),
+    Case("without-signals", "missing signals are not fatal", "controller", _without_signals, "R15"),
+    Case("mixed-builds", "modules of different builds refuse to move", "controller",
+         _mixed_builds),
+    Case("no-task-ends", "no task ends by itself", "controller", _no_task_ends, "R3"),
+)  # fmt: skip

@@ -1,0 +1,123 @@
+"""Bytes that no honest client sends."""
+
+import random
+
+from rapidgen.protocol import spec
+from rapidgen.proving.bench import Bench, raw_point
+from rapidgen.proving.model import Broken, Case
+
+ROUNDS = 60
+"""Malformed openings of one run; `campaign` has more."""
+
+
+def _word(value: int) -> bytes:
+    return (value & 0xFFFFFFFF).to_bytes(4, "little")
+
+
+def _dropped_and_served(bench: Bench, junk: bytes) -> None:
+    link = bench.motion()
+    link.send(junk)
+    bench.until(lambda: link.lost, 5, "a client that breaks framing is dropped")
+    _good_client(bench)
+
+
+def _good_client(bench: Bench) -> None:
+    link = bench.motion()
+    bench.moves_through(link, bench.wave(3, duration=0.2))
+    link.close()
+    bench.run(0.1)
+
+
+def _wrong_lengths(bench: Bench) -> None:
+    for length in (-1, 0, 11, 1021, 65_536, 2**31 - 1, -(2**31)):
+        _dropped_and_served(bench, _word(length))
+
+
+def _point_of_wrong_size(bench: Bench) -> None:
+    for length in (12, 63, 65, 68):
+        body = _word(length) + _word(11) + _word(1) + _word(0) + bytes(length - 12)
+        _dropped_and_served(bench, body)
+
+
+def _wrong_comm_type(bench: Bench) -> None:
+    good = bytearray(raw_point(-1, bench.position, 1.0))
+    for comm in (0, 3, 7, -1):
+        good[8:12] = _word(comm)
+        _dropped_and_served(bench, bytes(good))
+
+
+def _unknown_types(bench: Bench) -> None:
+    link = bench.motion()
+    for number in (0, 2, 10, 13, 14, 20, 1399, -5):
+        link.send(_word(44) + _word(number) + _word(1) + _word(0) + bytes(32))
+    bench.moves_through(link, bench.wave(3))
+
+
+def _unknown_request(bench: Bench) -> None:
+    link = bench.motion()
+    link.send(_word(12) + _word(20) + _word(2) + _word(0))
+    frame = link.expect_reply(2, "a request of an unknown type is answered")
+    if (frame.comm, frame.reply) != (spec.Comm.REPLY, spec.ReplyCode.FAILURE):
+        raise Broken(f"a request of an unknown type is answered by {frame}")
+
+
+def _breaks_in_a_download(bench: Bench) -> None:
+    link = bench.motion()
+    link.send(bench.download(bench.wave(6))[: 68 * 3 + 20] + b"\xff" * 64)
+    bench.stays(3, "the download broke off")
+    _good_client(bench)
+
+
+def _half_header_and_end(bench: Bench) -> None:
+    for size in (1, 3, 4, 15, 16, 67):
+        link = bench.motion()
+        link.send(raw_point(-1, bench.position, 1.0)[:size])
+        bench.run(0.05)
+        link.close()
+        bench.run(0.1)
+        _good_client(bench)
+
+
+def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
+    """Random damage to a good trajectory; each time a good client is served afterwards."""
+    chance = random.Random(bench.setting.seed)
+    for _ in range(rounds):
+        data = bytearray(bench.download(bench.wave(4)))
+        # The end frame is always lost, so nothing may move whatever is left.
+        del data[-spec.JOINT_TRAJ_PT.length - 4 :]
+        for _ in range(chance.randrange(1, 5)):
+            at = chance.randrange(len(data))
+            match chance.randrange(3):
+                case 0:
+                    data[at] = chance.randrange(256)
+                case 1:
+                    del data[at : at + chance.randrange(1, 80)]
+                case _:
+                    data[at:at] = chance.randbytes(chance.randrange(1, 40))
+            if not data:
+                break
+        link = bench.motion()
+        link.send(bytes(data))
+        bench.stays(0.3, f"a damaged download of {len(data)} bytes")
+        link.close(abort=chance.random() < 0.3)
+        bench.run(0.1)
+        _good_client(bench)
+
+
+CASES = (
+    Case("wrong-lengths", "a length out of bounds drops the client, the next one is served",
+         "framing", _wrong_lengths, "R2, R3"),
+    Case("wrong-size", "a point of another size drops the client", "framing",
+         _point_of_wrong_size, "R3"),
+    Case("wrong-comm-type", "a comm_type that is none drops the client", "framing",
+         _wrong_comm_type),
+    Case("unknown-types", "messages of other types are passed over", "framing", _unknown_types,
+         "R3"),
+    Case("unknown-request", "a request of another type gets a failure reply", "framing",
+         _unknown_request),
+    Case("breaks-in-download", "garbage in a download: nothing moves", "framing",
+         _breaks_in_a_download),
+    Case("half-header", "a client that leaves within a message", "framing", _half_header_and_end,
+         "R2"),
+    Case("damage", "random damage moves nothing and stops no task", "framing", campaign, "R3"),
+)  # fmt: skip

@@ -1,0 +1,184 @@
+"""What is refused whole, with a reason, before anything moves."""
+
+import math
+from collections.abc import Sequence
+
+from rapidgen.protocol import decode, messages, spec
+from rapidgen.protocol.spec import Reason
+from rapidgen.proving.bench import Bench, Point, point_frame, raw_point
+from rapidgen.proving.model import Broken, Case
+
+
+def _refused(bench: Bench, frames: bytes, reasons: Sequence[Reason], joint: int = 0) -> None:
+    """Broken unless nothing moves and STATUS gives one of the reasons."""
+    state, link = bench.state(), bench.motion()
+    link.send(frames)
+    bench.stays(3, f"it had to be refused: {spec.REASON_TEXTS[reasons[0]]}")
+    status = bench.status(state)
+    reason, wrong = spec.split_error_code(status.error_code)
+    if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
+        names = " or ".join(r.name for r in reasons)
+        raise Broken(
+            f"wanted in_error with {names}{f' of joint {joint}' if joint else ''}, STATUS says "
+            f"in_error {status.in_error}, error_code {status.error_code}"
+        )
+    # A refusal is over with the next good trajectory.
+    bench.moves_through(link, bench.wave(3))
+    bench.run(0.5)
+    if bench.status(state).in_error != 0:
+        raise Broken("in_error stays after a good trajectory")
+    state.close()
+    link.close()
+    bench.run(0.5)
+
+
+def _changed(points: Sequence[Point], index: int, joints: Sequence[float]) -> list[Point]:
+    changed = list(points)
+    changed[index] = (tuple(joints), changed[index][1])
+    return changed
+
+
+def _too_many(bench: Bench) -> None:
+    count = bench.config.trajectory.capacity + 1
+    _refused(bench, bench.download(bench.wave(count, duration=0.2, size=0.01)), [Reason.CAPACITY])
+
+
+def _hole(bench: Bench) -> None:
+    points = bench.wave(8)
+    for missing in (1, 4, 6):
+        frames = b"".join(
+            point_frame(n, len(points), *point) for n, point in enumerate(points) if n != missing
+        )
+        # Without point N-2 the end frame comes one early: nobody can see that one.
+        if missing < len(points) - 2:
+            _refused(bench, frames, [Reason.SEQUENCE_GAP])
+
+
+def _twice(bench: Bench) -> None:
+    points = bench.wave(6)
+    frames = [point_frame(n, len(points), *point) for n, point in enumerate(points)]
+    _refused(bench, b"".join([*frames[:3], frames[2], *frames[3:]]), [Reason.SEQUENCE_GAP])
+
+
+def _not_finite(bench: Bench) -> None:
+    for value in (math.nan, math.inf, -math.inf):
+        for axis in range(len(bench.position)):
+            points = bench.wave(4)
+            joints = [*points[2][0][:axis], value, *points[2][0][axis + 1 :]]
+            _refused(
+                bench,
+                bench.download(_changed(points, 2, joints)),
+                [Reason.NOT_FINITE, Reason.JOINT_LIMIT],
+                axis + 1,
+            )
+
+
+def _duration_not_finite(bench: Bench) -> None:
+    for value in (math.nan, math.inf, -1.0):
+        points = bench.wave(4)
+        points[2] = (points[2][0], value)
+        _refused(bench, bench.download(points), [Reason.NOT_FINITE, Reason.BAD_DURATION])
+
+
+def _outside_limits(bench: Bench) -> None:
+    for axis, joint in enumerate(bench.group.joints):
+        for value in (joint.lower - 0.01, joint.upper + 0.01):
+            points = bench.wave(4, duration=5.0)
+            joints = [*points[2][0][:axis], value, *points[2][0][axis + 1 :]]
+            longer = [(p, 60.0) for p, _ in _changed(points, 2, joints)]
+            _refused(bench, bench.download(longer), [Reason.JOINT_LIMIT], axis + 1)
+
+
+def _start_too_far(bench: Bench) -> None:
+    points = bench.wave(4)
+    for axis, joint in enumerate(bench.group.joints):
+        here = bench.position
+        near = (
+            bench.config.trajectory.start_tolerance
+            if joint.kind == "revolute"
+            else bench.config.trajectory.start_tolerance_linear
+        )
+        away = here[axis] + (1.5 * near if here[axis] + 2 * near < joint.upper else -1.5 * near)
+        start = (*here[:axis], away, *here[axis + 1 :])
+        points = [(start, 10.0), *bench.wave(4)[1:]]
+        _refused(bench, bench.download(points), [Reason.START_TOO_FAR], axis + 1)
+
+
+def _too_fast(bench: Bench) -> None:
+    if bench.config.trajectory.too_fast != "refuse":
+        return
+    for axis, joint in enumerate(bench.group.joints):
+        here = bench.position
+        seconds = max(0.2, bench.config.trajectory.min_segment)
+        step = 1.2 * seconds * joint.speed
+        if here[axis] + step > joint.upper:
+            step = -step
+        if here[axis] + step < joint.lower:
+            continue
+        target = (*here[:axis], here[axis] + step, *here[axis + 1 :])
+        points = [(here, 10.0), (target, seconds), (target, 1.0)]
+        _refused(bench, bench.download(points), [Reason.TOO_FAST, Reason.TCP_TOO_FAST])
+
+
+def _segment_too_short(bench: Bench) -> None:
+    shortest = bench.config.trajectory.min_segment
+    if bench.config.trajectory.too_fast != "refuse" or shortest < 0.005:
+        return
+    points = bench.wave(5, size=0.001)
+    points[2] = (points[2][0], shortest / 2)
+    _refused(bench, bench.download(points), [Reason.SEGMENT_TOO_SHORT])
+
+
+def _padding(bench: Bench) -> None:
+    count = len(bench.position)
+    for extra in range(count, spec.MAX_JOINTS):
+        points = bench.wave(3)
+        padded = [
+            raw_point(s, [*p, *[0.0] * (extra - count), 0.5], d)
+            for s, (p, d) in zip((-1, 1, -3), points, strict=True)
+        ]
+        _refused(bench, b"".join(padded), [Reason.BAD_PADDING], extra + 1)
+
+
+def _no_end(bench: Bench) -> None:
+    points = bench.wave(5)
+    link = bench.motion()
+    link.send(bench.download(points)[: -spec.JOINT_TRAJ_PT.length - 4])
+    bench.stays(5, "its end frame has not come")
+
+
+def _requests_are_told_why(bench: Bench) -> None:
+    link = bench.motion()
+    points = bench.wave(4)
+    joints = (bench.group.joints[0].upper + 0.5, *points[2][0][1:])
+    points = [(p, 30.0) for p, _ in _changed(points, 2, joints)]
+    replies = []
+    for number, (target, duration) in enumerate(points):
+        link.send(point_frame(number, len(points), target, duration, spec.Comm.REQUEST))
+        replies.append(link.expect_reply(2, f"point {number} is answered"))
+    content = decode(replies[-1])
+    if not isinstance(content, messages.Refused) or content.reason != Reason.JOINT_LIMIT:
+        raise Broken(f"the reply to the end frame is {content}")
+    if (content.point, content.joint) != (2, 1):
+        raise Broken(f"the reply blames point {content.point}, joint {content.joint}")
+    bench.stays(2, "it was refused")
+
+
+CASES = (
+    Case("too-many-points", "one point over the capacity: nothing moves", "refused", _too_many,
+         "R1"),
+    Case("hole", "a missing point: nothing moves", "refused", _hole, "C4"),
+    Case("twice", "a point that comes twice: nothing moves", "refused", _twice),
+    Case("not-finite", "NaN and infinity in any joint", "refused", _not_finite),
+    Case("duration-not-finite", "NaN, infinite and negative durations", "refused",
+         _duration_not_finite, "R10"),
+    Case("outside-limits", "a joint outside its limits", "refused", _outside_limits, "R11"),
+    Case("start-too-far", "a first point too far from the robot", "refused", _start_too_far, "R8"),
+    Case("too-fast", "a duration that an axis cannot meet", "refused", _too_fast, "R10"),
+    Case("segment-too-short", "a segment that the planner cannot follow", "refused",
+         _segment_too_short, "R9"),
+    Case("padding", "values for joints that the robot does not have", "refused", _padding),
+    Case("no-end", "without an end frame nothing moves", "refused", _no_end),
+    Case("reasons", "a request is told reason, point and joint", "refused",
+         _requests_are_told_why),
+)  # fmt: skip
