@@ -1,0 +1,252 @@
+"""`rapidgen sim`: a virtual controller in real time, until it is interrupted."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from rapidgen.cli.targets import Target
+    from rapidgen.virtual.control_socket import ControlSocket
+    from rapidgen.virtual.controller import VirtualController
+
+PATIENCE = 10.0
+"""Seconds that a driver's servers may take to come up."""
+
+
+def sim(
+    target: Annotated[
+        str,
+        typer.Argument(help="Configuration, shipped name, generated folder or ABB backup."),
+    ],
+    host: Annotated[
+        str, typer.Option(help="Address of this machine to serve on; loopback stays private.")
+    ] = "127.0.0.1",
+    port_offset: Annotated[
+        int, typer.Option(help="Added to every port of the program.", metavar="N")
+    ] = 0,
+    ports: Annotated[
+        Literal["auto"] | None, typer.Option(help="`auto`: any free ports.", metavar="auto")
+    ] = None,
+    speed: Annotated[
+        float, typer.Option(help="Simulated seconds in a second.", min=0.001, max=1000.0)
+    ] = 1.0,
+    cold: Annotated[bool, typer.Option("--cold", help="Motors off, program not started.")] = False,
+    faults: Annotated[
+        Path | None, typer.Option(help="What is to go wrong: `rapidgen explain RG421`.")
+    ] = None,
+    robot: Annotated[
+        str, typer.Option(help="Mechanics of a backup: a shipped name or a configuration.")
+    ] = "",
+    answers: Annotated[
+        Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
+    ] = None,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
+    ] = None,
+) -> int:
+    """Run a virtual controller in real time.
+
+    When its servers may be reached, stdout gets one line: `ready` and a JSON object with the
+    ports of each group and of the control socket. What the operator and the event log would
+    show goes to stderr. Ctrl-C ends it.
+    """
+    from rapidgen.cli.targets import load_target
+    from rapidgen.virtual.control_commands import commands, subscribe
+    from rapidgen.virtual.control_socket import ControlSocket
+    from rapidgen.virtual.controller import VirtualController
+    from rapidgen.virtual.faults import read_plan
+    from rapidgen.virtual.operator import read_answers
+
+    if ports is not None and port_offset:
+        raise typer.BadParameter("either --port-offset or --ports auto")
+    chosen = load_target(target, robot, overrides or ())
+    _tell(chosen.notes)
+    plan = read_plan(faults) if faults is not None else None
+    script = read_answers(answers) if answers is not None else None
+    _check_host(host)
+    if ports is None and chosen.driver:
+        _check_ports(chosen, host, port_offset)
+    with VirtualController(
+        chosen.system,
+        chosen.groups,
+        clock="real",
+        speed=speed,
+        host=host,
+        ports=ports or port_offset,
+        faults=plan,
+        answers=script,
+        autostart=not cold,
+    ) as controller:
+        _tell(controller.diagnostics)
+        if cold:
+            _start_cold(controller)
+        control = ControlSocket(
+            controller.kernel,
+            commands(controller),
+            lambda listener: subscribe(controller, listener),
+            host=host,
+        )
+        try:
+            return _serve(controller, chosen, control, host, speed)
+        finally:
+            control.close()
+
+
+def _serve(
+    controller: "VirtualController",
+    target: "Target",
+    control: "ControlSocket",
+    host: str,
+    speed: float,
+) -> int:
+    """Run until a signal comes; the exit code."""
+    import json
+    import signal
+
+    ended = False
+
+    def end(*_: object) -> None:
+        def now() -> None:
+            nonlocal ended
+            ended = True
+
+        controller.kernel.post(now)
+
+    before = {s: signal.signal(s, end) for s in (signal.SIGINT, signal.SIGTERM)}
+    controller.log.subscribe(lambda event: typer.echo(event, err=True))
+    controller.operator.subscribe(lambda task, text: typer.echo(f"{task}: {text}", err=True))
+    for event in controller.log:
+        typer.echo(event, err=True)
+    kernel = controller.kernel
+    kernel.rebase()
+    try:
+        patience = kernel.now + round(PATIENCE * speed * 1e9)
+        kernel.advance(patience, lambda: ended or _is_up(controller, target))
+        if ended:
+            return 0
+        if not _is_up(controller, target):
+            raise _not_up(controller, target)
+        found = {
+            "name": target.name,
+            "host": host,
+            "ports": _ports(controller, target),
+            "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
+            "control": control.address[1],
+        }
+        typer.echo(f"ready {json.dumps(found)}")
+        kernel.advance(stop=lambda: ended)
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)
+    return 0
+
+
+def _start_cold(controller: "VirtualController") -> None:
+    """As after switching on: background tasks run, motors are off, the program waits."""
+    controller.set_motors(False)
+    for task in controller.rapid_tasks.values():
+        if task.spec.type != "NORMAL":
+            task.start()
+
+
+# -- servers ------------------------------------------------------------------------------------
+
+
+def _wanted(target: "Target") -> list[int]:
+    """Ports that a driver must listen on before it may be called ready."""
+    if not target.driver:
+        return []
+    return [p for group in target.groups for p in (group.ports.motion, group.ports.state)]
+
+
+def _is_up(controller: "VirtualController", target: "Target") -> bool:
+    wanted = _wanted(target)
+    if wanted:
+        return all(port in controller.network.listeners for port in wanted)
+    # Nobody knows which servers a stranger's program has: every task has come to a wait.
+    return not controller.kernel.ready and controller.now > 0.2
+
+
+def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[str, int]]:
+    listeners = controller.network.listeners
+    if not target.driver:
+        return {}
+    return {
+        group.name: {
+            role: listeners[port][1]
+            for role, port in (
+                ("motion", group.ports.motion),
+                ("control", group.ports.control),
+                ("state", group.ports.state),
+            )
+            if port in listeners
+        }
+        for group in target.groups
+    }
+
+
+def _not_up(controller: "VirtualController", target: "Target") -> Exception:
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    missing = [p for p in _wanted(target) if p not in controller.network.listeners]
+    states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
+    return DiagnosticError(
+        Diagnostic(
+            code="RG430",
+            severity=Severity.ERROR,
+            message=f"nothing listens on port {', '.join(map(str, missing)) or '-'}"
+            f" after {PATIENCE:g} s",
+            help="the event log above tells why the tasks do not get there",
+            notes=(*states, *controller.where()),
+        ),
+        exit_code=1,
+    )
+
+
+def _check_host(host: str) -> None:
+    import ipaddress
+
+    try:
+        ipaddress.IPv4Address(host)
+    except ValueError as error:
+        raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from error
+
+
+def _check_ports(target: "Target", host: str, offset: int) -> None:
+    """Say at once that a port is taken, instead of letting the program fail at it."""
+    import socket
+
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    for port in _wanted(target):
+        if not 0 < port + offset < 65_536:
+            raise typer.BadParameter(f"--port-offset moves port {port} to {port + offset}")
+        with socket.socket() as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            try:
+                probe.bind((host, port + offset))
+            except OSError as error:
+                raise DiagnosticError(
+                    Diagnostic(
+                        code="RG431",
+                        severity=Severity.ERROR,
+                        message=f"port {port + offset} of {host} cannot be had: {error.strerror}",
+                        help="move all ports with `--port-offset N`, or let `--ports auto` choose",
+                    ),
+                    exit_code=1,
+                ) from error
+
+
+def _tell(found: "Iterable[object]") -> None:
+    import sys
+
+    from rapidgen.cli.terminal import use_colour
+    from rapidgen.diagnostics import Diagnostic, render
+
+    notes = [d for d in found if isinstance(d, Diagnostic)]
+    if notes:
+        sys.stderr.write(render(notes, colour=use_colour()))

@@ -1,0 +1,88 @@
+"""What a verb's TARGET stands for: configuration, shipped name, generated folder or backup."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rapidgen.config.model import MotionGroup
+    from rapidgen.diagnostics import Diagnostic
+    from rapidgen.system import System
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A controller that can be booted. `driver` tells whether it runs a generated driver."""
+
+    name: str
+    system: "System"
+    groups: tuple["MotionGroup", ...]
+    driver: bool
+    notes: tuple["Diagnostic", ...] = ()
+
+
+def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Target:
+    """Read a TARGET. `robot` names the mechanics of a backup, which does not tell them.
+
+    Raises DiagnosticError.
+    """
+    path = Path(target)
+    if path.is_dir():
+        return _folder(path, robot)
+    if path.is_file() and path.suffix.lower() not in (".yaml", ".yml"):
+        raise _no_target(target)
+    from rapidgen.config import load_config
+    from rapidgen.generate import build, make_system
+
+    config = load_config(target, overrides=tuple(overrides))
+    system = make_system(config, build(config))
+    return Target(config.name, system, config.groups, True, tuple(config.diagnostics))
+
+
+def _folder(path: Path, robot: str) -> Target:
+    from rapidgen.config import from_manifest
+    from rapidgen.diagnostics import Diagnostic
+    from rapidgen.system import is_generated, read_manifest, read_system
+
+    if is_generated(path):
+        config = from_manifest(read_manifest(path)["configuration"])
+        return Target(config.name, read_system(path), config.groups, True)
+    notes: list[Diagnostic] = []
+    system = read_system(path, notes=notes)
+    groups, more = _mechanics(system, robot)
+    return Target(system.name, system, groups, False, (*notes, *more))
+
+
+def _mechanics(
+    system: "System", robot: str
+) -> tuple[tuple["MotionGroup", ...], tuple["Diagnostic", ...]]:
+    """A robot of the given model for each motion task."""
+    from rapidgen.config import load_config
+    from rapidgen.diagnostics import Diagnostic, Severity
+    from rapidgen.virtual.mechanics import DEFAULT_ROBOT, groups_for
+
+    groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
+    if robot or not groups:
+        return groups, ()
+    note = Diagnostic(
+        code="RG432",
+        severity=Severity.WARNING,
+        message=f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
+        help="name the robot with `--robot NAME`; `rapidgen robots` lists the models",
+    )
+    return groups, (note,)
+
+
+def _no_target(target: str) -> Exception:
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    return DiagnosticError(
+        Diagnostic(
+            code="RG433",
+            severity=Severity.ERROR,
+            message=f"'{target}' is no controller",
+            help="name a configuration, a shipped model, a generated folder or a backup;"
+            " `rapidgen run` executes single RAPID files",
+        )
+    )
