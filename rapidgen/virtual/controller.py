@@ -369,16 +369,37 @@ class VirtualController(ControllerState):
             raise Deadlock("\n".join(self.where()))
         return outcome == "stop"
 
-    def run(self, *, max_time: float | None = None) -> Literal["finished", "time", "deadlock"]:
-        """Let time pass until no task runs any more."""
-        until = None if max_time is None else self.kernel.now + round(max_time * _NS)
-        outcome = self.kernel.advance(until, self._all_ended)
-        if outcome == "stop":
+    def run(
+        self, *, max_time: float | None = None, max_statements: int | None = None
+    ) -> Literal["finished", "time", "statements", "deadlock"]:
+        """Let time pass until no task runs any more.
+
+        `max_statements` bounds the work of all tasks, at the cost model's price of a statement.
+        """
+        kernel = self.kernel
+        until = None if max_time is None else kernel.now + round(max_time * _NS)
+        price = max(1, self.costs.statement)
+        spent = kernel.now - kernel.idle
+
+        def exhausted() -> bool:
+            if max_statements is None:
+                return False
+            return kernel.now - kernel.idle - spent > max_statements * price
+
+        outcome = kernel.advance(until, lambda: self._all_ended() or exhausted())
+        if self._all_ended():
             return "finished"
-        return "time" if outcome == "time" else "deadlock"
+        if outcome == "stop":
+            return "statements"
+        # Nothing ahead before the limit of time is a deadlock, however long one would wait.
+        idle = kernel.next_event() is None and not kernel.ready and not self._computing()
+        return "deadlock" if outcome == "idle" or idle else "time"
 
     def _all_ended(self) -> bool:
         return all(t.state != "running" for t in self.rapid_tasks.values())
+
+    def _computing(self) -> bool:
+        return self.kernel.preempted is not None
 
     def where(self) -> list[str]:
         """For each running task where it is, as `task: file:line (routine)`."""

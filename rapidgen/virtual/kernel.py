@@ -195,6 +195,8 @@ class Kernel:
         self.running: Process | None = None
         self.deadline = 0
         self.switches = 0
+        self.idle = 0
+        """Nanoseconds in which no process was ready."""
         self._now = 0
         self._heap: list[tuple[int, int, Timer]] = []
         self._serial = count()
@@ -265,6 +267,11 @@ class Kernel:
         self._front = None
         self._heap.clear()
 
+    @property
+    def preempted(self) -> Process | None:
+        """The process that goes on first when time passes again."""
+        return self._front
+
     def next_event(self) -> int | None:
         """Time of the next event that has not been cancelled."""
         heap = self._heap
@@ -298,8 +305,10 @@ class Kernel:
             if ahead is None or (until is not None and ahead > until):
                 if until is None:
                     return "idle"
+                self.idle += until - self._now
                 self._now = until
                 return "time"
+            self.idle += max(0, ahead - self._now)
             self._fire(ahead, one=True)
 
     def _advance_real(self) -> Outcome:
@@ -439,7 +448,7 @@ class Kernel:
             self.ready.append(process)
             return True
         process.slice_end = end + self._slice()
-        if self.clock == "real":
+        if self.clock == "real" or (self._stop is not None and self._stop()):
             self._front = process
             return True
         return False

@@ -1,11 +1,13 @@
 """State of the whole controller: modes, motors, emergency stop, events, trust levels."""
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from types import TracebackType
 from typing import TYPE_CHECKING, Literal
 
+from rapidgen.rapid import nodes as n
 from rapidgen.system.model import System
-from rapidgen.virtual.compiler.program import Program
+from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.costs import Costs
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
@@ -19,6 +21,17 @@ from rapidgen.virtual.task import Task
 
 if TYPE_CHECKING:
     from rapidgen.virtual.running import RapidTask
+
+Tracer = Callable[[Task, Routine, n.Statement], None]
+
+
+@dataclass(slots=True)
+class Breakpoint:
+    """An action that waits for a statement."""
+
+    left: int
+    action: Callable[[], None]
+
 
 Mode = Literal["auto", "manual_reduced", "manual_full"]
 
@@ -53,8 +66,8 @@ class ControllerState:
         self.meetings: dict[object, object] = {}
         """Where tasks wait for each other (WaitSyncTask)."""
         self.event_under_way: dict[str, str] = {}
-        self.tracers: list[Callable[[Task, Program, int], None]] = []
-        self._breakpoints: dict[tuple[str, str, int], list[list[object]]] = {}
+        self.tracers: list[Tracer] = []
+        self._breakpoints: dict[tuple[str, str, int], list[Breakpoint]] = {}
 
     # -- power, motors, modes --------------------------------------------------------------------
 
@@ -320,10 +333,25 @@ class ControllerState:
     ) -> None:
         """Call `action` when a statement is reached for the `count`-th time."""
         key = (task.lower(), module.lower(), line)
-        self._breakpoints.setdefault(key, []).append([count, action])
+        self._breakpoints.setdefault(key, []).append(Breakpoint(count, action))
         for own in self.rapid_tasks.values():
             if own.name.lower() == key[0]:
                 own.program.trace_from_now()
+
+    def statement(self, task: Task, point: int) -> None:
+        """A traced statement is about to be executed."""
+        routine, node = task.program.trace_points[point]
+        for tracer in self.tracers:
+            tracer(task, routine, node)
+        module = routine.module
+        if not self._breakpoints or module is None:
+            return
+        line = module.tree.source.line(node.first)
+        for waiting in self._breakpoints.get((task.name.lower(), module.name.lower(), line), ()):
+            waiting.left -= 1
+            if waiting.left == 0:
+                waiting.action()
+                task.attend()
 
     # -- system outputs --------------------------------------------------------------------------
 

@@ -35,7 +35,7 @@ def find_type(name: str) -> Type | None:
     record = signatures.record(name)
     if record is not None:
         components = [(c, _needed(t)) for t, c in record.components]
-        made = make_record(record.name, components).rapid_type
+        made: Type = make_record(record.name, components).rapid_type
         TYPES[name] = made
         return made
     kind = signatures.type_class(name)

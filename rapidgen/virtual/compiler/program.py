@@ -22,6 +22,11 @@ if TYPE_CHECKING:
 _ATOMIC = ("num", "dnum", "bool", "string")
 
 
+def _trace(task: "Task", point: int) -> None:
+    """A statement is about to be executed."""
+    task.controller.statement(task, point)
+
+
 @dataclass(slots=True, eq=False)
 class LoadedModule:
     """A module in a task."""
@@ -75,6 +80,7 @@ class Program:
             "R": task,
             "ERRS": RECOVERABLE,
             "ARRAY": make_array,
+            "TRACE": _trace,
         }
         dialect = options.dialect
         if dialect.for_loop == "tested":

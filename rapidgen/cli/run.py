@@ -1,0 +1,225 @@
+"""`rapidgen run`: execute RAPID on the virtual clock."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Literal
+
+import typer
+
+if TYPE_CHECKING:
+    from rapidgen.diagnostics import Diagnostic
+    from rapidgen.system.model import System
+    from rapidgen.virtual.controller import VirtualController
+    from rapidgen.virtual.dialect import Dialect
+    from rapidgen.virtual.errors import FatalError
+
+
+def run(
+    files: Annotated[
+        list[Path],
+        typer.Argument(
+            metavar="FILE...",
+            help="Modules (.mod .sys .modx .sysx .pgf), a folder of them, a generated folder, "
+            "or an ABB backup.",
+        ),
+    ] = [],  # noqa: B006 - typer wants a list here and does not share it
+    task: Annotated[
+        list[str],
+        typer.Option(
+            "--task", metavar="NAME=FILE,FILE", help="A task of its own with these modules."
+        ),
+    ] = [],  # noqa: B006
+    robot: Annotated[
+        str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")
+    ] = "",
+    entry: Annotated[str, typer.Option("--entry", help="Procedure that a task starts in.")] = "main",
+    cycle: Annotated[
+        Literal["once", "forever"], typer.Option("--cycle", help="Run main once or again and again.")
+    ] = "once",
+    max_time: Annotated[
+        float, typer.Option("--max-time", metavar="S", help="Simulated seconds at most.")
+    ] = 3600.0,
+    max_statements: Annotated[
+        int, typer.Option("--max-statements", help="Statements at most, in all tasks.")
+    ] = 1_000_000_000,
+    seed: Annotated[int, typer.Option("--seed", help="Seed of everything that is drawn.")] = 0,
+    schedule: Annotated[
+        Literal["round-robin", "random", "pers"],
+        typer.Option("--schedule", help="Switching between tasks; pers: at every PERS access."),
+    ] = "round-robin",
+    dialect: Annotated[
+        str, typer.Option("--dialect", metavar="SWITCH=VALUE,...", help="See virtual-controller.md.")
+    ] = "",
+    answers: Annotated[
+        Path | None, typer.Option("--answers", help="YAML with the operator's answers.")
+    ] = None,
+    trace: Annotated[bool, typer.Option("--trace", help="Every statement, on stderr.")] = False,
+    profile: Annotated[
+        str,
+        typer.Option("--profile", metavar="[=F.json]", help="Time by line, on stderr or as JSON."),
+    ] = "",
+    coverage: Annotated[
+        Path | None, typer.Option("--coverage", metavar="F.lcov", help="Lines and branches.")
+    ] = None,
+) -> None:
+    """Run RAPID on the virtual clock.
+
+    Prints one line for each TPWrite. Ends when main of every task has returned; exit code 1
+    when a task stopped with an error, on a deadlock, and at the limits of time and statements.
+    """
+    from rapidgen.config import load_config
+    from rapidgen.diagnostics import DiagnosticError, Severity, render
+    from rapidgen.system import is_generated, read_manifest
+    from rapidgen.virtual.controller import VirtualController
+    from rapidgen.virtual.mechanics import DEFAULT_ROBOT, groups_for
+    from rapidgen.virtual.operator import read_answers
+    from rapidgen.virtual.tracing import Coverage, Profile, Trace
+
+    system = _system(files, task, entry)
+    if not robot and len(files) == 1 and files[0].is_dir() and is_generated(files[0]):
+        from rapidgen.config import from_manifest
+
+        robots = tuple(from_manifest(read_manifest(files[0])["configuration"]).groups)
+    else:
+        robots = groups_for(system, load_config(robot or DEFAULT_ROBOT))
+    tracing = trace or bool(profile) or coverage is not None
+    with VirtualController(
+        system,
+        robots,
+        seed=seed,
+        cycle=cycle,
+        schedule="round-robin" if schedule == "round-robin" else "random",
+        switch_at_pers=schedule == "pers",
+        tracing=tracing,
+        dialect=_dialect(dialect),
+        answers=read_answers(answers) if answers is not None else None,
+        autostart=False,
+    ) as controller:
+        controller.operator.subscribe(_print)
+        warnings = [d for d in controller.diagnostics if d.severity is not Severity.ERROR]
+        sys.stderr.write(render(warnings))
+        if trace:
+            Trace(controller, sys.stderr)
+        profiled = Profile(controller) if profile else None
+        covered = Coverage(controller) if coverage is not None else None
+        controller.start_program()
+        found = _run(controller, max_time, max_statements)
+        if profiled is not None:
+            _write_profile(profiled, profile)
+        if covered is not None and coverage is not None:
+            coverage.write_text(covered.lcov(), encoding="utf-8")
+    if found:
+        raise DiagnosticError(found, exit_code=1)
+
+
+def _print(_task: str, text: str) -> None:
+    sys.stdout.write(text.replace("\n", " ") + "\n")
+
+
+def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.system import is_backup, is_generated, read_files, read_system
+
+    by_task: dict[str, list[Path | str]] = {}
+    for text in tasks:
+        name, equals, names = text.partition("=")
+        if not equals or not name or not names:
+            raise DiagnosticError(
+                Diagnostic(
+                    "RG901", Severity.ERROR, f"--task '{text}' is not NAME=FILE,FILE"
+                )
+            )
+        by_task.setdefault(name, []).extend(names.split(","))
+    if by_task:
+        if files:
+            by_task.setdefault("T_ROB1", []).extend(files)
+        return read_files(by_task, entry=entry)
+    if not files:
+        raise DiagnosticError(
+            Diagnostic("RG901", Severity.ERROR, "nothing to run: name a module or a folder")
+        )
+    if len(files) == 1 and files[0].is_dir() and (is_generated(files[0]) or is_backup(files[0])):
+        return read_system(files[0])
+    return read_files(files, entry=entry, name=files[0].stem)
+
+
+def _dialect(text: str) -> "Dialect":
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.virtual.dialect import parse_dialect
+
+    try:
+        return parse_dialect(text)
+    except ValueError as error:
+        raise DiagnosticError(
+            Diagnostic("RG901", Severity.ERROR, f"--dialect: {error}")
+        ) from error
+
+
+def _run(
+    controller: "VirtualController", max_time: float, max_statements: int
+) -> "list[Diagnostic]":
+    """Run to the end; what went wrong."""
+    from rapidgen.diagnostics import Diagnostic, Severity
+
+    ended = controller.run(max_time=max_time, max_statements=max_statements)
+    found = [
+        _fault(task.name, task.fault) for task in controller.tasks.values() if task.fault is not None
+    ]
+    where = tuple(controller.where())
+    if ended == "deadlock":
+        found.append(
+            Diagnostic(
+                "RG405",
+                Severity.ERROR,
+                "deadlock: every task waits and nothing is ahead",
+                notes=where,
+            )
+        )
+    elif ended != "finished":
+        limit = f"{max_time:g} s" if ended == "time" else f"{max_statements} statements"
+        found.append(
+            Diagnostic(
+                "RG406",
+                Severity.ERROR,
+                f"still running after {limit}",
+                help="raise --max-time or --max-statements, or end the program",
+                notes=where,
+            )
+        )
+    return found
+
+
+def _fault(task: str, fault: "FatalError") -> "Diagnostic":
+    from rapidgen.diagnostics import Diagnostic, Severity
+
+    place = fault.stack[-1] if fault.stack else None
+    notes = [f"event {fault.event} in task {task}"]
+    notes += [t for t in fault.arguments if t]
+    notes += [f"called from {p}" for p in reversed(fault.stack[:-1])]
+    if place is not None and place.origin is not None:
+        notes.append(f"generated from {place.origin[0]}:{place.origin[1]}")
+    return Diagnostic(
+        "RG407",
+        Severity.ERROR,
+        fault.title,
+        fault.span or (place.span if place is not None else None),
+        notes=tuple(notes),
+    )
+
+
+def _write_profile(profile: object, target: str) -> None:
+    import json
+
+    from rapidgen.virtual.tracing import Profile
+
+    assert isinstance(profile, Profile)
+    rows = profile.as_data()
+    if target != "-":
+        Path(target).write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+        return
+    sys.stderr.write(f"{'seconds':>12} {'passes':>9}  line\n")
+    for row in rows[:40]:
+        sys.stderr.write(
+            f"{row['seconds']:12.6f} {row['passes']:9}  "
+            f"{row['task']} {row['module']}/{row['routine']}:{row['line']}\n"
+        )
