@@ -44,7 +44,7 @@ def apply(
     (cut while switching); TransportFault before that: then nothing old was changed.
     """
     if plan.conflicts and not overwrite:
-        raise DiagnosticError([_conflict(c) for c in plan.conflicts], exit_code=1)
+        raise DiagnosticError(conflicts_of(plan), exit_code=1)
     if make_plan(transport, plan.wanted, verb=plan.verb).fingerprint != plan.fingerprint:
         raise moved_on(plan.target)
     if plan.is_empty:
@@ -63,6 +63,11 @@ def apply(
         _finish(run, journal)
     except TransportFault as fault:
         raise _cut(plan, fault) from fault
+
+
+def conflicts_of(plan: Plan) -> list[Diagnostic]:
+    """RG520 and RG521 for everything that only `overwrite` replaces."""
+    return [_conflict(change) for change in plan.conflicts]
 
 
 def moved_on(target: str) -> DiagnosticError:

@@ -1,0 +1,96 @@
+"""The same work on several controllers, some at a time, stopping at the first failure."""
+
+import contextlib
+import threading
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, TypeVar
+
+from rapidgen.deploy.target import Access, Target, connect, parse_target
+from rapidgen.deploy.transport import Transport
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+T = TypeVar("T")
+
+Word = Literal["done", "same", "failed", "not begun"]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of one controller."""
+
+    target: Target
+    word: Word
+    detail: str = ""
+    error: DiagnosticError | None = None
+
+
+def parse_targets(urls: Iterable[str]) -> tuple[Target, ...]:
+    """Targets of `--to`, where `@FILE` is a list with one URL a line.
+
+    Raises DiagnosticError RG509, RG510.
+    """
+    found: list[Target] = []
+    for url in urls:
+        for line in _lines(url[1:]) if url.startswith("@") else [url]:
+            target = parse_target(line)
+            if target in found:
+                raise _bad(f"{target.shown} is named twice")
+            found.append(target)
+    if not found:
+        raise _bad("no controller is named")
+    return tuple(found)
+
+
+def on_all(
+    targets: Sequence[Target], work: Callable[[Target], T], *, parallel: int
+) -> list[T | DiagnosticError | None]:
+    """`work` on each target, `parallel` at a time; None for those that were not begun.
+
+    After the first DiagnosticError no further target is begun; those under way end.
+    """
+    stop = threading.Event()
+
+    def guarded(target: Target) -> T | DiagnosticError | None:
+        if stop.is_set():
+            return None
+        try:
+            return work(target)
+        except DiagnosticError as error:
+            stop.set()
+            return error
+
+    with ThreadPoolExecutor(max_workers=max(1, min(parallel, len(targets)))) as pool:
+        return list(pool.map(guarded, targets))
+
+
+@contextlib.contextmanager
+def connected(target: Target, access: Access) -> Iterator[Transport]:
+    """A transport that is closed at the end."""
+    transport = connect(target, access)
+    try:
+        yield transport
+    finally:
+        transport.close()
+
+
+def _lines(path: str) -> list[str]:
+    try:
+        text = Path(path).read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise _bad(f"{path}: {error}") from error
+    lines = (line.partition("#")[0].strip() for line in text.splitlines())
+    return [line for line in lines if line]
+
+
+def _bad(message: str) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            "RG509",
+            Severity.ERROR,
+            f"--to: {message}",
+            help="--to ftp://192.168.125.1/hd0a/SYSTEM/HOME, repeated or as @FILE",
+        )
+    )

@@ -1,0 +1,247 @@
+"""What the verbs have in common: the wanted set, plans of all targets, one question, the work."""
+
+import json
+import sys
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from rapidgen.deploy.apply import apply, conflicts_of, moved_on
+from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
+from rapidgen.deploy.fleet import Outcome, connected, on_all
+from rapidgen.deploy.keep import backup_set
+from rapidgen.deploy.plan import Plan, Verb, find_layout, make_plan, plan_json
+from rapidgen.deploy.state import Past, read_state
+from rapidgen.deploy.target import Access, Target
+from rapidgen.deploy.transport import Transport
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+Say = Callable[[str], None]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One verb on several controllers. `find` gives the set that has to lie on a controller."""
+
+    verb: Verb
+    targets: tuple[Target, ...]
+    access: Access
+    find: Callable[[Transport], DriverSet | None]
+    overwrite: bool = False
+    parallel: int = 1
+
+
+def wanted_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
+    """The driver of a configuration or shipped name (built here), or of a generated folder."""
+    if (Path(config) / "manifest.json").is_file():
+        return from_folder(Path(config))
+    from rapidgen.config import load_config
+    from rapidgen.generate import build
+
+    output = build(load_config(config, overrides=tuple(overrides)))
+    return from_files({file.path: file.data for file in output.files}, source=config)
+
+
+def config_name(config: str) -> str:
+    """Name of the robot that a configuration is for."""
+    from rapidgen.config import load_config
+
+    if (Path(config) / "manifest.json").is_file():
+        return from_folder(Path(config)).name
+    return load_config(config).name
+
+
+def plan_all(job: Job) -> list[Plan]:
+    """Plans of all targets. Raises the faults of those that could not be planned."""
+
+    def work(target: Target) -> Plan:
+        with connected(target, job.access) as transport:
+            return make_plan(transport, job.find(transport), verb=job.verb)
+
+    results = on_all(job.targets, work, parallel=job.parallel)
+    failures = [r for r in results if isinstance(r, DiagnosticError)]
+    if failures:
+        raise DiagnosticError(
+            [d for failure in failures for d in failure.diagnostics],
+            exit_code=max(f.exit_code for f in failures),
+        )
+    return [r for r in results if isinstance(r, Plan)]
+
+
+def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
+    """Carry the plans out; a controller that has changed since refuses (RG522)."""
+    by_target = dict(zip(job.targets, plans, strict=True))
+
+    def work(target: Target) -> Outcome:
+        plan = by_target[target]
+        if plan.is_empty:
+            return Outcome(target, "same", "nothing to do")
+        prefix = f"{target.shown}: " if len(job.targets) > 1 else ""
+        with connected(target, job.access) as transport:
+            apply(
+                transport,
+                plan,
+                overwrite=job.overwrite,
+                say=lambda line: say(prefix + line),
+            )
+        count = sum(1 for c in plan.changes if c.action != "same")
+        return Outcome(target, "done", f"{count} files, build {plan.build_id or '-'}")
+
+    outcomes = []
+    for target, result in zip(
+        job.targets, on_all(job.targets, work, parallel=job.parallel), strict=True
+    ):
+        if isinstance(result, DiagnosticError):
+            first = result.diagnostics[0]
+            outcomes.append(Outcome(target, "failed", f"{first.code}: {first.message}", result))
+        else:
+            outcomes.append(result or Outcome(target, "not begun"))
+    return outcomes
+
+
+def refuse_conflicts(job: Job, plans: Sequence[Plan]) -> None:
+    """RG520, RG521 of all targets, before anything is changed on any."""
+    if job.overwrite:
+        return
+    found = [d for plan in plans for d in conflicts_of(plan)]
+    if found:
+        raise DiagnosticError(found, exit_code=1)
+
+
+def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
+    """The one question. Raises DiagnosticError RG533 when the answer is no, or none can be had."""
+    if yes:
+        return
+    if not sys.stdin.isatty():
+        raise DiagnosticError(
+            Diagnostic(
+                "RG533",
+                Severity.ERROR,
+                "nobody is there to answer: nothing was changed",
+                help="look at `rapidgen plan`, then say --yes",
+            ),
+            exit_code=1,
+        )
+    if not ask(question):
+        raise DiagnosticError(
+            Diagnostic("RG533", Severity.ERROR, "not confirmed: nothing was changed"), exit_code=1
+        )
+
+
+def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:
+    """Backups on a controller, the oldest first. Raises DiagnosticError RG524, RG529, RG531."""
+    with connected(target, access) as transport:
+        plan = make_plan(transport, None, verb="rollback")
+        _check_name(plan, name)
+        return plan.had.history if plan.had else ()
+
+
+def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSet | None:
+    """The set to go back to: that of backup `number`, or the one before the last deployment.
+
+    After a cut it is the set from before it (None when there was none). Raises RG528.
+    """
+    home = find_layout(transport).home
+    plan = make_plan(transport, None, verb="rollback")
+    _check_name(plan, name)
+    if number is not None:
+        return backup_set(transport, home, number)
+    if plan.repair:
+        journal = read_state(transport, home).journal
+        if plan.had is None or journal is None:
+            return None
+        return backup_set(transport, home, journal.id)
+    past = plan.had.history if plan.had else ()
+    if not past:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG528",
+                Severity.ERROR,
+                f"{plan.target}: no earlier set is kept there",
+                help="`rapidgen uninstall` goes back to the state before the first deployment",
+            ),
+            exit_code=1,
+        )
+    return backup_set(transport, home, past[-1].id)
+
+
+def write_plans(path: Path, plans: Sequence[Plan]) -> None:
+    """`--out`. Raises DiagnosticError RG523 when the file cannot be written."""
+    text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise _plan_file(path, error.strerror or str(error)) from error
+
+
+def check_plans(path: Path, plans: Sequence[Plan]) -> None:
+    """That the plans made now are those in the file, one by one.
+
+    Raises DiagnosticError RG523 (not a plan, of another robot or build), RG522 (the controller
+    moved on).
+    """
+    try:
+        stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
+        by_target: dict[str, dict[str, Any]] = {str(p["target"]): p for p in stored}
+    except OSError as error:
+        raise _plan_file(path, error.strerror or str(error)) from error
+    except (ValueError, KeyError, TypeError, RecursionError) as error:
+        raise _plan_file(path, "it is not a plan that rapidgen wrote") from error
+    if set(by_target) != {p.target for p in plans}:
+        raise _plan_file(path, f"it is for {', '.join(sorted(by_target)) or 'no controller'}")
+    for plan in plans:
+        old = by_target[plan.target]
+        new = plan_json(plan)
+        for key, what in (("verb", "verb"), ("name", "robot"), ("build_id", "build")):
+            if old.get(key) != new[key]:
+                raise _plan_file(path, f"it is for {what} {old.get(key)!r}, not {new[key]!r}")
+        if old.get("fingerprint") != plan.fingerprint:
+            raise moved_on(plan.target)
+        if digest(json.dumps(old["files"]).encode()) != digest(json.dumps(new["files"]).encode()):
+            raise _plan_file(path, "the files that would be written are others")
+
+
+def save_edits(plans: Sequence[Plan], folder: Path) -> list[Path]:
+    """Copies of hand edits that `uninstall --overwrite` is about to take away, on this machine."""
+    saved = []
+    for plan in plans:
+        host = "".join(c if c.isalnum() else "_" for c in plan.target)
+        for change in plan.conflicts:
+            if change.before is not None:
+                path = folder / host / change.path
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_bytes(change.before)
+                saved.append(path)
+    return saved
+
+
+def check_names(plans: Sequence[Plan], name: str) -> None:
+    """RG524 where a controller carries the driver of another robot."""
+    for plan in plans:
+        _check_name(plan, name)
+
+
+def _check_name(plan: Plan, name: str) -> None:
+    if plan.had is not None and name and plan.had.name != name:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG524",
+                Severity.ERROR,
+                f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
+                help="check the URL",
+            ),
+            exit_code=1,
+        )
+
+
+def _plan_file(path: Path, reason: str) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            "RG523",
+            Severity.ERROR,
+            f"plan {path} cannot be carried out: {reason}",
+            help="make a new one with `rapidgen plan ... --out FILE`",
+        ),
+        exit_code=1,
+    )
