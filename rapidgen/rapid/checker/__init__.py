@@ -15,6 +15,8 @@ from rapidgen.rapid.nodes import Module
 from rapidgen.rapid.parser import parse
 from rapidgen.system import System
 
+_TREE_STANDS = frozenset(("RG213", "RG215", "RG216", "RG217", "RG220"))
+"""Errors of the text that leave a tree whose meaning can be checked."""
 _LOADERS = frozenset(("load", "startload"))
 _SIGNAL_TYPES = {
     "DI": "signaldi",
@@ -86,8 +88,7 @@ def _check_module(
     checker = ModuleChecker(scope, given)
     for first, second in twice:
         _clash(checker, first, second, "in this module")
-    errors = any(d.severity is Severity.ERROR for d in module.diagnostics)
-    if not errors:
+    if all(d.code in _TREE_STANDS or d.severity is not Severity.ERROR for d in module.diagnostics):
         checker.module()
     return [*module.diagnostics, *checker.found]
 
