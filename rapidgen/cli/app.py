@@ -21,6 +21,7 @@ VERBS = (
     "explain",
     "schema",
     "build",
+    "sim",
 )
 
 # Verbs that take words of other programs' kind (`--profile` with or without a value).
