@@ -89,8 +89,23 @@ class Recovery(Process):
                 raise known
         elif listed is not None and not _lists(listed(), known.number):
             raise known
+        elif self.controller.dialect.unhandled_error == "stop":
+            self._stop_at_bare_callee(known, traceback)
         known.target = None
         return self._run_handler(handler, known, retries, frame, traceback)
+
+    def _stop_at_bare_callee(
+        self, error: RapidError, traceback: TracebackType | None
+    ) -> None:
+        """Dialect: an error that came out of a routine without ERROR is nobody's."""
+        at = traceback.tb_next if traceback is not None else None
+        while at is not None:
+            compiled = self.program.codes.get(at.tb_frame.f_code.co_filename)
+            if compiled is not None:
+                if not compiled.handled:
+                    raise self.unhandled(error) from None
+                return
+            at = at.tb_next
 
     def _run_handler(
         self,

@@ -135,7 +135,7 @@ class Calls(Expressions):
             if data.mode == "INOUT" and parameter.mode == "PERS":
                 return f"ASPERS({code})"
             return code
-        if data.storage == "global":
+        if data.storage == "global" and not data.readonly:
             return self.program.global_ref(data)
         return f"BOX({e.code}, {t}, {e.dims!r}, {data.name!r})"
 

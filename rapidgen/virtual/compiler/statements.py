@@ -157,6 +157,7 @@ class Statements(Calls):
                 self.pay(E("", NUM, effect=CALLS))
                 w.emit("R.b = b")
                 w.emit("R.exit()")
+                w.close()
             case n.Connect():
                 self._connect(node)
             case n.LateCall():
@@ -199,10 +200,12 @@ class Statements(Calls):
         self._indented(lines, calls)
         w.emit("except ERRS as _e:")
         w.depth += 1
+        if not calls:
+            w.emit("b += @REFUND@")  # what the block's later statements were paid
         w.emit("_f, _n = _e, 0")
         w.emit("while True:")
         w.depth += 1
-        budget = "None" if calls else "@BUDGET@"
+        budget = "None" if calls else "b"
         w.emit(f"_k = R.handle(_h, _f, {budget}, _n, _l)")
         w.emit("b = R.b")
         w.emit(f"if _k == 1: {skip + '; ' if skip else ''}break")

@@ -96,11 +96,11 @@ class Writer:
             rest = tuple(block.costs[line.paid :]) if block is not None else ()
             refund = sum(rest)
             if "@" in code:
-                code = code.replace("@BUDGET@", f"b + {refund}" if refund else "b")
+                code = code.replace("@REFUND@", str(refund))
                 code = code.replace("@REST@", repr(rest) if rest else "()")
                 own = block.costs[line.paid - 1] if block is not None and line.paid else 0
                 code = code.replace("@OWN@", str(own))
-            if code in ("", "b = R.recharge(b, ())"):
+            if code in ("", "b += 0", "b = R.recharge(b, ())"):
                 continue
             add(line.depth, code, line.token)
             if refund:
