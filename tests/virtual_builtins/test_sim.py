@@ -1,0 +1,169 @@
+"""`rapidgen sim`: a process of its own, over real sockets."""
+
+import json
+import signal
+import socket
+import struct
+import subprocess
+import sys
+
+import pytest
+
+JOINT, STATUS = 10, 13
+SIM = [sys.executable, "-m", "rapidgen.cli", "sim"]
+
+
+class Running:
+    """A simulation that has said `ready`."""
+
+    def __init__(self, *arguments):
+        self.process = subprocess.Popen(
+            [*SIM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+        )
+        line = self.process.stdout.readline()
+        if not line.startswith("ready "):
+            self.process.kill()
+            raise AssertionError(line + self.process.communicate()[1])
+        self.ready = json.loads(line.removeprefix("ready "))
+
+    def connect(self, port):
+        return socket.create_connection((self.ready["host"], port), timeout=20)
+
+    def control(self, **request):
+        with self.connect(self.ready["control"]) as sock, sock.makefile("rw") as file:
+            file.write(json.dumps(request) + "\n")
+            file.flush()
+            return json.loads(file.readline())
+
+    def end(self, number=signal.SIGINT):
+        """Interrupt it; (exit code, rest of stdout, stderr)."""
+        self.process.send_signal(number)
+        out, err = self.process.communicate(timeout=20)
+        return self.process.returncode, out, err
+
+    def close(self):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.communicate()
+
+
+@pytest.fixture
+def start():
+    """Starts simulations and ends them."""
+    running = []
+
+    def begin(*arguments):
+        running.append(Running(*arguments))
+        return running[-1]
+
+    yield begin
+    for one in running:
+        one.close()
+
+
+def message(sock):
+    """One message of the state server: (type, data)."""
+    with sock.makefile("rb") as file:
+        length, kind, comm, reply = struct.unpack("<4i", file.read(16))
+        assert (comm, reply) == (1, 0)
+        return kind, file.read(length - 12)
+
+
+def point(sequence, joints, duration):
+    values = (*joints, *([0.0] * (10 - len(joints))), 0.0, duration)
+    return struct.pack("<4ii12f", 64, 11, 1, 0, sequence, *values)
+
+
+def test_a_shipped_robot_serves_moves_and_ends_cleanly(start):
+    sim = start("irb120", "--ports", "auto")
+    ports = sim.ready["ports"]["rob1"]
+    assert sim.ready["name"] == "irb120"
+    with sim.connect(ports["motion"]) as motion, sim.connect(ports["state"]) as state:
+        assert {message(state)[0] for _ in range(4)} == {JOINT, STATUS}
+        for sequence, angle in ((-1, 0.0), (1, 0.05), (-3, 0.1)):
+            motion.sendall(point(sequence, [angle] + [0.0] * 5, 0.3))
+        reached = 0.0
+        while abs(reached - 0.1) > 1e-4:
+            kind, data = message(state)
+            if kind == JOINT:
+                reached = struct.unpack_from("<i10f", data)[1]
+    status = sim.control(do="status")["result"]
+    assert status["groups"]["rob1"]["positions"][0] == pytest.approx(0.1, abs=1e-4)
+    code, out, err = sim.end()
+    assert (code, out) == (0, "")
+    assert "Traceback" not in err
+
+
+def test_the_control_socket_commands_the_controller(start):
+    sim = start("irb120", "--ports", "auto")
+    assert sim.control(do="status")["result"]["motors_on"] is True
+    assert sim.control(do="e-stop")["ok"]
+    status = sim.control(do="status")["result"]
+    assert (status["motors_on"], status["e_stop"]) == (False, True)
+    codes = [event["code"] for event in sim.control(do="log")["result"]]
+    assert 10_013 in codes
+    assert sim.control(do="get", task="T_ROB1", name="nothing")["ok"] is False
+    assert sim.control(do="override", value=101)["ok"] is False
+    assert sim.control(do="mode", value="sleepy")["ok"] is False
+    assert sim.end(signal.SIGTERM)[0] == 0
+
+
+def test_cold(start):
+    sim = start("irb120", "--ports", "auto", "--cold")
+    status = sim.control(do="status")["result"]
+    assert status["motors_on"] is False
+    assert status["tasks"]["T_ROB1"] == "ready"
+    sim.control(do="motors-on")
+    sim.control(do="start")
+    assert sim.control(do="status")["result"]["tasks"]["T_ROB1"] == "running"
+
+
+def test_faults_reach_real_sockets(start, tmp_path):
+    plan = tmp_path / "plan.yaml"
+    plan.write_text(
+        "network:\n  - {do: silent, port: 11002, direction: out, after: 60}\n"
+        "controller:\n  - {do: motors-off, at: 0.2}\n"
+    )
+    sim = start("irb120", "--ports", "auto", "--faults", str(plan))
+    with sim.connect(sim.ready["ports"]["rob1"]["state"]) as state:
+        state.settimeout(1.0)
+        data = b""
+        while len(data) < 60:
+            data += state.recv(1000)
+        with pytest.raises(TimeoutError):
+            state.recv(1)
+    assert len(data) == 60
+    assert sim.control(do="status")["result"]["motors_on"] is False
+
+
+def failing(*arguments):
+    done = subprocess.run([*SIM, *arguments], capture_output=True, text=True, timeout=60)
+    return done.returncode, done.stdout, done.stderr
+
+
+def test_a_port_that_is_taken_is_said_at_once():
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        offset = other.getsockname()[1] - 11_000
+        code, out, err = failing("irb120", "--port-offset", str(offset))
+    assert (code, out) == (1, "")
+    assert "RG431" in err
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"),
+    [
+        (("irb999",), 2),
+        (("irb120", "--host", "example.org"), 2),
+        (("irb120", "--ports", "auto", "--port-offset", "1"), 2),
+        (("irb120", "--port-offset", "60000"), 2),
+        (("irb120", "--speed", "0"), 2),
+        (("irb120", "--faults", "/no/such/file"), 2),
+        ((__file__,), 2),
+    ],
+)
+def test_bad_usage(arguments, code):
+    got, out, err = failing(*arguments)
+    assert (got, out) == (code, "")
+    assert "Traceback" not in err
