@@ -50,7 +50,7 @@ def named_group(task: Task, reference: Any, name: str | None) -> MotionGroup:  #
 
     ERR_TASKNAME: no such task; ERR_NOT_MOVETASK: it moves nothing.
     """
-    wanted = name if reference is None else reference.name
+    wanted = name if reference is None else reference.value
     if wanted is None:
         return group_of(task)
     if wanted.lower() not in (known.lower() for known in task.controller.tasks):

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from math import ceil, inf
 from typing import Protocol
 
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.limits import outside
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import MotionGroup as GroupConfig
@@ -16,9 +18,11 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
-from rapidgen.virtual.motion.legs import Geometry, Leg, joint_way, lever_measure, zone_entry
+from rapidgen.virtual.motion.cartesian import CartesianWay
+from rapidgen.virtual.motion.corners import zone_entry
+from rapidgen.virtual.motion.legs import Geometry, Leg, joint_measure, joint_way, lever_measure
 from rapidgen.virtual.motion.modal import ModalSettings
-from rapidgen.virtual.motion.moves import JointMove, Measure, Posture
+from rapidgen.virtual.motion.moves import NO_WAY, CartesianMove, JointMove, Measure, Move, Posture
 from rapidgen.virtual.motion.path import NOTHING_M, Path, posture_at
 from rapidgen.virtual.motion.pieces import AxisLimits, Piece
 from rapidgen.virtual.motion.settings import MotionSettings
@@ -81,6 +85,8 @@ class MotionGroup:
         self.name = config.name
         self.settings = settings
         self.map = JointMap.of(config)
+        self.kinematics = Kinematics.of(config)
+        """None: the model has no geometry, so it moves in joints only."""
         self.changed = WaitSet()
         """Notified when a move is released or finished, and when motion begins or ends."""
         self._kernel = kernel
@@ -216,7 +222,7 @@ class MotionGroup:
 
     # -- moving -----------------------------------------------------------------------------
 
-    def move(self, task: Waiter, move: JointMove) -> None:
+    def move(self, task: Waiter, move: Move) -> None:
         """Put a move on the path and hold the task as its zone asks for.
 
         A stop point lets the program go on when the robot stands there; a fly-by point some
@@ -248,7 +254,7 @@ class MotionGroup:
             on=(self.changed,),
         )
 
-    def _check(self, move: JointMove) -> None:
+    def _check(self, move: Move) -> None:
         if move.concurrent:
             self._concurrent += 1
             if self._concurrent > self.settings.conc_limit:
@@ -256,19 +262,18 @@ class MotionGroup:
                 raise RapidError("ERR_CONC_MAX")
         else:
             self._concurrent = 0
+        if not isinstance(move, JointMove):
+            return
         faults = outside(self.config.joints, move.target)
         if faults:
             if self.settings.range_error == "fatal":
                 raise FatalError(50_027, "Joint out of range", str(faults[0]))
             raise RapidError("ERR_ROBLIMIT", str(faults[0]))
 
-    def _append(self, move: JointMove) -> Leg | None:
+    def _append(self, move: Move) -> Leg | None:
         path = self._path
-        reach = max(
-            (abs(a - b) for a, b in zip(move.target, path.target, strict=True)), default=0.0
-        )
         waits = self.settings.zero_length == "wait" and move.time is not None
-        if reach < NOTHING_M and not waits:
+        if self._goes_nowhere(move) and not waits:
             return self._stay(move)
         place, _ = self._state()
         fixed = place
@@ -277,7 +282,7 @@ class MotionGroup:
         path.prune(place)
         limits = self._limits.scaled(self.modal.acceleration)
         standing = self.is_standing
-        leg, failed = path.extend(move, self._way, self._law, limits, fixed)
+        leg, failed = path.extend(move, self._way, self._law, limits, fixed, self.kinematics)
         if standing and not self._stops:
             leg.began = self._kernel.now / S
         if failed:
@@ -286,7 +291,7 @@ class MotionGroup:
             self._replan()
         return leg
 
-    def _stay(self, move: JointMove) -> Leg | None:
+    def _stay(self, move: Move) -> Leg | None:
         """A move to where the path ends: a stop point makes the end a stop, else nothing."""
         tail = self._path.tail
         if not move.zone.fine:
@@ -297,14 +302,59 @@ class MotionGroup:
         self._rearm()
         return tail
 
-    def _way(self, origin: Posture, move: JointMove, from_rest: bool) -> Geometry:
+    def _goes_nowhere(self, move: Move) -> bool:
+        ends = self._path.target
+        if isinstance(move, JointMove):
+            return all(abs(a - b) < NOTHING_M for a, b in zip(move.target, ends, strict=True))
+        assert isinstance(move, CartesianMove)
+        kinematics = self._geometry()
+        if move.via is not None:
+            return False
+        position, orientation = move.carrier.pose(kinematics.forward(ends))
+        return (
+            frames.distance(position, move.target[0]) < NO_WAY
+            and frames.angle_between(orientation, move.target[1]) < NO_WAY
+            and all(
+                abs(a - b) < NOTHING_M
+                for joint, a, b in zip(self.config.joints, move.external, ends, strict=True)
+                if joint.axis.startswith("eax")
+            )
+        )
+
+    def _way(self, origin: Posture, move: Move, from_rest: bool) -> Geometry:
         limits = self._limits.scaled(self.modal.acceleration)
-        measure = self.measure(origin, move)
-        return joint_way(origin, move, measure, limits, from_rest=from_rest)
+        if isinstance(move, CartesianMove):
+            way = CartesianWay(origin, move, self._geometry(), limits, from_rest=from_rest)
+            self._check_configuration(move, way.target)
+            return way
+        assert isinstance(move, JointMove)
+        return joint_way(origin, move, self.measure(origin, move), limits, from_rest=from_rest)
+
+    def _geometry(self) -> Kinematics:
+        """FatalError: the model has none."""
+        if self.kinematics is None:
+            raise FatalError(
+                50_900,
+                "No geometry",
+                f"{self.name}: the configuration has no chain, so the robot moves in joints only",
+            )
+        return self.kinematics
+
+    def _check_configuration(self, move: CartesianMove, target: Posture) -> None:
+        if move.wanted is None or self._geometry().matches(target, move.wanted):
+            return
+        reached = self._geometry().configuration(target)
+        raise FatalError(
+            50_080,
+            "Position not compatible",
+            f"the way ends in configuration {list(reached)}, programmed is {list(move.wanted)}",
+        )
 
     def measure(self, origin: Posture, move: JointMove) -> Measure:
         """How far a joint move goes."""
-        return lever_measure(self.config, origin, move.target, self.settings.lever)
+        if self.kinematics is None:
+            return lever_measure(self.config, origin, move.target, self.settings.lever)
+        return joint_measure(self.kinematics, move.carrier, origin, move.target)
 
     # -- stops ------------------------------------------------------------------------------
 

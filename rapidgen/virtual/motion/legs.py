@@ -1,19 +1,26 @@
-"""Legs: one move instruction each, placed on the path, and the corners between them."""
+"""Legs: one move instruction each, placed on the path; joint ways."""
 
 from dataclasses import dataclass, field
-from math import inf, sqrt
+from math import inf
 from typing import Protocol
 
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config.model import MotionGroup
 from rapidgen.virtual.motion.moves import (
+    Carrier,
     JointMove,
     Measure,
+    Move,
     Posture,
-    corner_shares,
     largest,
     nominal_time,
 )
-from rapidgen.virtual.motion.pieces import AxisLimits, JointLine, Piece, joint_corner
+from rapidgen.virtual.motion.pieces import AxisLimits, JointLine, Piece
+from rapidgen.virtual.motion.timed import timed
+
+_CHORDS = 4
+"""Straight parts that stand for the TCP's way in a joint move."""
 
 
 class Geometry(Protocol):
@@ -34,12 +41,15 @@ class Geometry(Protocol):
     def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
         """The path pieces from `start` to `end` of a leg that begins at `begin`."""
 
+    def posture(self, time: float) -> Posture:
+        """Axis values at a nominal time of the way."""
+
 
 @dataclass(slots=True, eq=False)
 class Leg:
     """One move on the path. Places are nominal s along the whole path."""
 
-    move: JointMove
+    move: Move
     way: Geometry
     begin: float
     end: float
@@ -89,6 +99,10 @@ class JointWay:
         """m that the TCP goes in a nominal s."""
         return self.measure.tcp / self.duration
 
+    def posture(self, time: float) -> Posture:
+        """Axis values at a nominal time of the way."""
+        return tuple([q + r * time for q, r in zip(self.origin, self.rates, strict=True)])
+
     def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
         """One straight piece."""
         return [JointLine(start, end, begin, self.origin, self.rates, self.limits, self.tcp)]
@@ -116,55 +130,6 @@ def joint_way(
     return JointWay(origin, move.target, duration, measure, limits)
 
 
-def timed(total: float, fastest: float, acceleration: float, ramps: float) -> float:
-    """Nominal time of a way whose whole time is to be `total` s.
-
-    `fastest` is the nominal time at the axes' full speed, `acceleration` the way's share per
-    s^2, `ramps` half the number of ends at rest: total = 1/c + ramps c / acceleration for a
-    speed of c ways per s. Where no speed does it, the best that the limits allow.
-    """
-    if ramps == 0.0:
-        return max(total, fastest, 1e-4)
-    square = total * total - 4 * ramps / acceleration
-    if square <= 0.0:
-        return max(fastest, sqrt(ramps / acceleration))
-    speed = acceleration * (total - sqrt(square)) / (2 * ramps)
-    return max(fastest, 1 / speed)
-
-
-def corner(
-    before: Leg, after: Geometry, size: float, limits: AxisLimits
-) -> tuple[float, float, list[Piece]] | None:
-    """Start, end and pieces of the corner between a leg and its successor; None: a stop.
-
-    `size` (0 to 1) shrinks the zone where the path cannot be met otherwise.
-    """
-    shares = corner_shares(before.move.zone, before.way.measure, after.measure)
-    if shares is None:
-        return None
-    inside, outside = (shares[0] * size * before.way.duration, shares[1] * size * after.duration)
-    if min(inside, outside) < 1e-7:
-        return None
-    start, end = before.end - inside, before.end + outside
-    if isinstance(before.way, JointWay) and isinstance(after, JointWay):
-        pieces = joint_corner(
-            start,
-            before.way.target,
-            (before.way.rates, inside),
-            (after.rates, outside),
-            limits,
-            max(before.way.tcp, after.tcp),
-        )
-        return start, end, pieces
-    return None
-
-
-def zone_entry(leg: Leg) -> float:
-    """Where the largest corner that its end may get would begin."""
-    shares = corner_shares(leg.move.zone, leg.way.measure, leg.way.measure)
-    return leg.end - (shares[0] * leg.way.duration if shares else 0.0)
-
-
 def lever_measure(group: MotionGroup, origin: Posture, target: Posture, lever: float) -> Measure:
     """How far a joint move goes when the robot has no geometry.
 
@@ -181,3 +146,24 @@ def lever_measure(group: MotionGroup, origin: Posture, target: Posture, lever: f
         else:
             linear.append(b - a)
     return Measure(largest(robot), largest(turns), largest(linear), largest(rotary))
+
+
+def joint_measure(
+    kinematics: Kinematics, carrier: Carrier, origin: Posture, target: Posture
+) -> Measure:
+    """How far a joint move goes: the TCP's way by chords, external axes exactly."""
+    way = turn = 0.0
+    last = None
+    for k in range(_CHORDS + 1):
+        share = k / _CHORDS
+        posture = tuple([a + (b - a) * share for a, b in zip(origin, target, strict=True)])
+        pose = carrier.pose(kinematics.forward(posture))
+        if last is not None:
+            way += frames.distance(last[0], pose[0])
+            turn += frames.angle_between(last[1], pose[1])
+        last = pose
+    linear, rotary = [0.0], [0.0]
+    for joint, a, b in zip(kinematics.group.joints, origin, target, strict=True):
+        if joint.axis.startswith("eax"):
+            (rotary if joint.kind == "revolute" else linear).append(b - a)
+    return Measure(way, turn, largest(linear), largest(rotary))

@@ -1,11 +1,18 @@
 """What a move instruction asks for, in SI units: the seam between built-ins and planning."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
+
+from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
+from rapidgen.axes.kinematics import Configuration
 
 Posture = tuple[float, ...]
 """Controller axis values in wire order, rad and m."""
+NO_WAY = 1e-7
+"""m of TCP way that count as none."""
+NO_TURN = 1e-9
+"""rad, or m of an external axis, that count as none."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,14 +41,6 @@ class Zone:
 FINE = Zone(fine=True)
 
 
-class Kind(Enum):
-    """Interpolation."""
-
-    JOINT = "joint"
-    LINEAR = "linear"
-    CIRCULAR = "circular"
-
-
 @dataclass(frozen=True, slots=True)
 class Measure:
     """How far a move goes: TCP m, turn rad, external axes m and rad (the longest of each)."""
@@ -53,10 +52,36 @@ class Measure:
 
 
 @dataclass(frozen=True, slots=True)
-class JointMove:
-    """To a posture with all axes together (MoveAbsJ, MoveJ, MoveExtJ)."""
+class Carrier:
+    """Tool and work object of a move: who holds what, and where the frames are.
 
-    target: Posture
+    A pose of the move is that of the TCP in the object (the displaced object frame). With a
+    stationary tool the robot carries the object and `tool` is a frame of the world.
+    """
+
+    tool: Pose = IDENTITY
+    object: Pose = IDENTITY
+    """user * object * displacement, in the world or, when held, in the flange."""
+    stationary: bool = False
+
+    def flange(self, pose: Pose) -> Pose:
+        """Where the flange is when the TCP has a pose in the object."""
+        placed = compose(self.object, pose)
+        if self.stationary:
+            return compose(self.tool, invert(placed))
+        return compose(placed, invert(self.tool))
+
+    def pose(self, flange: Pose) -> Pose:
+        """The pose of the TCP in the object for a flange."""
+        if self.stationary:
+            return compose(invert(compose(flange, self.object)), self.tool)
+        return compose(invert(self.object), compose(flange, self.tool))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Move:
+    """What every move instruction has."""
+
     speed: Speed
     zone: Zone
     time: float | None = None
@@ -64,10 +89,56 @@ class JointMove:
     concurrent: bool = False
     dwell: float = 0.0
     """s that the program waits after a stop point (\\Inpos with a stop time)."""
-    tool: object = None
-    """Kinematic tool of the move, for corners and TCP speed."""
+    carrier: Carrier = field(default_factory=Carrier)
     place: Callable[[], object] | None = None
     """Tells where in the program it stands, for messages and the motion pointer."""
+    events: tuple["PathEvent", ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointMove(Move):
+    """To a posture with all axes together (MoveAbsJ, MoveJ, MoveExtJ)."""
+
+    target: Posture
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CartesianMove(Move):
+    """The TCP on a line, or on the circle through `via` (MoveL, MoveC).
+
+    `external` holds all axis values in wire order; those of the robot are not used.
+    """
+
+    target: Pose
+    external: Posture
+    via: Pose | None = None
+    wanted: Configuration | None = None
+    """confdata that is checked at the end (ConfL \\On)."""
+    wrist: bool = False
+    """SingArea \\Wrist: the wrist axes go straight in joint space, the TCP stays on the way."""
+
+
+class From(Enum):
+    """Where the distance of an event counts from."""
+
+    END = "end"
+    START = "start"
+    BEFORE_END = "time"
+    MIDDLE = "middle"
+
+
+@dataclass(frozen=True, slots=True)
+class PathEvent:
+    """Something that happens at a place of a move, or some time before its end.
+
+    `amount` is m (END, START) or s (BEFORE_END); MIDDLE is the middle of the corner, and
+    arrival at a stop point. `lag` s earlier is what equipment needs; negative is later.
+    """
+
+    where: From
+    amount: float
+    act: Callable[[], None]
+    lag: float = 0.0
 
 
 def nominal_time(measure: Measure, speed: Speed) -> float:
@@ -100,7 +171,7 @@ def corner_shares(zone: Zone, before: Measure, after: Measure) -> tuple[float, f
     """
     if zone.fine:
         return None
-    if before.tcp > 1e-7 and after.tcp > 1e-7:
+    if before.tcp > NO_WAY and after.tcp > NO_WAY:
         radius = min(zone.tcp, before.tcp / 2, after.tcp / 2)
         for measure in (before, after):
             radius = min(radius, extended_share(zone, measure) * measure.tcp)
@@ -110,17 +181,24 @@ def corner_shares(zone: Zone, before: Measure, after: Measure) -> tuple[float, f
 
 
 def extended_share(zone: Zone, measure: Measure) -> float:
-    """Part of a move that the zone of orientation and external axes covers, at most 1/2."""
+    """Part of a move that the zone of orientation and external axes covers, at most 1/2.
+
+    The smallest of pzone_ori / length and zone_ori / turn, and likewise for external axes;
+    pzone_ori and pzone_eax below pzone_tcp are raised to it.
+    """
     shares = [0.5]
-    moves = measure.tcp > 1e-7
-    if moves:
-        shares.append(max(zone.orientation, zone.external, zone.tcp) / measure.tcp)
-    if measure.angle > 1e-9:
+    moves = measure.tcp > NO_WAY
+    if measure.angle > NO_TURN:
         shares.append(zone.angle / measure.angle)
-    if measure.linear > 1e-9:
-        shares.append(zone.linear / measure.linear)
-    if measure.rotary > 1e-9:
-        shares.append(zone.rotary / measure.rotary)
+        if moves:
+            shares.append(max(zone.orientation, zone.tcp) / measure.tcp)
+    if measure.linear > NO_TURN or measure.rotary > NO_TURN:
+        if moves:
+            shares.append(max(zone.external, zone.tcp) / measure.tcp)
+        if measure.linear > NO_TURN:
+            shares.append(zone.linear / measure.linear)
+        if measure.rotary > NO_TURN:
+            shares.append(zone.rotary / measure.rotary)
     return min(shares)
 
 

@@ -6,18 +6,20 @@ Pure bookkeeping of places; when anything happens is the business of `group.py`.
 from collections import deque
 from collections.abc import Callable
 
-from rapidgen.virtual.motion.legs import Geometry, Leg, corner
-from rapidgen.virtual.motion.moves import JointMove, Posture
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.virtual.motion.corners import corner
+from rapidgen.virtual.motion.legs import Geometry, Leg
+from rapidgen.virtual.motion.moves import Move, Posture
 from rapidgen.virtual.motion.pieces import AxisLimits, Piece
 from rapidgen.virtual.motion.timelaw import TimeLaw
 
-WayMaker = Callable[[Posture, JointMove, bool], Geometry]
+WayMaker = Callable[[Posture, Move, bool], Geometry]
 """(from, move, from rest) -> geometry of the move."""
 Planner = Callable[[tuple[Piece, ...]], TimeLaw | None]
 """The time law over pieces from the robot's present state; None when there is none."""
 _SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
 NOTHING_M = 1e-9
-"""rad or m below which a move goes nowhere."""
+"""rad or m of an axis below which a move goes nowhere."""
 
 
 class Path:
@@ -36,11 +38,12 @@ class Path:
 
     def extend(
         self,
-        move: JointMove,
+        move: Move,
         make: WayMaker,
         plan: Planner,
         limits: AxisLimits,
         fixed: float,
+        kinematics: Kinematics | None = None,
     ) -> tuple[Leg, bool]:
         """Append a move. Nothing before the place `fixed` changes.
 
@@ -52,7 +55,7 @@ class Path:
         if tail is not None and not tail.stops:
             way = make(self.target, move, False)
             for size in _SHRINK:
-                bend = corner(tail, way, size, limits)
+                bend = corner(tail, way, size, limits, kinematics)
                 if bend is None:
                     break
                 start, end, between = bend
@@ -76,7 +79,7 @@ class Path:
         self._take(leg, pieces)
         return leg, failed
 
-    def _from_rest(self, move: JointMove, make: WayMaker) -> tuple[Leg, tuple[Piece, ...]]:
+    def _from_rest(self, move: Move, make: WayMaker) -> tuple[Leg, tuple[Piece, ...]]:
         way = make(self.target, move, True)
         leg = Leg(move, way, self.end, self.end + way.duration)
         before = self.pieces

@@ -1,6 +1,6 @@
 """Pieces of path: where the axes are at each place of the nominal time, and the limits there."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from copy import copy
 from math import inf, sqrt
 
@@ -131,6 +131,27 @@ class Parabola(Piece):
             rates.append(rate)
             curvings.append(curving)
         return tuple(rates), tuple(curvings)
+
+
+class Curve(Piece):
+    """A stretch of a way that is known point by point, between two nodes of its sampling."""
+
+    __slots__ = ("_at",)
+
+    def __init__(
+        self,
+        start: float,
+        end: float,
+        at: Callable[[float], Posture],
+        limits: tuple[float, float],
+        tcp: float,
+    ) -> None:
+        super().__init__(start, end, *limits, tcp)
+        self._at = at
+
+    def at(self, place: float) -> Posture:
+        """Axis values at a place."""
+        return self._at(place)
 
 
 class AxisLimits:

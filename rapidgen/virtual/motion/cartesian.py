@@ -1,0 +1,189 @@
+"""Cartesian ways: the TCP on a line or a circle, axes by inverse kinematics."""
+
+from bisect import bisect_right
+from itertools import pairwise
+from math import ceil
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.limits import outside
+from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
+from rapidgen.virtual.motion.moves import CartesianMove, Measure, Posture, largest, nominal_time
+from rapidgen.virtual.motion.pieces import AxisLimits, Curve, Piece
+from rapidgen.virtual.motion.sampling import interval_limits, largest_step, spaced
+from rapidgen.virtual.motion.timed import timed
+
+_STEP = 0.12
+"""rad or m of one axis that an interval of the sampling should not exceed."""
+_FEWEST, _MOST = 8, 512
+_JUMP = 0.6
+"""rad between the finest nodes that no axis can follow: a singularity."""
+
+
+class CartesianWay:
+    """The way of a CartesianMove over its nominal time."""
+
+    __slots__ = (
+        "_external", "_kinematics", "_nodes", "_shares", "carrier", "duration", "limits",
+        "measure", "shape", "target",
+    )  # fmt: skip
+
+    def __init__(
+        self,
+        origin: Posture,
+        move: CartesianMove,
+        kinematics: Kinematics,
+        limits: AxisLimits,
+        *,
+        from_rest: bool,
+    ) -> None:
+        self._kinematics = kinematics
+        self.carrier = move.carrier
+        self.limits = limits
+        self.shape = _shape(move.carrier.pose(kinematics.forward(origin)), move)
+        self._external = (origin, move.external)
+        self.measure = Measure(
+            self.shape.length, self.shape.angle, *_external_measure(kinematics, origin, move)
+        )
+        self._shares, self._nodes = self._sample(origin)
+        self.target = self._nodes[-1]
+        fastest, acceleration = self._bounds()
+        if move.time is None:
+            self.duration = max(nominal_time(self.measure, move.speed), 1e-4)
+        else:
+            ramps = (from_rest + move.zone.fine) / 2
+            self.duration = timed(move.time, fastest, acceleration, ramps)
+
+    @property
+    def tcp(self) -> float:
+        """m that the TCP goes in a nominal s."""
+        return self.measure.tcp / self.duration
+
+    def posture(self, time: float) -> Posture:
+        """Axis values at a nominal time of the way."""
+        share = time / self.duration
+        return self._solve(share, self._guess(share))
+
+    def pose(self, time: float) -> Pose:
+        """TCP in the object. Times may lie outside the way."""
+        share = time / self.duration
+        return self.shape.position(share), self.shape.orientation(share)
+
+    def velocity(self, time: float) -> frames.Vector:
+        """TCP in the object, m per nominal s."""
+        return frames.scale(self.shape.tangent(time / self.duration), 1 / self.duration)
+
+    def external(self, time: float) -> Posture:
+        """All axes by linear interpolation: right for the external ones."""
+        share = time / self.duration
+        return self._linear(share)
+
+    def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
+        """One piece for each interval of the sampling that lies between start and end."""
+        count = len(self._nodes) - 1
+        spacing = self.duration / count
+        bounds = interval_limits(self._nodes, spacing, self.limits)
+
+        def at(place: float) -> Posture:
+            return self.posture(place - begin)
+
+        found: list[Piece] = []
+        for k in range(count):
+            left, right = begin + k * spacing, begin + (k + 1) * spacing
+            if k == count - 1:
+                right = begin + self.duration
+            low, high = max(left, start), min(right, end)
+            if high - low > 1e-12:
+                found.append(Curve(low, high, at, bounds[k], self.tcp))
+        if found:
+            found[0].start, found[-1].end = start, end
+        return found
+
+    # -- inverse kinematics along the way -----------------------------------------------------
+
+    def _sample(self, origin: Posture) -> tuple[list[float], list[Posture]]:
+        count = _FEWEST
+        while True:
+            shares = spaced(0.0, 1.0, count)
+            nodes = [origin]
+            for share in shares[1:]:
+                nodes.append(self._solve(share, nodes[-1]))
+            step = largest_step(nodes)
+            if step <= _STEP:
+                break
+            if count >= _MOST:
+                if step > _JUMP:
+                    raise FatalError(
+                        50_026, "Close to singularity", "an axis would have to turn at once"
+                    )
+                break
+            count = min(_MOST, max(2 * count, min(4 * count, ceil(count * step / _STEP))))
+        for node in nodes:
+            faults = outside(self._kinematics.group.joints, node)
+            if faults:
+                raise RapidError("ERR_ROBLIMIT", str(faults[0]))
+        return shares, nodes
+
+    def _solve(self, share: float, near: Posture) -> Posture:
+        pose = self.shape.position(share), self.shape.orientation(share)
+        linear = self._linear(share)
+        start = tuple(
+            external if joint.axis.startswith("eax") else robot
+            for joint, robot, external in zip(
+                self._kinematics.group.joints, near, linear, strict=True
+            )
+        )
+        found = self._kinematics.follow(self.carrier.flange(pose), start)
+        if found is None:
+            raise RapidError("ERR_OUTSIDE_REACH", f"{tuple(round(v, 4) for v in pose[0])} m")
+        return found
+
+    def _linear(self, share: float) -> Posture:
+        first, last = self._external
+        return tuple([a + (b - a) * share for a, b in zip(first, last, strict=True)])
+
+    def _guess(self, share: float) -> Posture:
+        shares = self._shares
+        k = min(max(0, bisect_right(shares, share) - 1), len(shares) - 2)
+        part = (share - shares[k]) / (shares[k + 1] - shares[k])
+        part = min(1.0, max(0.0, part))
+        return tuple(
+            [a + (b - a) * part for a, b in zip(self._nodes[k], self._nodes[k + 1], strict=True)]
+        )
+
+    def _bounds(self) -> tuple[float, float]:
+        """Nominal time at full axis speed, and the way's acceleration in shares per s^2."""
+        spacing = 1.0 / (len(self._nodes) - 1)
+        fastest, acceleration = 1e-4, float("inf")
+        for a, b in pairwise(self._nodes):
+            for x, y, v, acc in zip(
+                a, b, self.limits.speeds, self.limits.accelerations, strict=True
+            ):
+                rate = abs(y - x) / spacing
+                if rate > 0.0:
+                    fastest = max(fastest, rate / v)
+                    acceleration = min(acceleration, acc / rate)
+        return fastest, acceleration
+
+
+def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
+    if move.via is None:
+        return Line(start, move.target)
+    arc = arc_through(start, move.via[0], move.target)
+    if arc is None:
+        raise FatalError(50_063, "Circle uncertain", "the three points make no circle")
+    if arc.sweep > LARGEST_ARC:
+        raise FatalError(50_063, "Circle uncertain", "more than 240 degrees in one MoveC")
+    return arc
+
+
+def _external_measure(
+    kinematics: Kinematics, origin: Posture, move: CartesianMove
+) -> tuple[float, float]:
+    linear, rotary = [0.0], [0.0]
+    for joint, a, b in zip(kinematics.group.joints, origin, move.external, strict=True):
+        if joint.axis.startswith("eax"):
+            (rotary if joint.kind == "revolute" else linear).append(b - a)
+    return largest(linear), largest(rotary)

@@ -1,0 +1,19 @@
+"""\\T: how fast a way must be gone for its whole time, ramps at rest included."""
+
+from math import sqrt
+
+
+def timed(total: float, fastest: float, acceleration: float, ramps: float) -> float:
+    """Nominal time of a way whose whole time is to be `total` s.
+
+    `fastest` is the nominal time at the axes' full speed, `acceleration` the way's share per
+    s^2, `ramps` half the number of ends at rest: total = 1/c + ramps c / acceleration for a
+    speed of c ways per s. Where no speed does it, the best that the limits allow.
+    """
+    if ramps == 0.0:
+        return max(total, fastest, 1e-4)
+    square = total * total - 4 * ramps / acceleration
+    if square <= 0.0:
+        return max(fastest, sqrt(ramps / acceleration))
+    speed = acceleration * (total - sqrt(square)) / (2 * ramps)
+    return max(fastest, 1 / speed)
