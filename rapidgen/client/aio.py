@@ -15,11 +15,11 @@ from rapidgen.client.address import Address
 from rapidgen.client.core import Core, Timeouts
 from rapidgen.client.errors import (
     ConnectionFailed,
-    ConnectionLost,
     MotionStopped,
     RobotError,
     RobotTimeout,
     fault,
+    os_reason,
 )
 from rapidgen.client.flows import Connect, Flow, Send, Wait
 from rapidgen.client.group import Group
@@ -63,7 +63,7 @@ class _Link(asyncio.Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         why = "the controller closed it"
         if isinstance(exc, OSError):
-            why = (exc.strerror or str(exc)).lower()
+            why = os_reason(exc)
         self.room.set()
         self._robot._lost(self, why)
 
@@ -90,9 +90,13 @@ class AsyncRobot:
     ) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
         self.address, known = resolve(target, address, group)
-        self._watch = watch
         self._core = Core(
-            known, timeouts or Timeouts(), self._time, plain=plain, reconnect=reconnect
+            known,
+            timeouts or Timeouts(),
+            self._time,
+            watch=watch,
+            plain=plain,
+            reconnect=reconnect,
         )
         self._links: dict[Port, _Link] = {}
         self._waiters: set[asyncio.Future[None]] = set()
@@ -108,7 +112,7 @@ class AsyncRobot:
         Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
         """
         try:
-            await self._run(flows.connect(self._core, watch=self._watch))
+            await self._run(flows.connect(self._core))
         except BaseException:
             self._hang_up()
             raise
@@ -145,8 +149,7 @@ class AsyncRobot:
     @property
     def is_connected(self) -> bool:
         """Whether all connections stand."""
-        core = self._core
-        return core.state_open and (self._watch or core.talks[Port.MOTION].is_open)
+        return self._core.is_connected
 
     @property
     def driver(self) -> Driver:
@@ -157,7 +160,7 @@ class AsyncRobot:
     def group(self) -> Group:
         """Joints, limits and policy. Raises ConnectionLost before they are known."""
         if self._core.group is None:
-            raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+            raise self._core.disconnected()
         return self._core.group
 
     @property
@@ -172,7 +175,7 @@ class AsyncRobot:
         """The newest state. Raises ConnectionLost before the first."""
         state = self._core.tracker.state
         if state is None:
-            raise self._core.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
+            raise self._core.disconnected()
         return state
 
     async def next_state(self, timeout: float | None = None) -> State:
@@ -247,7 +250,7 @@ class AsyncRobot:
             return True
         link = self._links.get(effect.port)
         if link is None or link.transport is None:
-            raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+            raise self._core.disconnected()
         if effect.urgent:
             # Behind at most the rest of one frame: senders wait for an empty buffer.
             link.transport.write(effect.data)
@@ -262,7 +265,7 @@ class AsyncRobot:
             if run is not None and run.stopping:
                 raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
             if self._links.get(link.port) is not link:
-                raise self._core.fault or ConnectionLost(fault("RG602", "the connection was lost"))
+                raise self._core.disconnected()
             transport.write(data[at : at + FRAME_BYTES])
             if not link.room.is_set():
                 await self._room(link, effect.timeout)
@@ -325,7 +328,7 @@ class AsyncRobot:
             raise ConnectionFailed(
                 fault(
                     "RG601",
-                    f"cannot connect to {where}: {(error.strerror or str(error)).lower()}",
+                    f"cannot connect to {where}: {os_reason(error)}",
                     "is the driver's task running? `rapidgen sim` starts a virtual controller",
                 )
             ) from error

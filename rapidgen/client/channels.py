@@ -11,7 +11,7 @@ from collections.abc import Callable
 from select import POLLOUT, poll
 
 from rapidgen.client.address import Address
-from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout, fault
+from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout, fault, os_reason
 from rapidgen.protocol.bulk import FRAME_BYTES
 from rapidgen.protocol.spec import Port
 
@@ -41,8 +41,7 @@ class Channel:
             raise ConnectionFailed(
                 fault(
                     "RG601",
-                    f"cannot connect to {address.host} port {number} ({name}): "
-                    f"{(error.strerror or str(error)).lower()}",
+                    f"cannot connect to {address.host} port {number} ({name}): {os_reason(error)}",
                     "is the driver's task running? `rapidgen sim` starts a virtual controller",
                 )
             ) from error
@@ -116,7 +115,7 @@ class Channel:
 
     def _lost(self, error: OSError) -> ConnectionLost:
         name = self.port.name.lower()
-        reason = (error.strerror or str(error)).lower()
+        reason = os_reason(error)
         return ConnectionLost(
             fault("RG602", f"the connection to the {name} port was lost: {reason}", "look at it")
         )
@@ -207,7 +206,7 @@ class Reader:
             return
         except OSError as error:
             self._forget(channel)
-            self._lost(channel, (error.strerror or str(error)).lower())
+            self._lost(channel, os_reason(error))
             return
         if data:
             self._received(channel, data)

@@ -107,10 +107,15 @@ class Core:
         timeouts: Timeouts,
         clock: Callable[[], float],
         *,
+        watch: bool = False,
         plain: bool = False,
         reconnect: float = 0.0,
     ) -> None:
-        """`plain`: do not ask for a rapidgen driver. `reconnect`: for how many s to try, 0 not."""
+        """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
+
+        `reconnect`: for how many s a lost connection is tried again; 0: not.
+        """
+        self.watch = watch
         self.reconnect = reconnect
         self.timeouts = timeouts
         self.clock = clock
@@ -127,6 +132,11 @@ class Core:
             self.use(group)
 
     # What the connections bring
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether all connections stand that this client wants."""
+        return self.state_open and (self.watch or self.talks[Port.MOTION].is_open)
 
     def opened(self, port: Port) -> None:
         """A connection stands."""
@@ -197,6 +207,10 @@ class Core:
         self.state_open = False
         for talk in self.talks.values():
             talk.is_open = False
+
+    def disconnected(self) -> RobotError:
+        """Why there is no connection."""
+        return self.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
 
     def poll(self) -> None:
         """Let what is under way look at the newest state and at the clock."""

@@ -18,6 +18,7 @@
 states. Time is that of the client's clock, s.
 """
 
+import os
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -131,3 +132,8 @@ class MotionFailed(MotionError):
 def fault(code: str, message: str, help: str = "", *notes: str) -> Diagnostic:
     """An error without a place in a text."""
     return Diagnostic(code, Severity.ERROR, message, help=help, notes=notes)
+
+
+def os_reason(error: OSError) -> str:
+    """What the operating system says, in its own words and small letters."""
+    return (os.strerror(error.errno) if error.errno else str(error)).lower()

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from rapidgen.client.errors import InvalidTrajectory, fault
+from rapidgen.client.errors import InvalidTrajectory, fault, os_reason
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span
 
@@ -27,7 +27,7 @@ def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
     except OSError as error:
-        reason = (error.strerror or str(error)).lower()
+        reason = os_reason(error)
         raise InvalidTrajectory(
             fault("RG610", f"cannot read {path}: {reason}"), exit_code=2
         ) from error

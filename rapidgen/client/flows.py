@@ -74,8 +74,8 @@ Effect = Connect | Send | Wait
 Flow = Generator[Effect, Any, T]
 
 
-def connect(core: Core, *, watch: bool) -> Flow[None]:
-    """Open the connections and find out who is there. `watch`: never move, only look."""
+def connect(core: Core) -> Flow[None]:
+    """Open the connections and find out who is there."""
     core.fault = None
     limits = core.timeouts
     yield Connect(Port.STATE, limits.connect)
@@ -85,7 +85,7 @@ def connect(core: Core, *, watch: bool) -> Flow[None]:
     tracker = core.tracker
     came = yield Wait(lambda: tracker.is_complete or not core.state_open, limits.state)
     if not core.state_open:
-        raise core.fault or ConnectionLost(fault("RG602", "the state connection was lost"))
+        raise core.disconnected()
     if not came:
         raise RobotTimeout(
             fault(
@@ -99,7 +99,7 @@ def connect(core: Core, *, watch: bool) -> Flow[None]:
         left = max(0.0, asked + limits.hello - core.clock())
         yield Wait(lambda: tracker.hello is not None or not core.state_open, left)
     _meet(core, tracker.hello)
-    if watch:
+    if core.watch:
         return
     yield Connect(Port.MOTION, limits.connect)
     if Feature.CONTROL in tracker.driver.features:
@@ -131,16 +131,16 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
         core.use(Group.unknown([f"joint_{i + 1}" for i in range(6)]))
 
 
-def alive(core: Core, *, watch: bool) -> Flow[None]:
+def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
     """Connect again if a connection was lost and reconnecting was told; nothing is re-sent."""
-    if core.state_open and (watch or core.talks[Port.MOTION].is_open):
+    if core.state_open and (core.talks[Port.MOTION].is_open or not to_move):
         return
     if core.fault is None or core.reconnect <= 0:
-        raise core.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
+        raise core.disconnected()
     deadline = core.clock() + core.reconnect
     while True:
         try:
-            yield from connect(core, watch=watch)
+            yield from connect(core)
             return
         except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
             if core.clock() + _RETRY >= deadline:
@@ -151,7 +151,7 @@ def alive(core: Core, *, watch: bool) -> Flow[None]:
 
 def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
     """Check, send, and wait until the controller took it; only then it moves."""
-    yield from alive(core, watch=False)
+    yield from alive(core, to_move=True)
     run, data = prepare(core, trajectory)
     try:
         yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send)
@@ -168,7 +168,7 @@ def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
 def prepare(core: Core, trajectory: Trajectory) -> tuple[Run, bytes]:
     """Everything before the first byte. Raises InvalidTrajectory, NotReady, ConnectionLost."""
     if not core.talks[Port.MOTION].is_open:
-        raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+        raise core.disconnected()
     core.ready()
     plan = core.plan(trajectory)
     data = encode_trajectory(plan.wire, plan.durations)
@@ -300,7 +300,7 @@ def wait_until(
     core: Core, condition: Callable[[State], bool], timeout: float, what: str
 ) -> Flow[State]:
     """The first state, from now on, for which the condition holds."""
-    yield from alive(core, watch=True)
+    yield from alive(core)
     tracker = core.tracker
     found: list[State] = []
 
@@ -314,7 +314,7 @@ def wait_until(
     if found:
         return found[0]
     if not core.state_open:
-        raise core.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
+        raise core.disconnected()
     raise RobotTimeout(
         fault("RG603", f"{what} did not come within {timeout:g} s"), **core.evidence()
     )
@@ -322,7 +322,7 @@ def wait_until(
 
 def next_state(core: Core, timeout: float | None) -> Flow[State]:
     """The state of the next joint message."""
-    yield from alive(core, watch=True)
+    yield from alive(core)
     seen = core.tracker.samples
     patience = core.timeouts.state if timeout is None else timeout
     return (

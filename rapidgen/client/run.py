@@ -81,6 +81,8 @@ class Run:
 
     def accepted(self, number: int | None) -> None:
         """The controller took the trajectory (under this number, where it tells one)."""
+        if self.is_over:
+            return
         self.phase = Phase.MOVING
         self.number = number
         self._began = self._tracker.clock()
@@ -138,10 +140,11 @@ class Run:
                 if self._tracker.status.in_motion is not TriState.TRUE:
                     self._succeed()
             case TrajectoryState.STOPPED:
-                # Our own STOP is over when the robot stands: stop() says so.
                 if not self.stopping:
                     text = "stopped by another request or by the operator"
                     self._end(MotionStopped, fault("RG631", text), reason, told.reached)
+                elif self._tracker.status.in_motion is not TriState.TRUE:
+                    self.stopped()
             case TrajectoryState.FAILED | TrajectoryState.REFUSED:
                 text = REASON_TEXTS.get(reason, "no reason") if reason else f"reason {told.reason}"
                 place = f" at point {told.point}" if told.point >= 0 else ""
@@ -161,6 +164,9 @@ class Run:
         if moving or self._has_moved(state):
             self._seen_moving = True
         if self.stopping:
+            # A STOP whose sender did not wait: it is over when the robot stands.
+            if not moving and now - self._began > _EARLY:
+                self.stopped()
             return
         trouble = self._trouble()
         if trouble:

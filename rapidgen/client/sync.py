@@ -12,7 +12,7 @@ from rapidgen.client import flows
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
 from rapidgen.client.core import Core, Timeouts
-from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
+from rapidgen.client.errors import MotionStopped, RobotError, fault
 from rapidgen.client.flows import Connect, Flow, Send, Wait
 from rapidgen.client.group import Group
 from rapidgen.client.recording import Recording
@@ -54,9 +54,13 @@ class Robot:
         reconnect: float = 0.0,
     ) -> None:
         self.address, known = resolve(target, address, group)
-        self._watch = watch
         self._core = Core(
-            known, timeouts or Timeouts(), time.monotonic, plain=plain, reconnect=reconnect
+            known,
+            timeouts or Timeouts(),
+            time.monotonic,
+            watch=watch,
+            plain=plain,
+            reconnect=reconnect,
         )
         self._changed = threading.Condition()
         self._channels: dict[Port, Channel] = {}
@@ -70,7 +74,7 @@ class Robot:
         Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
         """
         try:
-            self._run(flows.connect(self._core, watch=self._watch))
+            self._run(flows.connect(self._core))
         except BaseException:
             self.close()
             raise
@@ -104,8 +108,7 @@ class Robot:
     @property
     def is_connected(self) -> bool:
         """Whether all connections stand."""
-        core = self._core
-        return core.state_open and (self._watch or core.talks[Port.MOTION].is_open)
+        return self._core.is_connected
 
     @property
     def driver(self) -> Driver:
@@ -116,7 +119,7 @@ class Robot:
     def group(self) -> Group:
         """Joints, limits and policy. Raises ConnectionLost before they are known."""
         if self._core.group is None:
-            raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+            raise self._core.disconnected()
         return self._core.group
 
     @property
@@ -133,9 +136,7 @@ class Robot:
         with self._changed:
             state = self._core.tracker.state
             if state is None:
-                raise self._core.fault or ConnectionLost(
-                    fault("RG602", "not connected", "connect()")
-                )
+                raise self._core.disconnected()
             return state
 
     def next_state(self, timeout: float | None = None) -> State:
@@ -212,7 +213,7 @@ class Robot:
             return True
         channel = self._channels.get(effect.port)
         if channel is None:
-            raise ConnectionLost(fault("RG602", "not connected", "connect()"))
+            raise self._core.disconnected()
         if effect.urgent:
             channel.send_urgent(effect.data, effect.timeout)
         elif not channel.send(effect.data, effect.timeout, self._is_stopping):

@@ -1,0 +1,515 @@
+"""Both clients against a scripted controller: everything it can do, right and wrong."""
+
+import asyncio
+import functools
+import socket
+import threading
+import time
+
+import pytest
+from fake_controller import joint_frame, status_frame
+
+from rapidgen.client import (
+    AsyncRobot,
+    ConnectionFailed,
+    ConnectionLost,
+    IncompatibleDriver,
+    InvalidTrajectory,
+    MotionFailed,
+    MotionStopped,
+    NotReady,
+    ProtocolError,
+    Robot,
+    RobotError,
+    RobotTimeout,
+    StopFailed,
+    Trajectory,
+    TrajectoryRefused,
+)
+from rapidgen.protocol.spec import Mode, Reason, TrajectoryState, TriState
+
+GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
+PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=0.1)
+LONG = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=2.0)
+LOOP = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.0] * 6], seconds=0.15)
+
+
+class Sync:
+    """`Robot` under the same calls as `Blocking`."""
+
+    def __new__(cls, *arguments, **options):
+        return Robot(*arguments, **options)
+
+
+class Blocking:
+    """`AsyncRobot` whose loop runs in a thread: one test text for both clients."""
+
+    def __init__(self, *arguments, **options):
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
+        self._thread.start()
+        self._target = AsyncRobot(*arguments, **options)
+
+    def _call(self, coroutine):
+        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(20)
+
+    def __enter__(self):
+        try:
+            self._call(self._target.__aenter__())
+        except BaseException:
+            self.end()
+            raise
+        return self
+
+    def __exit__(self, *error):
+        try:
+            self._call(self._target.__aexit__(*error))
+        finally:
+            self.end()
+
+    def end(self):
+        self._call(_cancel_all())
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join(5)
+        self._loop.close()
+
+    def __getattr__(self, name):
+        value = getattr(self._target, name)
+        if not asyncio.iscoroutinefunction(value):
+            return value
+
+        @functools.wraps(value)
+        def call(*arguments, **options):
+            result = self._call(value(*arguments, **options))
+            return _Handle(self, result) if hasattr(result, "cancel") else result
+
+        return call
+
+
+class _Handle:
+    def __init__(self, owner, target):
+        self._owner, self._target = owner, target
+
+    __getattr__ = Blocking.__getattr__
+
+    def _call(self, coroutine):
+        return self._owner._call(coroutine)
+
+
+async def _cancel_all():
+    await asyncio.sleep(0)
+    tasks = asyncio.all_tasks() - {asyncio.current_task()}
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
+
+
+@pytest.fixture(params=[Sync, Blocking], ids=["sync", "async"])
+def client(request, quick):
+    return functools.partial(request.param, timeouts=quick)
+
+
+@pytest.fixture(params=[True, False], ids=["rapidgen", "plain"])
+def rapidgen(request):
+    return request.param
+
+
+def test_connects_and_tells_the_state(fake, client, rapidgen):
+    controller = fake(rapidgen=rapidgen)
+    with client(controller.address) as robot:
+        assert robot.driver.is_rapidgen is rapidgen
+        assert bool(robot.driver.version) is rapidgen
+        state = robot.next_state()
+        assert state.joints == (0.0,) * 6
+        assert state["joint_6"] == 0.0
+        assert state.status.mode is Mode.AUTO
+        assert state.status.drives is TriState.TRUE
+        assert not state.is_moving
+        assert 0 <= state.age < 1
+        later = robot.wait_until(lambda s: s.number >= state.number + 20, timeout=2)
+        assert 20 < later.rate < 110
+    # A plain driver heard HELLO once and was not disturbed by it.
+    assert controller.hellos == 1
+
+
+def test_executes_to_the_end(fake, client, rapidgen):
+    controller = fake(rapidgen=rapidgen)
+    with client(controller.address) as robot:
+        execution = robot.execute(PATH)
+        result = execution.result()
+        assert result.points == 3
+        assert result.deviation < 1e-6
+        assert 0.15 < result.seconds < 1.0
+        assert execution.progress.state is TrajectoryState.DONE
+        assert execution.progress.fraction == 1.0
+        assert execution.stopped_position == pytest.approx(GOAL)
+        assert [frame[2] for frame in controller.frames] == [-1, 1, -3]
+        assert [frame[1] for frame in controller.frames] == [1, 1, 2]
+        # durations belong to this trajectory alone
+        assert [duration for _, duration in controller.points] == pytest.approx([0.1, 0.1, 0.1])
+        robot.execute(PATH.reversed()).result()
+        assert [duration for _, duration in controller.points] == pytest.approx([0.1, 0.1, 0.1])
+
+
+def test_a_loop_is_not_done_before_it_was_run(fake, client, rapidgen):
+    # users.md C6: a path that ends where it begins
+    with client(fake(rapidgen=rapidgen).address) as robot:
+        assert robot.execute(LOOP).result().seconds > 0.2
+
+
+def test_a_robot_that_never_moves_has_not_arrived(fake, client):
+    controller = fake(rapidgen=False, moves=False)
+    with client(controller.address) as robot:
+        with pytest.raises(MotionFailed, match="never moved") as error:
+            robot.execute(LOOP).result()
+        assert error.value.states
+        assert error.value.messages
+
+
+def test_stop_while_moving(fake, client, rapidgen):
+    controller = fake(rapidgen=rapidgen)
+    with client(controller.address) as robot:
+        execution = robot.execute(LONG)
+        robot.wait_until(lambda s: s.joints[0] > 0.005, timeout=2)
+        state = robot.stop()
+        assert not state.is_moving
+        assert 0.005 < state.joints[0] < 0.1
+        with pytest.raises(MotionStopped) as error:
+            execution.result()
+        assert error.value.reason is Reason.STOPPED
+        assert execution.is_over
+        assert len(controller.stops) == 1
+        assert robot.next_state().joints == pytest.approx(execution.stopped_position)
+        # and the robot takes the next one
+        robot.execute(Trajectory.from_points([state.joints, [0.0] * 6], seconds=0.2)).result()
+
+
+def test_cancel_is_stop_and_nothing_after_the_end(fake, client):
+    controller = fake()
+    with client(controller.address) as robot:
+        execution = robot.execute(LONG)
+        state = execution.cancel()
+        assert execution.stopped_position == state.joints
+        execution.cancel()
+        assert len(controller.stops) == 1
+
+
+def test_closing_stops_what_moves(fake, client):
+    controller = fake()
+    with client(controller.address) as robot:
+        robot.execute(LONG)
+    assert len(controller.stops) == 1
+
+
+def test_refusal_tells_reason_point_and_joint(fake, client):
+    controller = fake(refuse=(4, 1, 3))
+    with client(controller.address) as robot:
+        with pytest.raises(TrajectoryRefused, match="joint_3") as error:
+            robot.execute(PATH)
+        assert (error.value.reason, error.value.point) == (Reason.JOINT_LIMIT, 1)
+        assert any("Refused" in text for _, text in error.value.messages)
+        controller.script.refuse = None
+        robot.execute(PATH).result()
+
+
+def test_refusal_without_a_reason(fake, client):
+    robot_in = client(fake(rapidgen=False, bare_failure=True).address)
+    with robot_in as robot, pytest.raises(TrajectoryRefused, match="no reason"):
+        robot.execute(PATH)
+
+
+def test_failure_on_the_way(fake, client):
+    with client(fake(ends_at=0.6).address) as robot:
+        execution = robot.execute(PATH)
+        with pytest.raises(MotionFailed, match="while moving") as error:
+            execution.result()
+        assert error.value.reason is Reason.MOTION_ERROR
+        assert error.value.reached == 2
+
+
+def test_failure_on_the_way_of_a_plain_driver(fake, client):
+    with client(fake(rapidgen=False, ends_at=0.6).address) as robot:
+        execution = robot.execute(PATH)
+        with pytest.raises(MotionFailed, match="stands elsewhere"):
+            execution.result()
+
+
+@pytest.mark.parametrize(
+    "status", [{"e_stopped": 1}, {"drives": 0}, {"possible": 0}], ids=lambda s: next(iter(s))
+)
+def test_a_robot_that_cannot_move_gets_nothing(fake, client, status):
+    controller = fake(status=status)
+    robot_in = client(controller.address)
+    with robot_in as robot, pytest.raises(NotReady):
+        robot.execute(PATH)
+    assert controller.frames == []
+
+
+def test_emergency_stop_on_the_way_of_a_plain_driver(fake, client):
+    controller = fake(rapidgen=False)
+    with client(controller.address) as robot:
+        execution = robot.execute(LONG)
+        controller.script.status = {"e_stopped": 1, "drives": 0}
+        with pytest.raises(MotionFailed, match="emergency stop"):
+            execution.result()
+
+
+def test_an_invalid_trajectory_sends_nothing(fake, client):
+    controller = fake()
+    far = Trajectory.from_points([[0.5] * 6, [9.0] * 6], seconds=0.01)
+    with client(controller.address) as robot:
+        with pytest.raises(InvalidTrajectory) as error:
+            robot.execute(far)
+        assert {"RG614", "RG615", "RG616", "RG618"} <= {d.code for d in error.value.diagnostics}
+    assert controller.frames == []
+
+
+def test_a_plain_driver_gets_at_most_100_points(fake, client):
+    controller = fake(rapidgen=False)
+    points = [[0.0] * 6] * 101
+    robot_in = client(controller.address)
+    with robot_in as robot, pytest.raises(InvalidTrajectory, match="holds 100"):
+        robot.execute(Trajectory.from_points(points, seconds=0.1))
+    assert controller.frames == []
+
+
+def test_one_trajectory_at_a_time(fake, client):
+    with client(fake().address) as robot:
+        robot.execute(LONG)
+        with pytest.raises(NotReady, match="under way"):
+            robot.execute(PATH)
+
+
+@pytest.mark.parametrize("chop", [1, 3, 7, 60])
+def test_split_and_merged_segments(fake, client, chop):
+    with client(fake(chop=chop, merge=1 + chop % 3).address) as robot:
+        robot.execute(PATH).result()
+
+
+def test_late_reply(fake, client):
+    with client(fake(end_delay=0.3).address) as robot:
+        robot.execute(PATH).result()
+
+
+def test_missing_reply_to_the_end(fake, client):
+    controller = fake(answer_end=False)
+    with client(controller.address) as robot:
+        with pytest.raises(RobotTimeout, match="did not answer"):
+            robot.execute(PATH)
+        # Nobody knows whether it moves: it was stopped.
+        assert _comes(lambda: controller.stops)
+
+
+def test_missing_reply_to_stop(fake, client):
+    controller = fake(answer_stop=False)
+    robot_in = client(controller.address)
+    with robot_in as robot, pytest.raises(StopFailed, match="did not answer"):
+        robot.stop()
+
+
+def test_a_controller_that_cannot_stop(fake, client):
+    robot_in = client(fake(stop_code=2).address)
+    with robot_in as robot, pytest.raises(StopFailed, match="could not stop"):
+        robot.stop()
+
+
+def test_a_stop_that_is_not_seen(fake, client):
+    controller = fake(coasts=True)
+    with client(controller.address) as robot:
+        robot.execute(LONG)
+        robot.wait_until(lambda s: s.is_moving, timeout=2)
+        with pytest.raises(StopFailed, match="not seen to stand"):
+            robot.stop()
+        controller.script.coasts = False
+
+
+def test_silence_during_a_motion_stops_it(fake, client):
+    controller = fake(silent_after=0.1)
+    with client(controller.address) as robot:
+        execution = robot.execute(LONG)
+        with pytest.raises(RobotTimeout, match="no state"):
+            execution.result()
+        assert _comes(lambda: controller.stops)
+
+
+def test_lost_connection_during_a_motion(fake, client, rapidgen):
+    controller = fake(rapidgen=rapidgen)
+    with client(controller.address) as robot:
+        execution = robot.execute(LONG)
+        controller.drop("state")
+        with pytest.raises(ConnectionLost, match="state port") as error:
+            execution.result()
+        assert error.value.states
+        assert not robot.is_connected
+        assert _comes(lambda: controller.stops), "blind: it was stopped"
+        with pytest.raises(ConnectionLost):
+            robot.execute(PATH)
+
+
+def test_reconnects_as_told_and_never_moves_by_itself(fake, client):
+    controller = fake()
+    with client(controller.address, reconnect=3.0) as robot:
+        execution = robot.execute(LONG)
+        controller.drop()
+        with pytest.raises(ConnectionLost):
+            execution.result()
+        assert _comes(lambda: not robot._core.state_open)
+        sent = len(controller.frames)
+        assert robot.next_state().joints
+        assert robot.is_connected
+        assert len(controller.frames) == sent
+        controller._halt()
+        state = robot.wait_until(lambda s: not s.is_moving, timeout=2)
+        robot.execute(Trajectory.from_points([state.joints, [0.0] * 6], seconds=0.1)).result()
+
+
+def test_nobody_there(client):
+    with socket.create_server(("127.0.0.1", 0)) as free:
+        port = free.getsockname()[1]
+    with pytest.raises(ConnectionFailed, match="refused"):
+        client(f"127.0.0.1:{port},{port}").__enter__()
+
+
+def test_connected_but_silent(fake, client):
+    controller = fake(merge=10**9)
+    with pytest.raises(RobotTimeout, match="no joints and status"):
+        client(controller.address).__enter__()
+
+
+STATES = joint_frame([0.0] * 6) + status_frame()
+
+
+@pytest.mark.parametrize("cut", range(0, len(STATES), 5))
+def test_closed_at_every_byte(fake, client, cut):
+    with pytest.raises((ConnectionLost, RobotTimeout)):
+        client(fake(raw_state=STATES[:cut]).address).__enter__()
+
+
+@pytest.mark.parametrize("length", [-1, 0, 11, 1021, 2**31 - 1])
+def test_wrong_lengths(fake, client, length):
+    raw = joint_frame([0.0] * 6) + length.to_bytes(4, "little", signed=True) + b"GET / HTTP"
+    with pytest.raises(ProtocolError, match="does not speak") as error:
+        client(fake(raw_state=raw).address).__enter__()
+    assert error.value.messages
+
+
+def test_unknown_messages_are_skipped(fake, client):
+    controller = fake()
+    controller._hello_unchanged = controller._hello
+    controller._hello = lambda: (
+        status_frame()[:-4].replace(b"\x28\0\0\0\x0d", b"\x24\0\0\0\x63")
+        + controller._hello_unchanged()
+    )
+    with client(controller.address) as robot:
+        assert robot.driver.is_rapidgen
+        assert any("type 99" in text for _, text in robot.messages)
+
+
+def test_another_version(fake, client):
+    with pytest.raises(IncompatibleDriver, match="version 9"):
+        client(fake(protocol=9).address).__enter__()
+
+
+def test_another_joint_map(fake, client):
+    controller = fake(mapping="ffffffffffff")
+    with pytest.raises(IncompatibleDriver, match="joint map"):
+        client("irb120", address=controller.address).__enter__()
+
+
+def test_a_configuration_names_the_joints(fake, client):
+    with client("irb120", address=fake(rapidgen=False).address) as robot:
+        assert robot.state.names == robot.group.names
+        assert len(robot.state.by_name) == 6
+
+
+def test_stop_from_another_thread_while_sending(fake, quick):
+    controller = fake(capacity=300_000, read_bytes=68, read_pause=0.002)
+    points = Trajectory.from_points([[0.0] * 6] * 200_000, seconds=0.1)
+    failed = []
+
+    def send():
+        try:
+            robot.execute(points)
+        except RobotError as error:
+            failed.append(error)
+
+    with Robot(controller.address, timeouts=quick) as robot:
+        sender = threading.Thread(target=send)
+        sender.start()
+        assert _comes(lambda: len(controller.frames) > 5)
+        # The fake reads so slowly that STOP waits behind what lies in the kernel.
+        controller.script.read_pause = 0.0
+        controller.script.read_bytes = 65536
+        robot.stop()
+        sender.join(5)
+        assert isinstance(failed[0], MotionStopped)
+    sequences = [frame[2] for frame in controller.frames]
+    assert sequences[-1] == -4
+    assert -3 not in sequences
+    # whole frames only, none left out
+    assert sequences[:-1] == [-1, *range(1, len(sequences) - 1)]
+
+
+def test_ctrl_c_stops_the_robot(fake, quick, monkeypatch):
+    controller = fake()
+    with Robot(controller.address, timeouts=quick) as robot:
+        execution = robot.execute(LONG)
+        wait = robot._changed.wait
+
+        def interrupt(timeout=None):
+            monkeypatch.setattr(robot._changed, "wait", wait)
+            raise KeyboardInterrupt
+
+        monkeypatch.setattr(robot._changed, "wait", interrupt)
+        with pytest.raises(KeyboardInterrupt):
+            execution.result()
+        assert _comes(lambda: controller.stops)
+
+
+def test_cancelling_a_coroutine_stops_the_robot(fake, quick):
+    controller = fake()
+
+    async def run():
+        async with AsyncRobot(controller.address, timeouts=quick) as robot:
+            execution = await robot.execute(LONG)
+            with pytest.raises(TimeoutError):
+                async with asyncio.timeout(0.05):
+                    await execution.result()
+            await robot.wait_until(lambda s: not s.is_moving, 1)
+
+    asyncio.run(run())
+    assert len(controller.stops) == 1
+
+
+def test_stop_without_a_connection(fake, client):
+    controller = fake()
+    robot = client(controller.address)
+    try:
+        assert robot.stop() is None
+        assert len(controller.stops) == 1
+    finally:
+        robot.close()
+        if isinstance(robot, Blocking):
+            robot.end()
+
+
+def test_recording(fake, client, tmp_path):
+    with client(fake().address) as robot:
+        with robot.recording() as recording:
+            robot.execute(PATH).result()
+        assert len(recording) > 5
+        recording.to_csv(tmp_path / "r.csv")
+    again = Trajectory.from_csv(tmp_path / "r.csv")
+    assert again.names == robot.group.names
+    assert again.positions[-1].tolist() == pytest.approx(GOAL)
+
+
+def _comes(condition, timeout=3.0):
+    """Look again until it holds: things that another thread of the fake does."""
+    end = time.monotonic() + timeout
+    event = threading.Event()
+    while not condition():
+        if time.monotonic() > end:
+            return False
+        event.wait(0.005)
+    return True

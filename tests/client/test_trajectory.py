@@ -1,0 +1,288 @@
+"""Trajectories: shapes, files, checks against a robot (all findings at once), timing."""
+
+import contextlib
+import json
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from rapidgen.client import InvalidTrajectory, Trajectory
+from rapidgen.client.checks import plan
+from rapidgen.client.group import Group
+from rapidgen.config import load_config
+
+HOME = [0.0] * 6
+
+
+@pytest.fixture(scope="module")
+def irb120():
+    config = load_config("irb120")
+    return Group.of(config, config.groups[0])
+
+
+@pytest.fixture(scope="module")
+def irb2400():
+    config = load_config("irb2400")
+    return Group.of(config, config.groups[0])
+
+
+def codes(error):
+    return [d.code for d in error.value.diagnostics]
+
+
+def test_arrays_are_copied_and_read_only():
+    times, positions = np.array([0.0, 1.0]), np.zeros((2, 6))
+    trajectory = Trajectory(times, positions)
+    positions[0, 0] = 5
+    assert trajectory.positions[0, 0] == 0
+    with pytest.raises(ValueError, match="read-only"):
+        trajectory.positions[0, 0] = 1
+    assert trajectory.duration == 1.0
+
+
+@pytest.mark.parametrize(
+    ("times", "positions", "names"),
+    [
+        ([0, 1], [[0.0]], ()),
+        ([0], [0.0], ()),
+        ([0], [[0.0, 1.0]], ("a",)),
+        (["x"], [[0.0]], ()),
+        ([0, 1], [[0.0], [1.0, 2.0]], ()),
+    ],
+)
+def test_shapes_that_do_not_fit(times, positions, names):
+    with pytest.raises(InvalidTrajectory) as error:
+        Trajectory(times, positions, names)
+    assert codes(error) == ["RG611"]
+
+
+def test_csv_round_trip(tmp_path):
+    trajectory = Trajectory([0, 0.1, 1 / 3], [[0.1, -1e-9], [2, 3], [1e9, 4]], ("a", "b c"))
+    trajectory.to_csv(tmp_path / "t.csv")
+    again = Trajectory.from_csv(tmp_path / "t.csv")
+    assert again.names == trajectory.names
+    assert np.array_equal(again.times, trajectory.times)
+    assert np.array_equal(again.positions, trajectory.positions)
+    assert again.lines == (2, 3, 4)
+
+
+def test_csv_faults_are_told_all_at_once_with_their_places(tmp_path):
+    path = tmp_path / "bad.csv"
+    path.write_text("# a comment\ntime,a,b\n0,1\n\n1,x,2\n2,1,2,3\n3,1,y\n")
+    with pytest.raises(InvalidTrajectory) as error:
+        Trajectory.from_csv(path)
+    places = [(d.span.line, d.span.column, d.message) for d in error.value.diagnostics]
+    assert places == [
+        (3, 1, "2 values, the header has 3"),
+        (5, 3, "'x' is not a number"),
+        (6, 1, "4 values, the header has 3"),
+        (7, 5, "'y' is not a number"),
+    ]
+    assert error.value.exit_code == 2
+
+
+@pytest.mark.parametrize(
+    "content",
+    [b"", b"a,b\n1,2\n", b"time\n1\n", b"time,a,\n", b"\xff\xfe\x00", b"time,a,a\n0,1,2\n"],
+)
+def test_csv_that_is_none(tmp_path, content):
+    path = tmp_path / "bad.csv"
+    path.write_bytes(content)
+    with pytest.raises(InvalidTrajectory) as error:
+        Trajectory.from_csv(path)
+    assert set(codes(error)) == {"RG610"}
+
+
+def test_missing_file(tmp_path):
+    with pytest.raises(InvalidTrajectory, match="no such file"):
+        Trajectory.from_csv(tmp_path / "none.csv")
+
+
+@given(st.binary(max_size=200))
+def test_random_bytes_as_csv_bring_nothing_but_findings(tmp_path_factory, data):
+    path = tmp_path_factory.mktemp("csv") / "t.csv"
+    path.write_bytes(b"time,a\n" + data)
+    with contextlib.suppress(InvalidTrajectory):
+        Trajectory.from_csv(path)
+
+
+ROS_1 = {
+    "joint_names": ["b", "a"],
+    "points": [
+        {"positions": [1, 2], "time_from_start": {"secs": 0, "nsecs": 500000000}},
+        {"positions": [3, 4], "time_from_start": {"secs": 2, "nsecs": 0}},
+    ],
+}
+
+
+def test_ros_dicts():
+    first = Trajectory.from_ros(ROS_1)
+    assert first.names == ("b", "a")
+    assert first.times.tolist() == [0.5, 2.0]
+    ros_2 = json.loads(json.dumps(ROS_1).replace("nsecs", "nanosec").replace('"secs"', '"sec"'))
+    assert Trajectory.from_ros(ros_2).times.tolist() == [0.5, 2.0]
+    assert first.reordered(("a", "b")).positions.tolist() == [[2, 1], [4, 3]]
+
+
+@pytest.mark.parametrize(
+    "message",
+    [
+        {},
+        {"points": "x"},
+        {"points": [{"positions": [1]}]},
+        {"points": [{"positions": ["x"], "time_from_start": 0}]},
+        {"points": [{"positions": [1], "time_from_start": {}}]},
+        {"points": [{"positions": [1], "time_from_start": None}]},
+        {"points": [7]},
+        {"points": [], "joint_names": [1]},
+    ],
+)
+def test_ros_dicts_that_are_none(message):
+    with pytest.raises(InvalidTrajectory):
+        Trajectory.from_ros(message)
+
+
+def test_json_files(tmp_path):
+    path = tmp_path / "t.json"
+    trajectory = Trajectory([0, 1], [[0.0, 1.0], [2.0, 3.0]], ("a", "b"))
+    path.write_text(json.dumps(trajectory.to_dict()))
+    assert Trajectory.from_json(path).positions.tolist() == trajectory.positions.tolist()
+    path.write_text(json.dumps(ROS_1))
+    assert Trajectory.from_json(path).names == ("b", "a")
+    for bad in ("{", "[]", '{"times": []}', '{"times": [0], "positions": "x"}'):
+        path.write_text(bad)
+        with pytest.raises(InvalidTrajectory):
+            Trajectory.from_json(path)
+
+
+def test_good_trajectory_becomes_axis_values_and_durations(irb120):
+    trajectory = Trajectory.from_points([HOME, [0.1] * 6, [0.2] * 6], seconds=[0.5, 0.25])
+    made = plan(trajectory, irb120, start=[0.0] * 10)
+    assert made.durations.tolist() == [irb120.policy.min_segment, 0.5, 0.25]
+    assert np.allclose(made.wire, trajectory.positions)
+    assert made.warnings == ()
+
+
+def test_columns_go_by_name_not_by_place(irb120):
+    names = irb120.names[::-1]
+    made = plan(Trajectory([0, 1], [[0] * 6, [0.1, 0, 0, 0, 0, 0.3]], names), irb120)
+    assert np.allclose(made.wire[1], [0.3, 0, 0, 0, 0, 0.1])
+
+
+def test_all_findings_at_once(irb120):
+    positions = np.zeros((5, 6))
+    positions[0, 0] = 0.5  # away from the robot
+    positions[2, 1] = np.nan
+    positions[3, 2] = 9.0  # outside, and too fast
+    trajectory = Trajectory([0, 1, 1, 2, 2.01], positions)
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(trajectory, irb120, start=[0.0] * 10, capacity=4)
+    assert codes(error) == ["RG617"]
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(trajectory, irb120, start=[0.0] * 10)
+    assert sorted(set(codes(error))) == [
+        "RG612",
+        "RG613",
+        "RG614",
+        "RG615",
+        "RG616",
+        "RG618",
+    ]
+
+
+def test_finding_has_the_line_of_its_file(irb120, tmp_path):
+    path = tmp_path / "t.csv"
+    rows = ["time," + ",".join(irb120.names), "0,0,0,0,0,0,0", "# far out", "9,0,0,4,0,0,0"]
+    path.write_text("\n".join(rows))
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(Trajectory.from_csv(path), irb120, start=[0.0] * 10)
+    (found,) = error.value.diagnostics
+    assert (found.code, found.span.line) == ("RG614", 4)
+    assert irb120.names[2] in found.message
+
+
+def test_names_that_do_not_fit(irb120):
+    names = ("joint_7", *irb120.names[1:5], irb120.names[1])
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(Trajectory([0], [HOME], names), irb120)
+    assert codes(error) == ["RG611"] * 3
+    with pytest.raises(InvalidTrajectory):
+        plan(Trajectory([0], [[0.0] * 5]), irb120)
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(Trajectory([], np.zeros((0, 6))), irb120)
+    assert codes(error) == ["RG619"]
+
+
+def test_limits_are_inclusive_up_to_float32(irb120):
+    upper = [joint.upper for joint in irb120.joints]
+    point = [float(np.float32(value)) for value in upper]
+    plan(Trajectory([30], [point]), irb120)
+    with pytest.raises(InvalidTrajectory):
+        plan(Trajectory([30], [[value + 1e-4 for value in upper]]), irb120)
+
+
+def test_coupled_limits_are_those_of_the_axes(irb2400):
+    coupling = irb2400.map.coupling
+    assert coupling
+    third = irb2400.joints[2]
+    # Joint 3 alone is inside; with joint 2 the controller's axis 3 is not.
+    urdf = list(irb2400.map.to_urdf([0.0] * 6))
+    second = irb2400.joints[1].upper * 0.9
+    urdf[1] = second
+    urdf[2] = third.upper - coupling * second + 0.05
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(Trajectory([60], [urdf]), irb2400)
+    assert codes(error) == ["RG614"]
+    assert "coupled" in error.value.diagnostics[0].notes[0]
+
+
+def test_the_map_is_the_one_of_axes(irb2400):
+    random = np.random.default_rng(3)
+    points = random.uniform(-1, 1, (20, 6))
+    expected = [irb2400.map.to_controller(row) for row in points.tolist()]
+    assert np.allclose(irb2400.to_wire(points), expected, atol=1e-15)
+    back = [irb2400.from_wire((*row, 0, 0, 0, 0)) for row in expected]
+    assert np.allclose(back, points, atol=1e-12)
+
+
+def test_single_point(irb120):
+    point = [0.3] * 6
+    far = Trajectory([0], [point])
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(far, irb120, start=[0.0] * 10)
+    assert set(codes(error)) == {"RG616"}
+    assert len(plan(far, irb120, start=[0.0] * 10, goes_to_single=True).wire) == 2
+    timed = plan(Trajectory([2.0], [point]), irb120, start=[0.0] * 10)
+    assert timed.durations.tolist() == [2.0, irb120.policy.min_segment]
+    with pytest.raises(InvalidTrajectory) as error:
+        plan(Trajectory([0.05], [point]), irb120, start=[0.0] * 10)
+    assert "RG615" in codes(error)
+
+
+def test_scaled_resampled_reversed_and_starting_elsewhere():
+    trajectory = Trajectory.from_points([[0.0], [1.0], [0.0]], seconds=1.0, names=("a",))
+    assert trajectory.scaled(0.5).duration == 4.0
+    fine = trajectory.resampled(0.25)
+    assert fine.times.tolist() == pytest.approx([0, 0.25, 0.5, 0.75, 1, 1.25, 1.5, 1.75, 2])
+    assert fine.positions[:, 0].tolist() == pytest.approx(
+        [0, 0.25, 0.5, 0.75, 1, 0.75, 0.5, 0.25, 0]
+    )
+    ramp = Trajectory([0, 1, 3], [[0], [1], [2]], ("a",)).reversed()
+    assert ramp.times.tolist() == [0, 2, 3]
+    assert ramp.positions[:, 0].tolist() == [2, 1, 0]
+    for wrong in (0, -1, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="above 0"):
+            trajectory.scaled(wrong)
+
+
+def test_timed_stays_within_speed_limits(irb120):
+    points = np.random.default_rng(1).uniform(-1, 1, (20, 6))
+    points[0] = 0
+    rough = Trajectory.from_points(points, seconds=0.001)
+    with pytest.raises(InvalidTrajectory):
+        plan(rough, irb120, start=[0.0] * 10)
+    good = rough.timed(irb120)
+    plan(good, irb120, start=[0.0] * 10)
+    assert rough.timed(irb120, 0.5).duration > good.duration
