@@ -258,8 +258,8 @@ def _si(value: float, unit: str) -> float:
 
 
 def inwards(lower: float, upper: float) -> tuple[float, float]:
-    """Limits rounded inwards to 0.01 (deg or mm); noise below 1e-9 does not count."""
-    return math.ceil(lower * 100 - 1e-7) / 100, math.floor(upper * 100 + 1e-7) / 100
+    """Limits rounded inwards to 0.01 (deg or mm); noise below 1e-6 does not count."""
+    return math.ceil(lower * 100 - 1e-4) / 100, math.floor(upper * 100 + 1e-4) / 100
 
 
 def _unit_quaternion(

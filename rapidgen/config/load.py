@@ -16,7 +16,7 @@ from rapidgen.config.layers import (
 )
 from rapidgen.config.model import Link, RobotConfig
 from rapidgen.config.registry import find_shipped, is_path
-from rapidgen.config.tree import Mapping, Node, Scalar, decode, error, parse, read_bytes
+from rapidgen.config.tree import Mapping, Node, Scalar, decode, error, parse, read_bytes, to_python
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
 
@@ -65,6 +65,7 @@ def load_config(
         _draft(name, keys, models.get(name, ""), report)
         for name, keys in valid.configuration.groups.items()
     ]
+    _report_wider(root, drafts, report)
     for draft in drafts:
         keys = valid.configuration.groups[draft.name]
         if keys.urdf:
@@ -221,6 +222,38 @@ def _link(step: schema.ChainStep) -> Link:
     norm = sqrt(sum(v * v for v in step.axis)) or 1.0
     a, b, c = (v / norm for v in step.axis)
     return Link(step.joint, (x, y, z), (roll, pitch, yaw), (a, b, c), tuple(step.follows.items()))
+
+
+def _report_wider(root: Mapping, drafts: list[GroupDraft], report: Report) -> None:
+    """A limit beyond the shipped model's is said: ranges are never widened silently."""
+    for draft in drafts:
+        known = _known_ranges(draft.model) if draft.model else {}
+        for joint in draft.joints:
+            for figure, sign in (("lower", -1), ("upper", 1), ("speed", 1)):
+                bound = known.get((joint.axis, figure))
+                value = getattr(joint, figure)
+                if bound is not None and value is not None and (value - bound) * sign > 1e-9:
+                    report.add(
+                        "RG049",
+                        Severity.WARNING,
+                        f"'{joint.name}': {figure} {value:g} is beyond the {bound:g} known for "
+                        f"{draft.model}",
+                        ("groups", draft.name, "joints", joint.name, figure),
+                        "",
+                        "keep it only if the data sheet of your robot says so, and give `source:`",
+                    )
+
+
+def _known_ranges(model: str) -> dict[tuple[str, str], float]:
+    """Figures of a shipped model by (axis, figure)."""
+    root, _ = parse(decode(find_shipped(model).read_bytes(), model), model)
+    groups = canonical(root, ()).root.entries["groups"][1]
+    made: dict[tuple[str, str], float] = {}
+    for group in to_python(groups).values():
+        for joint in group["joints"].values():
+            for figure in ("lower", "upper", "speed"):
+                made[joint["axis"], figure] = joint[figure]
+    return made
 
 
 def _report_unsure(draft: GroupDraft, keys: schema.GroupKeys, report: Report) -> None:

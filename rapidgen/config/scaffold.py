@@ -1,11 +1,18 @@
 """Configurations to start from: commented, and checked before they are written."""
 
-from collections.abc import Sequence
+import json
+import math
+import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
+from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped
+from rapidgen.config.urdf.group import complete_from, request
+from rapidgen.config.urdf.source import macros, read_xml
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 _OPTIONS = """
@@ -63,6 +70,86 @@ def _limits_hint(joint: str) -> str:
     return (
         "# joints:                  # your limits over the model's, never wider than the robot's\n"
         f'#   {joint}: {{lower: -90, upper: 90, source: "fence of the cell"}}\n'
+    )
+
+
+def from_urdf(
+    urdf: Path,
+    *,
+    folder: Path,
+    package_paths: Sequence[Path] = (),
+    macro: str | None = None,
+    arguments: Mapping[str, str] | None = None,
+    tip: str | None = None,
+) -> str:
+    """Configuration text for a robot description; `folder` is where the file will lie.
+
+    A file with one macro is called through it, and a robot of a coupled family gets its
+    coupling; whatever else cannot be known raises DiagnosticError with the lines to paste.
+    """
+    given = schema.Urdf(
+        file=_relative(urdf, folder), macro=macro, args=dict(arguments or {}), tip=tip
+    )
+    text, _ = read_xml(urdf)
+    coupling: float | None = None
+    while True:
+        draft = GroupDraft("rob1", coupling=coupling)
+        wanted = request(given, folder, package_paths, None)
+        found, _ = complete_from(draft, given, wanted, frozenset())
+        errors = [d for d in found if d.severity is Severity.ERROR]
+        codes = {d.code for d in errors}
+        defined = macros(text)
+        if codes == {"RG031"} and len(defined) == 1 and not given.macro:
+            given = schema.Urdf(
+                file=given.file, macro=defined[0].name, args=given.args, tip=given.tip
+            )
+        elif codes == {"RG047"} and coupling is None:
+            coupling = 1.0
+        elif errors:
+            raise DiagnosticError(errors)
+        else:
+            break
+    return _urdf_text(given, draft, _packages(wanted.packages.used, folder))
+
+
+def _packages(used: Mapping[str, Path], folder: Path) -> dict[str, str]:
+    return {name: _relative(path, folder) for name, path in sorted(used.items())}
+
+
+def _relative(path: Path, folder: Path) -> str:
+    return os.path.relpath(path.resolve(), folder.resolve())
+
+
+def _urdf_text(given: schema.Urdf, draft: GroupDraft, packages: Mapping[str, str]) -> str:
+    quoted = json.dumps  # a JSON text is a YAML text
+    lines = [
+        f"# Made from {Path(given.file).name}. Check every axis against the robot before it moves.",
+        "controller:",
+        "  type: irc5               # or irc5_compact, omnicore",
+        "  robotware: 6.15          # see the FlexPendant: Settings or System Info",
+        "urdf:",
+        f"  file: {quoted(given.file)}",
+    ]
+    lines += [f"  macro: {given.macro}"] if given.macro else []
+    lines += [f"  tip: {quoted(given.tip)}"] if given.tip else []
+    lines += [f"  args: {quoted(given.args)}"] if given.args else []
+    lines += [f"  packages: {quoted(packages)}"] if packages else []
+    lines.append("joints:                    # in the order of the wire; limits from the URDF")
+    lines += [f"  {_joint_line(joint)}" for joint in draft.joints]
+    lines.append(
+        f"coupling: {draft.coupling or 0:g}                # 1 where a rod couples axes 2 and 3"
+    )
+    return "\n".join(lines) + "\n" + _OPTIONS + _GROUP_OPTIONS
+
+
+def _joint_line(joint: JointDraft) -> str:
+    name = joint.name if joint.name.isidentifier() else json.dumps(joint.name)
+    unit = ", unit: mm" if joint.unit == "mm" else ""
+    of = joint.unit or "deg"
+    lower, upper = (math.floor((v or 0) * 100 + 0.5) / 100 for v in (joint.lower, joint.upper))
+    return (
+        f"{name}: {{axis: {joint.axis}{unit}}}   "
+        f"# {lower:g}..{upper:g} {of}, {joint.speed or 0:.4g} {of}/s"
     )
 
 

@@ -50,7 +50,7 @@ class Graph:
                     found.append(fixed.child)
                     queue.append(fixed.child)
         for ending in ("tool0", "flange"):
-            hits = [link for link in found if link.endswith(ending)]
+            hits = [link for link in found if ending in link]
             if hits:
                 return hits[0]
         return joint.child

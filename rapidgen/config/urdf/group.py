@@ -32,8 +32,16 @@ def complete(
     `folder` is where relative paths of the configuration start; `elsewhere` are the joints
     that other groups drive.
     """
+    return complete_from(draft, given, request(given, folder, package_paths, place), elsewhere)
+
+
+def complete_from(
+    draft: GroupDraft, given: schema.Urdf, wanted: Request, elsewhere: frozenset[str]
+) -> tuple[Found, list[tuple[str, bytes]]]:
+    """`complete` for a request that is made already."""
+    place = wanted.place
     try:
-        description = expand(request(given, folder, package_paths, place))
+        description = expand(wanted)
         robot = read_robot(description, place)
     except DiagnosticError as fault:
         return list(fault.diagnostics), []

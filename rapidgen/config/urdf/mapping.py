@@ -63,11 +63,10 @@ def infer(
 def paste(joints: Sequence[UrdfJoint]) -> str:
     """YAML lines that settle the mapping, with what the names suggest."""
     numbers = [parts[1] if (parts := number_of(j.name)) else 0 for j in joints]
-    plain = len(set(numbers)) == len(numbers) and set(numbers) <= set(range(1, 8))
     lines = ["joints:   # check every line against the robot; unused joints: urdf.ignore_joints"]
     for joint, number in zip(joints, numbers, strict=True):
-        axis = "rax_?  or eax_?"
-        if plain:
+        axis = "rax_? or eax_?"
+        if 1 <= number <= 7 and numbers.count(number) == 1:
             axis = f"rax_{number}" if number <= 6 else "eax_a"
         unit = ", unit: mm" if joint.kind == "prismatic" else ""
         name = joint.name if re.fullmatch(r"\w+", joint.name) else f'"{joint.name}"'

@@ -22,17 +22,22 @@ class PackageNotFound(LookupError):
 
 @dataclass
 class Packages:
-    """Finds packages and remembers which were found twice."""
+    """Finds packages; remembers which were used and which were found twice."""
 
     explicit: Mapping[str, Path]
     paths: Sequence[Path]
     start: Path
     environment: Mapping[str, str] = field(default_factory=lambda: dict(os.environ))
+    used: dict[str, Path] = field(default_factory=dict)
     doubles: dict[str, tuple[Path, Path]] = field(default_factory=dict)
     _scans: dict[Path, dict[str, list[Path]]] = field(default_factory=dict)
 
     def find(self, name: str) -> Path:
         """Folder of a package; raises PackageNotFound."""
+        self.used[name] = self._find(name)
+        return self.used[name]
+
+    def _find(self, name: str) -> Path:
         if name in self.explicit:
             if self.explicit[name].is_dir():
                 return self.explicit[name]
