@@ -22,6 +22,11 @@ VERBS = (
     "schema",
     "build",
     "sim",
+    "move",
+    "stop",
+    "monitor",
+    "record",
+    "plot",
 )
 
 # Verbs that take words of other programs' kind (`--profile` with or without a value).
