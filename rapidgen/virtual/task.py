@@ -4,6 +4,7 @@ of it. Errors are in recovery.py, starting and stopping in running.py."""
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from rapidgen.virtual import unsupported
 from rapidgen.virtual.compiler.program import LoadedModule, Program
 from rapidgen.virtual.compiler.runtime import LateArgument
 from rapidgen.virtual.compiler.symbols import Parameter, Routine
@@ -179,7 +180,9 @@ class Task(Recovery):
 
     def missing(self, name: str) -> None:
         """A routine that controllers have and this one has not."""
-        raise FatalError(40001, f"{name} is not available on the virtual controller", name)
+        raise FatalError(
+            40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
+        )
 
     def late(self, name: str, module: LoadedModule | None, arguments: tuple[Any, ...]) -> None:
         """`%name% arguments;` [K §4.5]."""

@@ -2,6 +2,7 @@
 
 from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.rapid import nodes as n
+from rapidgen.virtual import unsupported
 from rapidgen.virtual.compiler.analysis import walk
 from rapidgen.virtual.compiler.program import Program
 
@@ -35,6 +36,6 @@ def missing_routines(program: Program) -> list[Diagnostic]:
                         Severity.WARNING,
                         f"{routine.name} is not available on the virtual controller",
                         module.span(node),
-                        label="the task stops here",
+                        label=f"{unsupported.reason(key)}; the task stops here",
                     )
     return list(found.values())
