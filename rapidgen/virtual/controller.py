@@ -24,6 +24,7 @@ from rapidgen.virtual.faults import schedule as schedule_faults
 from rapidgen.virtual.files import FileSystem
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import ClockKind, Kernel, Schedule
+from rapidgen.virtual.loading import ModuleTable
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
@@ -199,6 +200,7 @@ class VirtualController(ControllerState):
         self.files = FileSystem(folder, home=system.home)
         self.operator = Operator(self.kernel, answers)
         self.texts = TextTables()
+        self.modules = ModuleTable()
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,

@@ -14,6 +14,7 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.files import FileSystem
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, WaitSet
+from rapidgen.virtual.loading import ModuleTable
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
@@ -45,6 +46,7 @@ class ControllerState:
     io: IOSystem
     motion: MotionSystem
     files: FileSystem
+    modules: ModuleTable
     sockets: SocketTable
     costs: Costs
     dialect: Dialect
@@ -306,7 +308,8 @@ class ControllerState:
                     other.stop()
 
     def reset_task(self, task: Task) -> None:
-        """PP to main of a task: its sockets and files are closed."""
+        """PP to main of a task: its sockets and files are closed, its dynamic modules go."""
+        self.modules.drop_dynamic(task)
         self.sockets.close_task(task.name)
         self.files.close_task(task.name)
         group = self.motion.of_task(task.name)

@@ -53,6 +53,26 @@ def value_text(value: Any, type_: Type | None = None) -> str:  # noqa: ANN401 - 
     return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS)
 
 
+def literal_text(value: Any, type_: Type) -> str:  # noqa: ANN401 - any RAPID value
+    """A value as a literal that reads back as exactly the same value."""
+    if value.__class__ is dict:
+        return "[" + ",".join(literal_text(v, type_) for v in value.values()) + "]"
+    if isinstance(value, Record):
+        parts = zip(value.values(), value.rapid_type.components, strict=True)
+        return "[" + ",".join(literal_text(part, kind) for part, (_, kind) in parts) + "]"
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '""') + '"'
+    if type_ is DNUM:
+        return f"{value:.17G}" if float(f"{value:.15G}") != value else f"{value:.15G}"
+    for digits in range(6, 10):
+        text = f"{value:.{digits}G}"
+        if single(float(text)) == value:
+            return text
+    return text
+
+
 def to_places(value: float, places: int, *, truncate: bool = False) -> Decimal:
     """`value` rounded (half away from zero) or cut to a number of decimals."""
     step = Decimal(1).scaleb(-places)
