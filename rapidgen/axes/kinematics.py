@@ -115,6 +115,14 @@ class Kinematics:
         solved = arm[0].solve(self._from_base(pose, values), arm[0].branch(angles), angles[3])
         return None if solved is None else self._as_posture(solved, angles, values)
 
+    def reaches(self, pose: Pose, near: Posture) -> bool:
+        """Whether any posture reaches a pose, ranges apart."""
+        if self._arm is None:
+            return any(self._iterate(pose, start) is not None for start in self._starts(near))
+        values = self.map.to_urdf(near)
+        based = self._from_base(pose, values)
+        return any(self._arm[0].solve(based, branch, 0.0) is not None for branch in BRANCHES)
+
     def solutions(self, pose: Pose, near: Posture) -> list[Posture]:
         """All postures within the ranges that reach a pose, external axes as in `near`.
 
@@ -238,7 +246,8 @@ class Kinematics:
             room = slack / (pi / 2) * size
             if not cf * size - room <= posture[place] <= (cf + 1) * size + room:
                 return False
-        return self.configuration(posture)[3] == wanted[3] or bool(self.group.coupling)
+        loose = bool(self.group.coupling) or not self.is_closed_form
+        return loose or self.configuration(posture)[3] == wanted[3]
 
     @cached_property
     def _axes(self) -> dict[str, int]:

@@ -7,6 +7,7 @@ Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-St
 from collections.abc import Iterable
 
 from rapidgen.virtual.errors import FatalError
+from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.access import group_of, motion_of
 from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.registry import builtin
@@ -24,7 +25,9 @@ def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
     if not all_tasks:
         return (group_of(task),)
     if motion_of(task).is_motion_task(task.name):
-        raise FatalError(40_589, "Not allowed", "\\AllMotionTasks is for non-motion tasks")
+        raise FatalError(
+            events.NOT_ALLOWED, "Not allowed", "\\AllMotionTasks is for non-motion tasks"
+        )
     return motion_of(task).groups.values()
 
 

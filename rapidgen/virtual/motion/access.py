@@ -7,6 +7,7 @@ from types import FrameType
 from typing import Any
 
 from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.task import Task
@@ -34,14 +35,18 @@ def group_of(task: Task) -> MotionGroup:
     """The group that the task moves or is connected to. FatalError: there is none."""
     group = motion_of(task).of_task(task.name)
     if group is None:
-        raise FatalError(40_588, "No mechanical unit", f"{task.name} is connected to no robot")
+        raise FatalError(
+            events.NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot"
+        )
     return group
 
 
 def moving_group(task: Task) -> MotionGroup:
     """The same for move instructions, which only a motion task may execute."""
     if not motion_of(task).is_motion_task(task.name):
-        raise FatalError(40_587, "Not a motion task", f"{task.name} cannot execute moves")
+        raise FatalError(
+            events.NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves"
+        )
     return group_of(task)
 
 

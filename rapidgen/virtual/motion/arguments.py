@@ -7,6 +7,7 @@ from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Quaternion, normalise
 from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.moves import Posture, Speed, Zone
 from rapidgen.virtual.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, single
@@ -107,7 +108,7 @@ def quaternion(data: Data) -> Quaternion:
     """
     q = (data.q1, data.q2, data.q3, data.q4)
     if abs(sum(v * v for v in q) - 1.0) > 0.1:
-        raise FatalError(40_150, "Orientation not normalised", f"{list(q)}")
+        raise FatalError(events.NOT_NORMALISED, "Orientation not normalised", f"{list(q)}")
     return normalise(q)
 
 

@@ -9,6 +9,7 @@ from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.limits import outside
 from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.virtual.motion.moves import CartesianMove, Measure, Posture, largest, nominal_time
 from rapidgen.virtual.motion.pieces import AxisLimits, Curve, Piece
@@ -116,7 +117,9 @@ class CartesianWay:
             if count >= _MOST:
                 if step > _JUMP:
                     raise FatalError(
-                        50_026, "Close to singularity", "an axis would have to turn at once"
+                        events.SINGULARITY,
+                        "Close to singularity",
+                        "an axis would have to turn at once",
                     )
                 break
             count = min(_MOST, max(2 * count, min(4 * count, ceil(count * step / _STEP))))
@@ -173,9 +176,13 @@ def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
         return Line(start, move.target)
     arc = arc_through(start, move.via[0], move.target)
     if arc is None:
-        raise FatalError(50_063, "Circle uncertain", "the three points make no circle")
+        raise FatalError(
+            events.CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"
+        )
     if arc.sweep > LARGEST_ARC:
-        raise FatalError(50_063, "Circle uncertain", "more than 240 degrees in one MoveC")
+        raise FatalError(
+            events.CIRCLE_UNCERTAIN, "Circle uncertain", "more than 240 degrees in one MoveC"
+        )
     return arc
 
 

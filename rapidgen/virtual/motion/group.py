@@ -18,22 +18,31 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
+from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.cartesian import CartesianWay
 from rapidgen.virtual.motion.corners import zone_entry
 from rapidgen.virtual.motion.legs import Geometry, Leg, joint_measure, joint_way, lever_measure
 from rapidgen.virtual.motion.modal import ModalSettings
-from rapidgen.virtual.motion.moves import NO_WAY, CartesianMove, JointMove, Measure, Move, Posture
+from rapidgen.virtual.motion.moves import (
+    NO_WAY,
+    CartesianMove,
+    From,
+    JointMove,
+    Measure,
+    Move,
+    PathEvent,
+    Posture,
+)
 from rapidgen.virtual.motion.path import NOTHING_M, Path, posture_at
 from rapidgen.virtual.motion.pieces import AxisLimits, Piece
 from rapidgen.virtual.motion.settings import MotionSettings
 from rapidgen.virtual.motion.timelaw import TimeLaw, brake, plan
+from rapidgen.virtual.values import Record
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
 
 
-TIME_NOT_MET = 59_001
-"""Ours: a controller says nothing when it cannot keep \\T."""
 LATE = 0.002
 """s by which a move may miss its \\T unreported."""
 
@@ -104,6 +113,7 @@ class MotionGroup:
         self._timer: Timer | None = None
         self._due = inf
         self._commit = inf
+        self._events: list[tuple[Leg, PathEvent]] = []
         self._release = inf
         self._was_standing = True
         self._late = 0.0
@@ -112,9 +122,9 @@ class MotionGroup:
         self._concurrent = 0
         self._settled = 0
         self.modal = ModalSettings()
-        self.tool: object = None
+        self.tool: Record | None = None
         """tooldata of the last move, None before the first."""
-        self.work_object: object = None
+        self.work_object: Record | None = None
         """wobjdata of the last move, None before the first or when it had none."""
         self.observers: list[Callable[[Motion], None]] = []
         """Called with every new motion (the recorder)."""
@@ -139,9 +149,10 @@ class MotionGroup:
         """Where the path ends: the start of the next move."""
         return self._path.target
 
-    def use(self, tool: object, work_object: object) -> None:
+    def use(self, tool: Record, work_object: Record | None) -> None:
         """Tool and work object of the move that follows are the active ones from now on."""
-        self.tool, self.work_object = tool, work_object
+        self.tool = tool.copy()
+        self.work_object = work_object.copy() if work_object is not None else None
 
     def jump(self, posture: Posture) -> None:
         """Put the standing robot elsewhere (a test, a restored state). The path is dropped."""
@@ -229,30 +240,33 @@ class MotionGroup:
         time before the path could no longer be changed into a corner. ERR_ROBLIMIT or
         FatalError 50027: outside the axis ranges. ERR_CONC_MAX: too many \\Conc in a row.
         """
+        leg = self.enqueue(move)
+        if leg is None or move.concurrent:
+            return
+        if move.zone.fine:
+            self.wait(task, leg, lambda: leg.finished and self.is_settled)
+            if move.dwell > 0:
+                task.wait_for(lambda: False, on=(), timeout=move.dwell)
+        else:
+            self.wait(task, leg, lambda: leg.released or leg.finished)
+
+    def enqueue(self, move: Move) -> Leg | None:
+        """Put a move on the path without holding anybody; None when the robot is there."""
         self._check(move)
         self._settle()
         leg = self._append(move)
         self._settle()
-        if leg is None or move.concurrent:
-            return
-        if move.zone.fine:
-            self._wait(task, lambda: leg.finished and self.is_settled, leg)
-            if move.dwell > 0:
-                task.wait_for(lambda: False, on=(), timeout=move.dwell)
-        else:
-            self._wait(task, lambda: leg.released or leg.finished, leg)
+        return leg
+
+    def wait(self, task: Waiter, leg: Leg, ready: Callable[[], bool]) -> None:
+        """Hold a task until `ready()`, or until the leg is taken off the path."""
+        hang = self.settings.cleared_move == "hang"
+        task.wait_for(lambda: ready() or (leg.cleared and not hang), on=(self.changed,))
 
     def wait_standing(self, task: Waiter) -> None:
         """Hold the task until the robot stands."""
         self._settle()
         task.wait_for(lambda: self.is_settled, on=(self.changed,))
-
-    def _wait(self, task: Waiter, ready: Callable[[], bool], leg: Leg) -> None:
-        hang = self.settings.cleared_move == "hang"
-        task.wait_for(
-            lambda: ready() or (leg.cleared and not hang),
-            on=(self.changed,),
-        )
 
     def _check(self, move: Move) -> None:
         if move.concurrent:
@@ -267,7 +281,7 @@ class MotionGroup:
         faults = outside(self.config.joints, move.target)
         if faults:
             if self.settings.range_error == "fatal":
-                raise FatalError(50_027, "Joint out of range", str(faults[0]))
+                raise FatalError(events.OUT_OF_RANGE, "Joint out of range", str(faults[0]))
             raise RapidError("ERR_ROBLIMIT", str(faults[0]))
 
     def _append(self, move: Move) -> Leg | None:
@@ -283,6 +297,7 @@ class MotionGroup:
         limits = self._limits.scaled(self.modal.acceleration)
         standing = self.is_standing
         leg, failed = path.extend(move, self._way, self._law, limits, fixed, self.kinematics)
+        self._events += [(leg, event) for event in move.events]
         if standing and not self._stops:
             leg.began = self._kernel.now / S
         if failed:
@@ -307,7 +322,7 @@ class MotionGroup:
         if isinstance(move, JointMove):
             return all(abs(a - b) < NOTHING_M for a, b in zip(move.target, ends, strict=True))
         assert isinstance(move, CartesianMove)
-        kinematics = self._geometry()
+        kinematics = self.geometry()
         if move.via is not None:
             return False
         position, orientation = move.carrier.pose(kinematics.forward(ends))
@@ -324,28 +339,28 @@ class MotionGroup:
     def _way(self, origin: Posture, move: Move, from_rest: bool) -> Geometry:
         limits = self._limits.scaled(self.modal.acceleration)
         if isinstance(move, CartesianMove):
-            way = CartesianWay(origin, move, self._geometry(), limits, from_rest=from_rest)
+            way = CartesianWay(origin, move, self.geometry(), limits, from_rest=from_rest)
             self._check_configuration(move, way.target)
             return way
         assert isinstance(move, JointMove)
         return joint_way(origin, move, self.measure(origin, move), limits, from_rest=from_rest)
 
-    def _geometry(self) -> Kinematics:
-        """FatalError: the model has none."""
+    def geometry(self) -> Kinematics:
+        """The group's kinematics. FatalError: its model has none."""
         if self.kinematics is None:
             raise FatalError(
-                50_900,
+                events.NO_GEOMETRY,
                 "No geometry",
                 f"{self.name}: the configuration has no chain, so the robot moves in joints only",
             )
         return self.kinematics
 
     def _check_configuration(self, move: CartesianMove, target: Posture) -> None:
-        if move.wanted is None or self._geometry().matches(target, move.wanted):
+        if move.wanted is None or self.geometry().matches(target, move.wanted):
             return
-        reached = self._geometry().configuration(target)
+        reached = self.geometry().configuration(target)
         raise FatalError(
-            50_080,
+            events.NOT_COMPATIBLE,
             "Position not compatible",
             f"the way ends in configuration {list(reached)}, programmed is {list(move.wanted)}",
         )
@@ -490,6 +505,7 @@ class MotionGroup:
             if leg.stops:
                 times.append(start + ceil(law.time_at(leg.end) * S))
                 break
+        times += [ceil(when * S) for when in map(self._when, self._events) if when < inf]
         ahead = [time for time in times if time > now]
         due = min(ahead, default=None)
         if self._timer is not None:
@@ -509,6 +525,8 @@ class MotionGroup:
             if now >= self._commit:
                 tail.committed = tail.released = changed = True
                 self._corner_failure(tail)
+        if self._events:
+            self._fire_events()
         place, _ = self._state()
         done = self._path.passed(place)
         if done:
@@ -527,6 +545,28 @@ class MotionGroup:
         self._schedule()
         if changed:
             self.changed.notify()
+
+    def _when(self, entry: tuple[Leg, PathEvent]) -> float:
+        """Kernel time (s) of an event on the present motion; infinite when it stops short."""
+        leg, event = entry
+        law, start = self._motion.law, self._motion.start / S
+        place = leg.end
+        if event.where in (From.END, From.START):
+            length = leg.way.measure.tcp
+            share = min(1.0, event.amount / length) if length > NO_WAY else 0.0
+            way = share * (leg.end - leg.begin)
+            place = leg.begin + way if event.where is From.START else leg.end - way
+        early = event.lag + (event.amount if event.where is From.BEFORE_END else 0.0)
+        if law.place < place - 1e-9:
+            return inf
+        return start + law.time_at(place) - early
+
+    def _fire_events(self) -> None:
+        now = self._kernel.now / S
+        due = [entry for entry in self._events if self._when(entry) <= now]
+        self._events = [e for e in self._events if e not in due and not e[0].cleared]
+        for _, event in due:
+            event.act()
 
     def _finish(self, legs: list[Leg], *, cleared: bool) -> None:
         for leg in legs:
@@ -553,7 +593,7 @@ class MotionGroup:
     def _report_lateness(self) -> None:
         if self._late_moves:
             self._log.warning(
-                TIME_NOT_MET,
+                events.TIME_NOT_MET,
                 "Programmed time not met",
                 f"{self.name}: {self._late_moves} moves with \\T took {self._late:.3f} s longer",
                 "the axes' limits, the override or a stop",
@@ -563,7 +603,7 @@ class MotionGroup:
     def _corner_failure(self, leg: Leg) -> None:
         where = leg.move.place() if leg.move.place is not None else None
         self._log.warning(
-            50_024,
+            events.CORNER_PATH_FAILURE,
             "Corner path failure",
             f"{self.name}: the corner is executed as a stop point"
             + (f" ({where})" if where else ""),
