@@ -32,9 +32,12 @@ def run(
     robot: Annotated[
         str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")
     ] = "",
-    entry: Annotated[str, typer.Option("--entry", help="Procedure that a task starts in.")] = "main",
+    entry: Annotated[
+        str, typer.Option("--entry", help="Procedure that a task starts in.")
+    ] = "main",
     cycle: Annotated[
-        Literal["once", "forever"], typer.Option("--cycle", help="Run main once or again and again.")
+        Literal["once", "forever"],
+        typer.Option("--cycle", help="Run main once or again and again."),
     ] = "once",
     max_time: Annotated[
         float, typer.Option("--max-time", metavar="S", help="Simulated seconds at most.")
@@ -48,7 +51,8 @@ def run(
         typer.Option("--schedule", help="Switching between tasks; pers: at every PERS access."),
     ] = "round-robin",
     dialect: Annotated[
-        str, typer.Option("--dialect", metavar="SWITCH=VALUE,...", help="See virtual-controller.md.")
+        str,
+        typer.Option("--dialect", metavar="SWITCH=VALUE,...", help="See virtual-controller.md."),
     ] = "",
     answers: Annotated[
         Path | None, typer.Option("--answers", help="YAML with the operator's answers.")
@@ -125,9 +129,7 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
         name, equals, names = text.partition("=")
         if not equals or not name or not names:
             raise DiagnosticError(
-                Diagnostic(
-                    "RG901", Severity.ERROR, f"--task '{text}' is not NAME=FILE,FILE"
-                )
+                Diagnostic("RG901", Severity.ERROR, f"--task '{text}' is not NAME=FILE,FILE")
             )
         by_task.setdefault(name, []).extend(names.split(","))
     if by_task:
@@ -150,9 +152,7 @@ def _dialect(text: str) -> "Dialect":
     try:
         return parse_dialect(text)
     except ValueError as error:
-        raise DiagnosticError(
-            Diagnostic("RG901", Severity.ERROR, f"--dialect: {error}")
-        ) from error
+        raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, f"--dialect: {error}")) from error
 
 
 def _run(
@@ -163,7 +163,9 @@ def _run(
 
     ended = controller.run(max_time=max_time, max_statements=max_statements)
     found = [
-        _fault(task.name, task.fault) for task in controller.tasks.values() if task.fault is not None
+        _fault(task.name, task.fault)
+        for task in controller.tasks.values()
+        if task.fault is not None
     ]
     where = tuple(controller.where())
     if ended == "deadlock":

@@ -94,9 +94,7 @@ class Recovery(Process):
         known.target = None
         return self._run_handler(handler, known, retries, frame, traceback)
 
-    def _stop_at_bare_callee(
-        self, error: RapidError, traceback: TracebackType | None
-    ) -> None:
+    def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
         """Dialect: an error that came out of a routine without ERROR is nobody's."""
         at = traceback.tb_next if traceback is not None else None
         while at is not None:
@@ -257,11 +255,12 @@ class Recovery(Process):
 
     # -- reports ---------------------------------------------------------------------------------
 
-    def unhandled(self, error: RapidError) -> FatalError:
+    def unhandled(self, raised: Exception) -> FatalError:
         """What the system error handler makes of an error."""
+        error = as_rapid_error(raised)
         name = error_name(error.number)
         fatal = FatalError(40199, f"Unhandled error {name}", name, error.text, cause=error)
-        fatal.stack = self.stack_of(error.__traceback__)
+        fatal.stack = self.stack_of(raised.__traceback__)
         return fatal
 
     def place_of(self, file: str, line: int) -> Place | None:

@@ -10,7 +10,6 @@ from rapidgen.virtual.errors import (
     EndOfRun,
     ExitCycle,
     FatalError,
-    as_rapid_error,
 )
 from rapidgen.virtual.kernel import Kernel
 from rapidgen.virtual.task import Task
@@ -124,7 +123,7 @@ class RapidTask(Task):
             self._fail(fatal, fatal)
             return False
         except RECOVERABLE as error:
-            self._fail(self.unhandled(as_rapid_error(error)), error)
+            self._fail(self.unhandled(error), error)
             return False
         except RecursionError as error:
             self._fail(FatalError(40027, "Stack overflow"), error)

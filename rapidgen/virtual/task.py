@@ -8,7 +8,7 @@ from rapidgen.virtual import unsupported
 from rapidgen.virtual.compiler.program import LoadedModule, Program
 from rapidgen.virtual.compiler.runtime import LateArgument
 from rapidgen.virtual.compiler.symbols import Parameter, Routine
-from rapidgen.virtual.errors import EndOfRun, FatalError, RapidError, as_rapid_error
+from rapidgen.virtual.errors import EndOfRun, FatalError, RapidError
 from rapidgen.virtual.interrupts import Interrupts
 from rapidgen.virtual.kernel import Kernel, WaitSet
 from rapidgen.virtual.recovery import Recovery
@@ -146,7 +146,7 @@ class Task(Recovery):
                     raise  # a long jump may leave the trap level [K §7.2]
                 raise self.unhandled(error) from error
             except (ZeroDivisionError, KeyError, OverflowError) as error:
-                raise self.unhandled(as_rapid_error(error)) from error
+                raise self.unhandled(error) from error
             finally:
                 self.in_trap = False
                 self.trap_data = None

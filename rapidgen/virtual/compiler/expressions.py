@@ -30,7 +30,7 @@ class Expressions(CompilerBase):
             return f"RND({e.code})"
         return f"((_t := (_y := {e.code}) * 536870913.0) - (_t - _y))"
 
-    def store_lines(self, target: str, e: E, kind: Type) -> list[str]:
+    def store_lines(self, target: str, e: E, kind: Type, *, keep: bool = False) -> list[str]:
         """Statements that store `e` in a simple Python target, rounded.
 
         Rounding splits at 24 bits (Veltkamp), which is exact inside the normal range; what may
@@ -44,9 +44,16 @@ class Expressions(CompilerBase):
             if low < -EXACT or high > EXACT:
                 lines.append(f"if not -{EXACT} <= {target} <= {EXACT}: {target} = RND({target})")
             return lines
-        lines = [f"{target} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)"]
-        if e.risky:
-            lines.append(f"if not -{_LARGEST} <= {target} <= {_LARGEST}: {target} = RND(_y)")
+        if not e.risky:
+            return [f"{target} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)"]
+        # A failing store leaves the target as it was; without ERROR nobody sees a local again.
+        held = "_x" if keep else target
+        lines = [
+            f"{held} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)",
+            f"if not -{_LARGEST} <= {held} <= {_LARGEST}: {held} = RND(_y)",
+        ]
+        if keep:
+            lines.append(f"{target} = {held}")
         return lines
 
     def by_value(self, e: E, kind: Type) -> str:
