@@ -6,7 +6,7 @@ tasks refuse to serve and to move), the files, the fence's own files, everything
 more, the manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
 """
 
-from rapidgen.deploy.driverset import DriverSet, SetFile, digest
+from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, SetFile, digest
 from rapidgen.deploy.keep import (
     back_up,
     delete_backup,
@@ -17,8 +17,6 @@ from rapidgen.deploy.keep import (
 )
 from rapidgen.deploy.plan import Change, Plan, make_plan
 from rapidgen.deploy.run import (
-    FENCE,
-    NEW,
     Run,
     Say,
     delete,
@@ -127,6 +125,8 @@ def _prepare(run: Run) -> Journal:
         tuple(staged),
     )
     _write_journal(run, journal)
+    # Only now, as the new journal knows the contents that the old staged files explained.
+    delete_all(run, (path for path in (old.staged if old else ()) if path not in staged))
     try:
         if not plan.repair:
             back_up(run, number)
@@ -204,7 +204,7 @@ def _finish(run: Run, journal: Journal | None) -> None:
         swap(run, path, NEW, data, exists="manifest.json" in present)
     elif run.plan.wanted is None and "manifest.json" in present:
         delete(run, f"{folder}/manifest.json")
-    delete_all(run, journal.staged if journal else ())
+    delete_all(run, [*(journal.staged if journal else ()), f"{folder}/manifest.json{NEW}"])
     if run.plan.wanted is None:
         delete_backups(run, keep=frozenset())
     elif journal is not None and journal.new is not None:
@@ -220,9 +220,9 @@ def _finish(run: Run, journal: Journal | None) -> None:
 def _clean(run: Run) -> None:
     """Take away what an earlier run left half-done; what it switched is in the plan already."""
     journal = run.plan.state.journal
-    delete_all(run, [*(journal.staged if journal else ()), f"{run.folder}/manifest.json{NEW}"])
     if run.plan.repair:
         return
+    delete_all(run, [*(journal.staged if journal else ()), f"{run.folder}/manifest.json{NEW}"])
     finished = journal is not None and run.plan.had is not None and run.plan.had.id == journal.id
     delete_all(run, [f"{run.folder}/switching"])
     if journal is not None and journal.new is not None and not finished:

@@ -16,6 +16,9 @@ Kind = Literal["module", "cfg"]
 STATE = "rapidgen_deploy"
 """Folder in HOME that a deployment keeps for itself (no dot: some FTP servers hide those)."""
 
+NEW, FENCE = ".rg-new", ".rg-fence"
+"""Suffixes of staged files."""
+
 INCOMPLETE = b"incomplete--"
 """Stands for BUILD_ID in a fence; as long as one, and equal to none."""
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal
 
 from rapidgen.deploy.cfg import CfgChange, compare, keyed, names_of
-from rapidgen.deploy.driverset import STATE, DriverSet, digest
+from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.state import Manifest, Record, State, read_state
 from rapidgen.deploy.steps import Step, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
@@ -115,7 +115,7 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
-    base = _base(state)
+    base = _base(transport, layout.home, state)
     had = base.had
     if state.damaged and not base.repair:
         raise _refused(
@@ -257,9 +257,16 @@ class _Base:
     cfg_before: dict[str, Any]
     interrupted: str
     repair: bool
+    pieces: dict[str, list[bytes]]
+    """Staged contents by path: without rename a cut leaves the beginning of one in place."""
+
+    def owns(self, path: str, data: bytes) -> bool:
+        """Whether these contents were put there by a deployment, if only in part."""
+        known = digest(data) in self.known.get(path, ())
+        return known or any(piece.startswith(data) for piece in self.pieces.get(path, ()))
 
 
-def _base(state: State) -> _Base:
+def _base(transport: Transport, home: str, state: State) -> _Base:
     had, journal = state.manifest, state.journal
     interrupted, repair = "", False
     if journal is not None:
@@ -275,6 +282,8 @@ def _base(state: State) -> _Base:
             interrupted = f"{journal.verb} {journal.id} was cut before it changed anything"
     elif state.switching:
         interrupted = "a deployment was cut, and its journal is lost"
+    elif state.litter:
+        interrupted = "a deployment was cut before it began"
     manifests = [had, journal.new if journal is not None and repair else None]
     known = {p: set(h) for p, h in journal.known.items()} if journal and repair else {}
     records: dict[str, Record] = {}
@@ -286,7 +295,13 @@ def _base(state: State) -> _Base:
         for record in manifest.files:
             records.setdefault(record.path, record)
             known.setdefault(record.path, set()).add(record.sha256)
-    return _Base(had, records, known, origin, before, interrupted, repair)
+    pieces: dict[str, list[bytes]] = {}
+    for staged in journal.staged if journal is not None and repair else ():
+        data = read_or_none(transport, staged)
+        if data is not None:
+            path = staged.removeprefix(home).removesuffix(NEW).removesuffix(FENCE)
+            pieces.setdefault(path, []).append(data)
+    return _Base(had, records, known, origin, before, interrupted, repair, pieces)
 
 
 def _file_changes(
@@ -304,7 +319,7 @@ def _file_changes(
             action = "same"
         elif current is not None and ours is None:
             conflict = "stranger"
-        elif current is not None and ours is not None and digest(current) not in ours:
+        elif current is not None and not base.owns(file.path, current):
             conflict = "edited"
             note = _edited_lines(base.records.get(file.path), current, file.data)
         foreign = current is not None and ours is None
@@ -323,7 +338,7 @@ def _file_changes(
             )
         )
     written = {c.path for c in changes}
-    for path, ours in base.known.items():
+    for path in base.known:
         if path in written:
             continue
         where = layout.home + path
@@ -333,7 +348,7 @@ def _file_changes(
             after = transport.read(f"{layout.home}{STATE}/backup/{base.origin[path].stored}")
         if current == after:
             continue
-        edited = current is not None and digest(current) not in ours
+        edited = current is not None and not base.owns(path, current)
         changes.append(
             Change(
                 path,

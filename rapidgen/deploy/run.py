@@ -11,9 +11,6 @@ from rapidgen.deploy.transport import Transport, TransportFault, parent, read_or
 Rename = Literal["replace", "move", "none"]
 """rename() replaces an existing file; or only takes a free name; or does not work."""
 
-NEW, FENCE = ".rg-new", ".rg-fence"
-"""Suffixes of staged files."""
-
 Say = Callable[[str], None]
 
 

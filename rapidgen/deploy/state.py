@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from rapidgen.deploy.driverset import STATE, digest
+from rapidgen.deploy.driverset import FENCE, NEW, STATE, digest
 from rapidgen.deploy.transport import Transport, TransportFault, read_or_none, safe
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
@@ -104,6 +104,8 @@ class State:
     """Why manifest.json cannot be used, if so."""
     digest: str = ""
     present: bool = False
+    litter: bool = False
+    """Files of a run that was cut while it tried out what rename does."""
 
 
 def read_state(transport: Transport, home: str) -> State:
@@ -133,10 +135,11 @@ def read_state(transport: Transport, home: str) -> State:
         journals.append((journal.attempt, name, journal, text))
     switching = "switching" in names
     latest = max(journals, key=lambda j: j[0]) if journals else None
+    litter = bool(names & {"probe.one", "probe.two"})
     seen = (raw or b"") + (latest[3] if latest else b"") + (b"switching" if switching else b"")
     if latest is None:
-        return State(manifest, None, "", switching, damaged, digest(seen), True)
-    return State(manifest, latest[2], latest[1], switching, damaged, digest(seen), True)
+        return State(manifest, None, "", switching, damaged, digest(seen), True, litter)
+    return State(manifest, latest[2], latest[1], switching, damaged, digest(seen), True, litter)
 
 
 def manifest_json(manifest: Manifest) -> dict[str, Any]:
@@ -278,7 +281,7 @@ def _record(data: Any) -> Record:  # noqa: ANN401 - whatever JSON held
 def _staged(value: object) -> str:
     """Only such names are ever deleted on a journal's word."""
     path = safe(_text(value))
-    if not path.endswith((".rg-new", ".rg-fence")):
+    if not path.endswith((NEW, FENCE)):
         raise ValueError("not a staged file")
     return path
 
