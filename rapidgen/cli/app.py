@@ -18,15 +18,23 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, render
 VERBS = (
     "robots",
     "new",
+    "check",
     "explain",
     "schema",
     "build",
+    "fmt",
+    "run",
     "sim",
     "move",
     "stop",
     "monitor",
     "record",
     "plot",
+    "plan",
+    "deploy",
+    "rollback",
+    "uninstall",
+    "demo",
 )
 
 # Verbs that take words of other programs' kind (`--profile` with or without a value).

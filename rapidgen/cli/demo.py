@@ -1,0 +1,138 @@
+"""`rapidgen demo`: build, boot, move, report — the main job in one command, without a robot."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from rapidgen.client import Result, Robot, Trajectory
+    from rapidgen.client.address import Address
+    from rapidgen.client.recording import Recording
+    from rapidgen.config.model import MotionGroup
+    from rapidgen.virtual import VirtualController
+
+_SERVERS = 10.0
+"""s within which the driver's servers must listen."""
+
+
+def demo(
+    config: Annotated[str, typer.Argument(help="Configuration or shipped name.")] = "irb120",
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Where the driver and the picture go.")
+    ] = Path("demo_out"),
+) -> int:
+    """Build a driver, boot it on a virtual controller, move it, and report."""
+    from rapidgen.client import Robot
+    from rapidgen.config import load_config
+    from rapidgen.generate import build, write
+    from rapidgen.protocol.spec import TriState
+    from rapidgen.virtual import VirtualController
+
+    model = load_config(config)
+    folder = output / model.name
+    driver = build(model)
+    write(driver, folder)
+    _say(f"built   {folder}: {len(driver.files)} files, build {driver.build_id}")
+    with VirtualController.from_folder(folder, clock="real", ports="auto") as controller:
+        group = model.groups[0]
+        address = _boot(controller, group)
+        _say(f"booted  {len(controller.tasks)} tasks, RobotWare {model.robotware[0]}, at {address}")
+        with Robot(model, address=address, group=group.name) as robot:
+            robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _SERVERS)
+            trajectory = _trajectory(robot)
+            with robot.recording() as recording:
+                from rapidgen.cli.following import follow
+
+                result = follow(robot.execute(trajectory))
+            reached = controller.call(controller.motion.group(group.name).positions)
+            _report(robot, trajectory, recording, result, reached)
+    _draw(output, trajectory, recording, group)
+    return 0
+
+
+def _say(text: str) -> None:
+    sys.stderr.write(text + "\n")
+
+
+def _boot(controller: "VirtualController", group: "MotionGroup") -> "Address":
+    """Run in real time; where a client finds the servers, once they listen."""
+    import threading
+
+    from rapidgen.client.address import Address
+
+    network = controller.network
+    wanted = (group.ports.motion, group.ports.state)
+    listening = threading.Event()
+
+    def look() -> None:
+        if all(port in network.listeners for port in wanted):
+            listening.set()
+
+    network.listening.add(look)
+    controller.start()
+    if not listening.wait(_SERVERS):
+        raise RuntimeError("\n".join(controller.call(controller.where)))
+    host = network.listeners[wanted[0]][0]
+    motion, state = (network.listeners[port][1] for port in wanted)
+    return Address(host, motion, state)
+
+
+def _trajectory(robot: "Robot") -> "Trajectory":
+    """A wave of every joint, from where the robot stands and back: within limits and speeds."""
+    import numpy as np
+
+    from rapidgen.client import Trajectory
+
+    group = robot.group
+    here = np.array(robot.state.joints)
+    times = np.arange(0, 6.01, 0.2)
+    swing = np.sin(np.pi * times / times[-1])
+    room = np.array([min(0.5, 0.25 * (j.upper - j.lower)) for j in group.joints])
+    side = np.where(
+        [h + r < j.upper for h, r, j in zip(here, room, group.joints, strict=True)], 1, -1
+    )
+    waves = [np.sin(2 * np.pi * times / times[-1] * (1 + i % 3)) for i in range(len(here))]
+    offsets = np.stack([0.5 * (1 + w) * swing for w in waves], axis=1)
+    return Trajectory(times, here + side * room * offsets, group.names)
+
+
+def _report(
+    robot: "Robot",
+    trajectory: "Trajectory",
+    recording: "Recording",
+    result: "Result",
+    reached: tuple[float, ...],
+) -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table("joint", "commanded", "reached", "difference", box=None)
+    stands = robot.group.from_wire(reached)
+    for name, asked, stood in zip(robot.group.names, trajectory.positions[-1], stands, strict=True):
+        table.add_row(name, f"{asked:.4f}", f"{stood:.4f}", f"{abs(asked - stood):.1e}")
+    console = Console(highlight=False)
+    console.print(table)
+    times = recording.times
+    rate = (len(times) - 1) / times[-1] if len(times) > 1 else 0.0
+    console.print(
+        f"{result.points} points, asked for {result.planned_seconds:.2f} s, took "
+        f"{result.seconds:.2f} s; {len(times)} states at {rate:.1f} a second (rad, m)"
+    )
+
+
+def _draw(
+    output: Path, trajectory: "Trajectory", recording: "Recording", group: "MotionGroup"
+) -> None:
+    from rapidgen.client.plot import Curve, write_plot
+
+    png, html = output / "demo.png", output / "demo.html"
+    write_plot(
+        png,
+        html,
+        [Curve("commanded", trajectory), Curve("executed", recording.trajectory())],
+        title=f"{group.model or group.name}: commanded and executed joints",
+        prismatic=[j.name for j in group.joints if j.kind == "prismatic"],
+    )
+    _say(f"drew    {png} and {html}")
