@@ -13,6 +13,7 @@ from rapidgen.config.schema import GROUP_KEYS
 from rapidgen.config.tree import Mapping, Node, Scalar, Sequence, error, from_python, parse
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
 
+Entries = dict[str, tuple[Span, Node]]
 Overrides = MappingType[str, object] | SequenceType[str]
 
 DEFAULT_GROUP = "rob1"
@@ -89,7 +90,7 @@ def canonical(root: Node, known: tuple[str, ...]) -> Layer:
 def merge(base: Mapping, over: Mapping, path: tuple[str, ...] = ()) -> Mapping:
     """`over` upon `base`: mappings are joined key by key, everything else is replaced."""
     entries = dict(base.entries)
-    if len(path) == 3 and path[0] == "groups" and path[2] == "joints":
+    if len(path) == 2 and path[0] == "groups":
         entries = _adopt(entries, over)
     for key, (place, value) in over.entries.items():
         below = entries.get(key)
@@ -101,15 +102,45 @@ def merge(base: Mapping, over: Mapping, path: tuple[str, ...] = ()) -> Mapping:
     return Mapping(entries, over.span)
 
 
-def _adopt(entries: dict[str, tuple[Span, Node]], over: Mapping) -> dict[str, tuple[Span, Node]]:
+def _adopt(entries: Entries, over: Mapping) -> Entries:
     """A joint of a new name on an axis that the model has is that joint, renamed."""
-    by_axis = {axis: key for key, (_, value) in entries.items() if (axis := _axis(value))}
-    new_names = {
+    known, given = entries.get("joints"), over.entries.get("joints")
+    if not known or not given:
+        return entries
+    known_joints, given_joints = known[1], given[1]
+    if not isinstance(known_joints, Mapping) or not isinstance(given_joints, Mapping):
+        return entries
+    by_axis = {axis: key for key, (_, j) in known_joints.entries.items() if (axis := _axis(j))}
+    names = {
         by_axis[axis]: key
-        for key, (_, value) in over.entries.items()
-        if key not in entries and (axis := _axis(value)) in by_axis and axis
+        for key, (_, joint) in given_joints.entries.items()
+        if key not in known_joints.entries and (axis := _axis(joint)) in by_axis
     }
-    return {new_names.get(key, key): value for key, value in entries.items()}
+    if not names:
+        return entries
+    joints = {names.get(key, key): value for key, value in known_joints.entries.items()}
+    made = {**entries, "joints": (known[0], Mapping(joints, known_joints.span))}
+    if "chain" in entries:
+        place, chain = entries["chain"]
+        made["chain"] = (place, _renamed(chain, names))
+    return made
+
+
+def _renamed(node: Node, names: dict[str, str]) -> Node:
+    """A chain with other joint names."""
+    if isinstance(node, Sequence):
+        return Sequence(tuple(_renamed(item, names) for item in node.items), node.span)
+    if isinstance(node, Mapping):
+        return Mapping(
+            {
+                names.get(key, key): (place, _renamed(value, names))
+                for key, (place, value) in node.entries.items()
+            },
+            node.span,
+        )
+    if isinstance(node.value, str):
+        return Scalar(names.get(node.value, node.value), node.span)
+    return node
 
 
 def _axis(joint: Node) -> str:
@@ -120,7 +151,7 @@ def _axis(joint: Node) -> str:
     return ""
 
 
-def _settle(entries: dict[str, tuple[Span, Node]], over: Mapping) -> dict[str, tuple[Span, Node]]:
+def _settle(entries: Entries, over: Mapping) -> Entries:
     """A figure that the upper layer gives is no longer an unsure one of the lower layer."""
     if "unsure" not in entries or "unsure" in over.entries:
         return entries

@@ -127,7 +127,7 @@ def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[
         return _Builder(YAML(typ="safe", pure=True).parse(text), shown, at).document()
     except YAMLError as fault:
         raise DiagnosticError(_syntax(fault, shown, at)) from None
-    except ValueError as fault:  # a directive or escape that ruamel converts without a check
+    except (ValueError, OverflowError) as fault:  # an escape that ruamel does not check
         raise DiagnosticError(
             error("RG003", f"not YAML: {fault}", at or Span(shown, 1, 1))
         ) from None

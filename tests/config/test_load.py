@@ -1,0 +1,280 @@
+"""Configurations: all faults at once with their places, layers, overrides, hostile input."""
+
+import json
+import math
+import os
+
+import pytest
+
+from rapidgen.config import from_manifest, load_config, shipped_names, to_manifest
+from rapidgen.diagnostics import DiagnosticError, Severity
+
+
+def load(tmp_path, text, **options):
+    path = tmp_path / "cell.yaml"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return load_config(path, **options)
+
+
+def faults(tmp_path, text, **options):
+    with pytest.raises(DiagnosticError) as caught:
+        load(tmp_path, text, **options)
+    assert caught.value.exit_code == 2
+    return [d for d in caught.value.diagnostics if d.severity is Severity.ERROR]
+
+
+def places(found):
+    return [(d.code, d.span.line, d.span.column) for d in found]
+
+
+def test_five_faults_are_five_findings_with_their_places(tmp_path):
+    text = (
+        "model: irb120\n"
+        "controler: {type: irc5}\n"  # unknown key
+        "trajectory: {capacity: lots}\n"  # wrong type
+        "joints:\n"
+        "  joint_1: {lower: 10, upper: 5}\n"  # contradiction that only the model shows
+        "state: {rate: 10}\n"
+        "state: {rate: 20}\n"  # duplicate
+        "network: {bind: 300.1.1.1}\n"  # no address
+    )
+    found = faults(tmp_path, text)
+    assert places(found) == [
+        ("RG005", 2, 1),
+        ("RG006", 3, 24),
+        ("RG014", 5, 31),
+        ("RG004", 7, 1),
+        ("RG006", 8, 17),
+    ]
+    assert "did you mean 'controller'?" in found[0].help
+    assert all(d.span.path.endswith("cell.yaml") for d in found)
+
+
+def test_a_fault_in_the_schema_does_not_hide_one_in_the_meaning(tmp_path):
+    found = faults(tmp_path, "model: irb120\nports: {motion: x, state: 11001}\n")
+    assert sorted(d.code for d in found) == ["RG006", "RG012"]
+
+
+def test_four_lines_are_enough_for_a_shipped_model(tmp_path):
+    config = load(tmp_path, "model: irb120\ncontroller:\n  robotware: 6.10\n")
+    assert config.name == "cell"
+    assert config.robotware == (6, 10)
+    assert config.groups[0].model == "irb120"
+
+
+@pytest.mark.parametrize(
+    ("text", "version"),
+    [("6", (6, 0)), ("6.1", (6, 1)), ("6.10", (6, 10)), ('"6.15.03"', (6, 15)), ("5.15", (5, 15))],
+)
+def test_a_version_is_read_as_written(tmp_path, text, version):
+    assert load(tmp_path, f"model: irb120\ncontroller: {{robotware: {text}}}").robotware == version
+
+
+@pytest.mark.parametrize("text", ["4", "5.14", "9", "yes", "[6]", "true", ".inf"])
+def test_other_versions_are_refused(tmp_path, text):
+    found = faults(tmp_path, f"model: irb120\ncontroller: {{robotware: {text}}}")
+    assert [d.code for d in found] == ["RG006"]
+
+
+def test_irc5_does_not_run_robotware_7(tmp_path):
+    text = "model: irb120\ncontroller: {type: irc5, robotware: 7.2}"
+    assert [d.code for d in faults(tmp_path, text)] == ["RG011"]
+
+
+def test_yaml_1_2_reads_yes_as_a_text_and_9e9_as_a_number(tmp_path):
+    found = faults(tmp_path, "model: irb120\ncommissioning: yes\ntcp_speed_limit: 9E9\n")
+    assert [d.message for d in found] == [
+        "'commissioning': must be true or false (YAML 1.2: `yes` and `on` are texts), not 'yes'",
+        "'groups.rob1.tcp_speed_limit': must be at most 10000, not 9000000000.0",
+    ]
+
+
+def test_octal_looking_numbers_are_decimal(tmp_path):
+    config = load(tmp_path, "model: irb120\ntrajectory: {capacity: 0100}")
+    assert config.trajectory.capacity == 100
+
+
+def test_a_section_of_comments_only_is_no_fault(tmp_path):
+    assert load(tmp_path, "model: irb120\nports:\n#  motion: 12000\n").groups[0].ports.motion == 11000
+
+
+def test_overrides_as_text_and_as_mapping_do_the_same():
+    one = load_config("irb120", overrides=["ports.motion=12000", "trajectory.capacity=5000"])
+    two = load_config("irb120", overrides={"ports.motion": 12000, "trajectory.capacity": 5000})
+    assert one == two
+    assert one.groups[0].ports.motion == 12000
+    assert one.groups[0].ports.state == 11002
+    assert one.trajectory.capacity == 5000
+    assert one.inputs[-2:] == (
+        ("--set", b"ports.motion=12000"),
+        ("--set", b"trajectory.capacity=5000"),
+    )
+
+
+def test_an_override_can_quote_a_key_and_name_a_group():
+    config = load_config("irb14000", overrides=['groups.rob_l.joints."yumi_joint_1_l".upper=90'])
+    assert math.degrees(config.groups[0].joints[0].upper) == pytest.approx(90)
+    assert math.degrees(config.groups[1].joints[0].upper) == pytest.approx(168.5)
+
+
+@pytest.mark.parametrize("text", ["ports.motion", "=3", "a..b=3", ".a=1", "a.=1"])
+def test_a_bad_override_is_a_finding(text):
+    with pytest.raises(DiagnosticError) as caught:
+        load_config("irb120", overrides=[text])
+    assert [d.code for d in caught.value.diagnostics] == ["RG008"]
+
+
+def test_a_fault_in_an_override_points_at_it():
+    with pytest.raises(DiagnosticError) as caught:
+        load_config("irb120", overrides=["ports.motoin=3"])
+    (fault,) = caught.value.diagnostics
+    assert (fault.code, fault.span.path) == ("RG005", "--set ports.motoin=3")
+    assert "motion" in fault.help
+
+
+def test_group_keys_at_the_top_need_one_group(tmp_path):
+    found = faults(tmp_path, "model: irb14000\nports: {motion: 12000}\n")
+    assert places(found) == [("RG010", 2, 1)]
+    assert "groups.rob_l.ports" in found[0].help
+
+
+def test_two_groups_get_ports_and_tasks_of_their_own(tmp_path):
+    config = load(tmp_path, "groups:\n  a: {model: irb120}\n  b: {model: irb2400}\n")
+    a, b = config.groups
+    assert (a.task, b.task) == ("T_ROB1", "T_ROB2")
+    assert (a.mechanical_unit, b.mechanical_unit) == ("ROB_1", "ROB_2")
+    assert (a.ports.motion, a.ports.state) == (11000, 11002)
+    assert (b.ports.motion, b.ports.state) == (11010, 11012)
+    assert (a.coupling, b.coupling) == (0, 1)
+
+
+def test_groups_do_not_share_ports_or_tasks(tmp_path):
+    text = (
+        "groups:\n"
+        "  a: {model: irb120, task: T_X}\n"
+        "  b: {model: irb120, task: t_x, ports: {motion: 11002}}\n"
+    )
+    assert [d.code for d in faults(tmp_path, text)] == ["RG012", "RG012"]
+
+
+def test_limits_are_rounded_inwards_to_a_hundredth(tmp_path):
+    text = "model: irb120\njoints: {joint_1: {lower: -90.004, upper: 90.009}}"
+    joint = load(tmp_path, text).groups[0].joints[0]
+    assert math.degrees(joint.lower) == pytest.approx(-90.0, abs=1e-9)
+    assert math.degrees(joint.upper) == pytest.approx(90.0, abs=1e-9)
+
+
+def test_a_limit_beyond_the_model_is_said(tmp_path):
+    config = load(tmp_path, "model: irb120\njoints: {joint_1: {upper: 170}}")
+    (warning,) = config.diagnostics
+    assert (warning.code, warning.severity) == ("RG049", Severity.WARNING)
+    assert (warning.span.line, warning.span.column) == (2, 27)
+
+
+def test_a_figure_of_ones_own_is_no_longer_unsure(tmp_path):
+    assert [d.code for d in load_config("irb1200").diagnostics] == ["RG016"]
+    own = "model: irb1200\njoints: {joint_6: {lower: -350, upper: 350, source: mine}}"
+    config = load(tmp_path, own)
+    assert config.diagnostics == ()
+    assert not config.groups[0].joints[5].unsure
+    assert config.groups[0].joints[5].source == "mine"
+
+
+def test_a_joint_of_another_name_on_a_known_axis_is_that_joint(tmp_path):
+    group = load(tmp_path, "model: irb120\njoints: {shoulder: {axis: rax_2}}").groups[0]
+    assert [j.name for j in group.joints][:3] == ["joint_1", "shoulder", "joint_3"]
+    assert math.degrees(group.joints[1].upper) == pytest.approx(110)
+    assert [link.joint for link in group.chain][:3] == ["joint_1", "shoulder", "joint_3"]
+
+
+def test_what_the_schema_cannot_say_is_checked(tmp_path):
+    text = (
+        "model: irb120\n"
+        "tool: {name: gripper, frame: {orientation: [1, 1, 0, 0]}}\n"
+        "signals: {di1: {kind: DI, access: write}}\n"
+        "joints: {joint_2: {axis: rax_1}}\n"
+    )
+    codes = sorted(d.code for d in faults(tmp_path, text))
+    assert codes == ["RG006", "RG013", "RG014", "RG014"]
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_the_manifest_keeps_every_bit(name):
+    config = load_config(name)
+    again = from_manifest(json.loads(json.dumps(to_manifest(config))))
+    assert again == config
+    assert to_manifest(again) == to_manifest(config)
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda d: d.pop("groups"),
+        lambda d: d.update(extra=1),
+        lambda d: d["groups"][0].update(ports=None),
+        lambda d: d["groups"][0]["joints"][0].update(lower="x"),
+        lambda d: d.update(controller="s4"),
+        lambda d: d.update(robotware=[6]),
+    ],
+)
+def test_a_damaged_manifest_is_one_finding(damage):
+    data = to_manifest(load_config("irb120"))
+    damage(data)
+    with pytest.raises(DiagnosticError) as caught:
+        from_manifest(data)
+    assert [d.code for d in caught.value.diagnostics] == ["RG019"]
+
+
+HOSTILE = {
+    "alias bomb": b"a: &a [x, x, x, x, x, x, x, x, x]\n"
+    + b"".join(
+        b"%c: &%c [*%c, *%c, *%c, *%c, *%c, *%c, *%c, *%c, *%c]\n"
+        % (c + 1, c + 1, c, c, c, c, c, c, c, c, c)
+        for c in range(ord("a"), ord("i"))
+    ),
+    "own alias": b"a: &a [*a]\n",
+    "unknown alias": b"a: *b\n",
+    "tag": b"a: !!python/object/apply:os.system [ls]\n",
+    "tagged key": b"!!int 3: x\n",
+    "complex key": b"? [a, b]\n: 1\n",
+    "deep": b"[" * 5000,
+    "deep blocks": b"\n".join(b" " * n + b"a:" for n in range(200)),
+    "huge": b"a: 1\n" * 300_000,
+    "many": b"[" + b"1," * 60_000 + b"1]",
+    "not UTF-8": b"name: caf\xe9\n",
+    "UTF-16": "name: x\n".encode("utf-16"),
+    "NUL": b"name: a\x00b\n",
+    "two documents": b"model: irb120\n---\nmodel: irb120\n",
+    "YAML 1.1": b"%YAML 1.1\n---\nmodel: irb120\n",
+    "long number": b"name: " + b"9" * 5000 + b"\n",
+    "unfinished": b"a: [1, 2\n",
+    "bad escape": b'a: "\\q"\n',
+    "tab": b"a:\n\tb: 1\n",
+    "list": b"- model: irb120\n",
+    "text": b"irb120\n",
+    "bad unicode escape": b'a: "\\UFFFFFFFF"\n',
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_hostile_input_is_one_finding(tmp_path, name):
+    found = faults(tmp_path, HOSTILE[name])
+    assert len(found) == 1
+    assert found[0].code in ("RG002", "RG003", "RG006")
+
+
+def test_nothing_and_nowhere(tmp_path):
+    assert [d.code for d in faults(tmp_path, "")] == ["RG013"]
+    for path in (tmp_path / "none.yaml", tmp_path, f"{os.sep}a\0b.yaml"):
+        with pytest.raises(DiagnosticError) as caught:
+            load_config(path)
+        assert [d.code for d in caught.value.diagnostics] == ["RG001"]
+
+
+def test_an_unknown_model_suggests_one(tmp_path):
+    with pytest.raises(DiagnosticError) as caught:
+        load_config("irb12")
+    assert caught.value.diagnostics[0].code == "RG009"
+    (fault,) = faults(tmp_path, "model: irb1201\n")
+    assert fault.code == "RG009"
+    assert "did you mean" in fault.help
