@@ -48,6 +48,8 @@ def group_context(
         "ring": RING,
         "wrap": WRAP,
         "joints": joints,
+        "robax": _axes(group, [f"rax_{n}" for n in range(1, 7)], "0"),
+        "extax": _axes(group, [f"eax_{c}" for c in "abcdef"], "9E9"),
         "padding": _padding(len(joints)),
         "signals": [
             {
@@ -68,6 +70,7 @@ def group_context(
         "state_period": config.state_period,
         "tcp_speed": group.tcp_speed_limit * _MM,
         "tcp_check": group.tcp_speed_limit < _DEFAULT_TCP_SPEED,
+        "receive_timeout": config.receive_timeout,
         "bind": config.bind,
         "allowed": config.allowed_clients,
         "call_main": config.call_main,
@@ -113,6 +116,12 @@ def _joint(config: RobotConfig, joint: Joint, n: int) -> dict[str, object]:
         "scale": "ROS_DEG" if revolute else "ROS_MM",
         "factor": "ROS_DEG" if revolute else "ROS_MM",
     }
+
+
+def _axes(group: MotionGroup, names: list[str], absent: str) -> list[str]:
+    """Members of a robjoint or extjoint: the variable of each joint, `absent` where is none."""
+    joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
+    return [joints.get(name, absent) for name in names]
 
 
 def _padding(joints: int) -> dict[str, object]:

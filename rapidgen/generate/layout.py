@@ -157,7 +157,7 @@ def with_data(system: System, files: dict[str, ModuleFile]) -> System:
 
 
 def unit_group(group: MotionGroup) -> str:
-    """Name of the mechanical unit group: rob1 of ROB_1, rob_L of ROB_L, as controllers have them."""
+    """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_L of ROB_L."""
     head, _, tail = group.mechanical_unit.partition("_")
     return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
 

@@ -637,6 +637,19 @@ def test_an_idle_client_is_never_timed_out(bench):
     assert not [e for e in b.vc.log if e.type.name in ("WARNING", "ERROR")]
 
 
+def test_a_client_that_stalls_inside_a_message(bench):
+    b = bench(overrides=["network.receive_timeout=3"])
+    client = b.client()
+    client.send(trajectory(FIVE, SECONDS)[0][:40])
+    b.vc.run_for(2.5)
+    client.pump()
+    assert not client.closed
+    b.vc.run_for(2)
+    client.pump()
+    assert client.closed
+    move_well(b)
+
+
 def test_strangers_are_refused(bench):
     b = bench(allowed_clients=("10.0.0.9",))
     stranger = b.client()
@@ -709,7 +722,8 @@ def test_power_failure(bench):
     here = b.joints()
     recover(b)
     b.vc.run_for(5)
-    assert b.joints() == here
+    # Less than a thousandth of a degree, in the microseconds until the event routine runs.
+    assert close_to(b.joints(), here, 1e-6)
     move_well(b)
 
 
@@ -719,6 +733,7 @@ def test_program_pointer_to_main(bench):
     b.vc.perform("stop")
     b.vc.run_for(1)
     b.vc.perform("pp-to-main")
+    b.vc.run_for(0.1)
     b.vc.perform("start")
     here = b.joints()
     b.vc.run_for(5)
@@ -772,12 +787,15 @@ def test_the_state_rate_is_kept(bench):
     state = b.state_client()
     b.vc.run_for(1)
     state.frames()
-    b.vc.run_for(100)
-    assert len(state.frames()) == pytest.approx(2 * 1000, abs=4)
+    count = 0
+    for _ in range(100):
+        b.vc.run_for(10)
+        count += len(state.frames())
+    assert count == pytest.approx(2 * 10_000, abs=4)
 
 
 def test_a_set_state_rate(bench):
-    b = bench(overrides=["state_period=0.02"])
+    b = bench(overrides=["state.rate=50"])
     state = b.state_client()
     b.vc.run_for(1)
     state.frames()
@@ -787,7 +805,7 @@ def test_a_set_state_rate(bench):
 
 def test_every_movement_shows_in_a_status(bench):
     """R16: a movement shorter than the state period."""
-    b = bench(overrides=["state_period=1.0"])
+    b = bench(overrides=["state.rate=1"])
     client, state = b.client(), b.state_client()
     b.vc.run_for(3)
     state.frames()
