@@ -4,6 +4,7 @@ Sources: S4 reference, pages Load, UnLoad, StartLoad, WaitLoad, Save [manual]; [
 value of a persistent, which is saved as its initial value.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,6 +14,7 @@ from rapidgen.system.model import ModuleFile
 from rapidgen.virtual.calendar import date_time
 from rapidgen.virtual.compiler.missing import missing_routines
 from rapidgen.virtual.compiler.program import LoadedModule
+from rapidgen.virtual.compiler.symbols import Data
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.text import literal_text
 from rapidgen.virtual.values import Cell
@@ -39,6 +41,8 @@ class ModuleTable:
 
     def __init__(self) -> None:
         self._origins: dict[tuple[str, str], Origin] = {}
+        self.searches: dict[str, Iterator[tuple[LoadedModule, Data]]] = {}
+        """By task: what SetDataSearch has found and GetNextSym has not given yet."""
 
     def origin(self, task: "Task", module: str) -> Origin | None:
         """Where a module came from; None when it belongs to the configuration."""
