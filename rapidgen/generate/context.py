@@ -54,6 +54,7 @@ def group_context(
         "signals": [
             {
                 "name": layout.signal_name(config, group, signal),
+                "constant": f"NAME_{signal.function.upper()}",
                 "variable": f"do_{signal.function}",
                 "known": f"has_{signal.function}",
                 "function": signal.function,

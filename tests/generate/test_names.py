@@ -2,9 +2,9 @@
 
 import pytest
 
-from rapidgen.config import load_config
-from rapidgen.generate import build, layout
-from rapidgen.rapid import nodes, parse
+from rapidgen.config import load_config, shipped_names
+from rapidgen.generate import build, layout, make_system
+from rapidgen.rapid import check, nodes, parse
 
 ROBOTS = ["irb120", "irb14000"]
 
@@ -72,3 +72,28 @@ def test_the_tree_is_what_was_written():
             assert module.diagnostics == []
             assert module.name == file.path.rpartition("/")[2].partition(".")[0]
             assert isinstance(module, nodes.Module)
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_the_checker_finds_nothing(name):
+    config = load_config(name)
+    assert check(make_system(config, build(config))) == []
+
+
+@pytest.mark.parametrize(
+    "override",
+    [
+        "trajectory.too_fast=slow_down",
+        "network.receive_timeout=5",
+        "network.allowed_clients=[10.0.0.1, 10.0.0.2]",
+        "network.bind=service",
+        "network.bind=10.0.0.3",
+        "commissioning=true",
+        "tcp_speed_limit=250",
+        "trajectory.capacity=2",
+        "trajectory.zone=fine",
+    ],
+)
+def test_the_checker_finds_nothing_in_variants(override):
+    config = load_config("irb120", overrides=[override])
+    assert check(make_system(config, build(config))) == []
