@@ -1,72 +1,48 @@
-"""The `rapidgen` command: collects the verbs, shows diagnostics, sets the exit code.
+"""The `rapidgen` command: finds the verb, shows diagnostics, sets the exit code.
 
 Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage.
 """
 
 import os
 import sys
+from collections.abc import Callable
 from importlib import import_module
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from typer.exceptions import TyperException
 
 from rapidgen import __version__
-from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, render
 
-VERBS = (
-    "robots",
-    "new",
-    "check",
-    "explain",
-    "schema",
-    "build",
-    "fmt",
-    "run",
-    "sim",
-    "move",
-    "stop",
-    "monitor",
-    "record",
-    "plot",
-    "plan",
-    "deploy",
-    "rollback",
-    "uninstall",
-    "demo",
-)
+if TYPE_CHECKING:
+    from rapidgen.diagnostics import Diagnostic
 
-# Verbs that take words of other programs' kind (`--profile` with or without a value).
+# Each verb is a file of its own, imported when it is asked for; its help begins with the
+# sentence that stands here (a test compares).
+VERBS = {
+    "robots": "List the shipped models.",
+    "new": "Write a commented configuration that checks and builds.",
+    "check": "Say everything that is wrong with configurations and RAPID.",
+    "explain": "Explain what a diagnostic's code means, with a bad and a good example.",
+    "schema": "Print the JSON schema of the configuration file.",
+    "build": "Generate the driver for one controller.",
+    "fmt": "Format RAPID: keywords in upper case, four spaces a level, comments kept.",
+    "run": "Run RAPID on the virtual clock.",
+    "sim": "Run a virtual controller in real time.",
+    "move": "Execute a trajectory. Ctrl-C stops the robot.",
+    "stop": "Stop the robot: every motion group, or one.",
+    "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
+    "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
+    "plot": "Draw joints over time: FILE.png and FILE.html (which shows values at the pointer).",
+    "plan": "Show what `deploy` would do: files, cfg instances, restarts, and what is left to people.",
+    "deploy": "Put the driver on one or several controllers: backup, upload, verify, switch.",
+    "rollback": "Go back to the set before the last deployment, or to backup ID.",
+    "uninstall": "Go back to the state before the first deployment: our files go, strangers' come back.",
+    "demo": "Build a driver, boot it on a virtual controller, move it, and report.",
+}
+
+# Options that may stand without a value.
 _OPTIONAL_VALUES = {"--profile": "--profile=-"}
-
-app = typer.Typer(
-    name="rapidgen",
-    help="RAPID drivers for ABB robots: generate, run, deploy, drive.",
-    rich_markup_mode=None,
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        typer.echo(f"rapidgen {__version__}")
-        raise typer.Exit
-
-
-@app.callback()
-def _root(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
-    ] = False,
-) -> None:
-    pass
-
-
-for _verb in VERBS:
-    app.command(_verb)(getattr(import_module(f"rapidgen.cli.{_verb}"), _verb))
 
 
 def run(arguments: list[str] | None = None) -> None:
@@ -77,15 +53,17 @@ def run(arguments: list[str] | None = None) -> None:
 
 def main(words: list[str]) -> int:
     """Run one verb; its exit code."""
-    command = typer.main.get_command(app)
+    from rapidgen.diagnostics.model import DiagnosticError
+
+    command = typer.main.get_command(_app(words))
     try:
         result = command.main(args=words, prog_name="rapidgen", standalone_mode=False)
         sys.stdout.flush()
     except DiagnosticError as error:
-        sys.stderr.write(render(error.diagnostics, colour=use_colour()))
+        _show(error.diagnostics)
         return error.exit_code
     except TyperException as error:
-        sys.stderr.write(render([_usage(error)], colour=use_colour()))
+        _show((_usage(error),))
         return 2
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("\nstopped\n")
@@ -97,7 +75,63 @@ def main(words: list[str]) -> int:
     return result if isinstance(result, int) else 0
 
 
-def _usage(error: TyperException) -> Diagnostic:
+def _app(words: list[str]) -> typer.Typer:
+    """The command with the asked verb as it is, and the others by name and sentence only."""
+    wanted = next((word for word in words if not word.startswith("-")), "")
+    completing = "_RAPIDGEN_COMPLETE" in os.environ
+    app = typer.Typer(
+        name="rapidgen",
+        help="RAPID drivers for ABB robots: generate, run, deploy, drive.",
+        rich_markup_mode=None,
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(_root)
+    for verb, sentence in VERBS.items():
+        whole = completing or verb == wanted
+        app.command(verb)(function(verb) if whole else _named(sentence))
+    return app
+
+
+def function(verb: str) -> Callable[..., object]:
+    """The function behind a verb."""
+    found: Callable[..., object] = getattr(import_module(f"rapidgen.cli.{verb}"), verb)
+    return found
+
+
+def _named(sentence: str) -> Callable[[], None]:
+    def verb() -> None:
+        pass
+
+    verb.__doc__ = sentence
+    return verb
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        typer.echo(f"rapidgen {__version__}")
+        raise typer.Exit
+
+
+def _root(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Show the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+def _show(found: "tuple[Diagnostic, ...]") -> None:
+    from rapidgen.cli.terminal import use_colour
+    from rapidgen.diagnostics import render
+
+    sys.stderr.write(render(found, colour=use_colour()))
+
+
+def _usage(error: TyperException) -> "Diagnostic":
+    from rapidgen.diagnostics import Diagnostic, Severity
+
     context = getattr(error, "ctx", None)
     path = context.command_path if context is not None else "rapidgen"
     message = (error.format_message() or "nothing to do").rstrip(".")

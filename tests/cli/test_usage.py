@@ -1,11 +1,12 @@
 """The command line as a whole: help, versions, exit codes, commands typed wrong."""
 
+import inspect
 import subprocess
 import sys
 
 import pytest
 
-from rapidgen.cli.app import VERBS, main
+from rapidgen.cli.app import VERBS, function, main
 
 
 def rapidgen(*words, **options):
@@ -20,6 +21,12 @@ def test_help_lists_every_verb_with_a_sentence():
     lines = {line.split()[0]: line for line in done.stdout.splitlines() if line.startswith("  ")}
     for verb in VERBS:
         assert len(lines[verb].split()) > 2, verb
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_the_listed_sentence_begins_the_verbs_own_help(verb):
+    text = " ".join((inspect.getdoc(function(verb)) or "").split())
+    assert text.startswith(VERBS[verb])
 
 
 def test_start_up_imports_nothing_heavy():
