@@ -16,6 +16,7 @@ from rapidgen.virtual.compiler.base import Options
 from rapidgen.virtual.compiler.predefined import find_type
 from rapidgen.virtual.compiler.program import Shared
 from rapidgen.virtual.compiler.symbols import Data, Routine
+from rapidgen.virtual.configuration import Configuration
 from rapidgen.virtual.costs import Costs
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError
@@ -201,6 +202,7 @@ class VirtualController(ControllerState):
         self.operator = Operator(self.kernel, answers)
         self.texts = TextTables()
         self.modules = ModuleTable()
+        self.configuration = Configuration(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,

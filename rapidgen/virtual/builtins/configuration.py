@@ -1,0 +1,77 @@
+"""ReadCfgData and its family, and WarmStart.
+
+Sources: 3HAC16581-1's arguments and error names [manual]. \\ListNo is not needed where a path
+names one instance, and is left alone.
+"""
+
+from rapidgen.virtual.configuration import Configuration
+from rapidgen.virtual.errors import EndOfRun, RapidError
+from rapidgen.virtual.files import FileSystem
+from rapidgen.virtual.loading import words_of
+from rapidgen.virtual.registry import builtin
+from rapidgen.virtual.task import Task
+from rapidgen.virtual.values import STRING_LIMIT, Ref
+
+
+def _attributes(task: Task, path: str) -> dict[str, str | int | float | bool]:
+    configuration: Configuration = task.controller.configuration
+    found = configuration.find(path)
+    if found is None:
+        raise RapidError("ERR_CFG_NOTFND", path)
+    return found
+
+
+@builtin("ReadCfgData", cost="socket")
+def read_cfg_data(
+    task: Task, path: str, attribute: str, target: Ref, _list_number: Ref | None
+) -> None:
+    """A system parameter; an absent flag is FALSE."""
+    value = _attributes(task, path).get(attribute.lower())
+    kind = target.type.kind
+    if kind == "bool" and value is None:
+        target.set(False)
+    elif value is None:
+        raise RapidError("ERR_CFG_NOTFND", f"{path} {attribute}")
+    elif kind == "bool":
+        target.set(value is True or value == 1)
+    elif kind == "string" and isinstance(value, str):
+        target.set(value[:STRING_LIMIT])
+    elif kind in ("num", "dnum") and isinstance(value, int | float):
+        target.set(value)
+    else:
+        raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
+
+
+@builtin("WriteCfgData", cost="socket")
+def write_cfg_data(
+    task: Task, path: str, attribute: str, source: Ref, _list_number: Ref | None
+) -> None:
+    """Change a system parameter; only ReadCfgData sees it."""
+    attributes = _attributes(task, path)
+    before = attributes.get(attribute.lower())
+    value = source.get()
+    if before is not None and isinstance(before, str) is not isinstance(value, str):
+        raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
+    attributes[attribute.lower()] = value
+
+
+@builtin("SaveCfgData", cost="socket")
+def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
+    """Write a domain to a file."""
+    configuration: Configuration = task.controller.configuration
+    if domain.upper() not in configuration.domains:
+        raise RapidError("ERR_CFG_ILL_DOMAIN", domain)
+    text = configuration.text(domain.upper())
+    files: FileSystem = task.controller.files
+    files.spend(len(text))
+    try:
+        files.path(words_of(path, file)).write_text(text, encoding="latin-1")
+    except OSError as error:
+        raise RapidError("ERR_CFG_WRITEFILE", str(error.strerror)) from error
+
+
+@builtin("WarmStart", cost="socket")
+def warm_start(task: Task) -> None:
+    """Restart the controller, as after a power failure."""
+    task.kernel.after(0, task.controller.power_loss)
+    raise EndOfRun
