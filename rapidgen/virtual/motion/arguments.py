@@ -6,8 +6,7 @@ from typing import Any, TypeAlias
 from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Quaternion, normalise
 from rapidgen.axes.mapping import ABSENT, JointMap
-from rapidgen.virtual.errors import FatalError, RapidError
-from rapidgen.virtual.motion import events
+from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.moves import Posture, Speed, Zone
 from rapidgen.virtual.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, single
@@ -101,14 +100,14 @@ def external_target(external: tuple[float, ...], offsets: tuple[float, ...]) -> 
 
 
 def quaternion(data: Data) -> Quaternion:
-    """An orient as a unit quaternion. FatalError: too far from unit length.
+    """An orient as a unit quaternion. ERR_ILLQUAT: too far from unit length.
 
     Up to 1e-5 off in the sum of squares it is normalised silently, up to 0.1 too (the manual
     sends the user to NOrient), above it is unusable (S4 datasys 1-orient-1).
     """
     q = (data.q1, data.q2, data.q3, data.q4)
     if abs(sum(v * v for v in q) - 1.0) > 0.1:
-        raise FatalError(events.NOT_NORMALISED, "Orientation not normalised", f"{list(q)}")
+        raise RapidError("ERR_ILLQUAT", f"{list(q)}")
     return normalise(q)
 
 

@@ -1,0 +1,188 @@
+"""Settings of motion: VelSet, AccSet, ConfL, program displacement and their relatives.
+
+Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-motsetdata;
+3HAC050917 for SpeedRefresh and CSpeedOverride.
+"""
+
+from typing import Any, TypeAlias
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import IDENTITY
+from rapidgen.axes.mapping import ABSENT
+from rapidgen.virtual.builtins.positions import carrier_for
+from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.motion.access import group_of
+from rapidgen.virtual.motion.arguments import frame
+from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.motion.targets import rob_target
+from rapidgen.virtual.registry import builtin
+from rapidgen.virtual.task import Task
+from rapidgen.virtual.values import Ref, single
+
+Data: TypeAlias = Any
+_NO_OFFSETS = (0.0,) * 6
+
+
+@builtin("VelSet")
+def vel_set(task: Task, override: float, limit: float) -> None:
+    """Override in percent of all speeds and of \\T; ceiling of the TCP in mm/s, not with \\T."""
+    if not 0 < override <= 100 or limit <= 0:
+        raise RapidError("ERR_ARGVALERR", f"VelSet {override:g}, {limit:g}")
+    modal = group_of(task).modal
+    modal.speed_override = override / 100
+    modal.speed_limit = limit / 1000
+
+
+@builtin("AccSet")
+def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) -> None:
+    """Percent; acceleration below 20 counts as 20. Without jerk the ramp has no effect."""
+    if not 0 <= acceleration <= 100 or not 0 <= ramp <= 100:
+        raise RapidError("ERR_ARGVALERR", f"AccSet {acceleration:g}, {ramp:g}")
+    modal = group_of(task).modal
+    modal.acceleration = max(acceleration, 20) / 100
+
+
+@builtin("SpeedRefresh")
+def speed_refresh(task: Task, override: float) -> None:
+    """Percent, at once, also for the move under way. ERR_SPEED_REFRESH_LIM outside 0 to 100."""
+    if not 0 <= override <= 100:
+        raise RapidError("ERR_SPEED_REFRESH_LIM", f"{override:g}")
+    group_of(task).refresh = override / 100
+
+
+@builtin("CSpeedOverride")
+def c_speed_override(task: Task, own: bool | None) -> float:
+    """Percent: the controller's override, \\CTask: with the program's own."""
+    group = group_of(task)
+    share = group.override * (group.refresh if own else 1.0)
+    return single(round(share * 100, 3))
+
+
+@builtin("MaxRobSpeed")
+def max_rob_speed(task: Task) -> float:
+    """mm/s"""
+    return single(group_of(task).config.tcp_speed_limit * 1000)
+
+
+@builtin("ConfL")
+def conf_l(task: Task, _on: bool | None, off: bool | None) -> None:
+    """Whether linear and circular moves check the configuration that they end in."""
+    group_of(task).modal.check_linear = not off
+
+
+@builtin("ConfJ")
+def conf_j(task: Task, _on: bool | None, off: bool | None) -> None:
+    """Whether joint moves go to the programmed configuration or to the closest one."""
+    group_of(task).modal.check_joint = not off
+
+
+@builtin("SingArea")
+def sing_area(task: Task, wrist: bool | None, lock_axis_4: bool | None, _off: bool | None) -> None:
+    """\\Wrist: wrist axes go straight in joint space on linear and circular moves."""
+    modal = group_of(task).modal
+    modal.wrist = bool(wrist)
+    modal.extra["LockAxis4"] = bool(lock_axis_4)
+
+
+# -- displacement and offsets -------------------------------------------------------------------
+
+
+@builtin("PDispSet")
+def p_disp_set(task: Task, displacement: Data) -> None:
+    """Replaces the program displacement."""
+    group_of(task).modal.displacement = frame(displacement)
+
+
+@builtin("PDispOff")
+def p_disp_off(task: Task) -> None:
+    """No program displacement."""
+    group_of(task).modal.displacement = IDENTITY
+
+
+@builtin("PDispOn")
+def p_disp_on(
+    task: Task,
+    rotation: bool | None,
+    executed: Data,
+    programmed: Data,
+    tool: Ref,
+    work_object: Ref | None,
+) -> None:
+    """Adds the way from the programmed to the executed point (without one: to where it is).
+
+    \\Rot: the executed point in the displaced frame becomes the programmed one in the old.
+    """
+    group = group_of(task)
+    modal = group.modal
+    if executed is None:
+        carrier = carrier_for(group, tool, work_object)
+        executed = rob_target(group, group.positions(), carrier)
+    had, wants = frame(executed), frame(programmed)
+    if rotation:
+        step = frames.compose(had, frames.invert(wants))
+    else:
+        step = (frames.subtract(had[0], wants[0]), frames.UNIT)
+    modal.displacement = frames.compose(modal.displacement, step)
+
+
+@builtin("EOffsSet")
+def e_offs_set(task: Task, offsets: Data) -> None:
+    """Replaces the offsets of external axes."""
+    group_of(task).modal.external_offset = _used(offsets.values())
+
+
+@builtin("EOffsOff")
+def e_offs_off(task: Task) -> None:
+    """No offsets of external axes."""
+    group_of(task).modal.external_offset = _NO_OFFSETS
+
+
+@builtin("EOffsOn")
+def e_offs_on(task: Task, executed: Data, programmed: Data) -> None:
+    """Adds, for each external axis, the executed minus the programmed value."""
+    group = group_of(task)
+    offsets = group.modal.external_offset
+    have = executed.extax.values() if executed is not None else _external_now(group)
+    group.modal.external_offset = tuple(
+        o if max(a, b) > ABSENT / 2 else o + a - b
+        for o, a, b in zip(offsets, have, programmed.extax.values(), strict=True)
+    )
+
+
+def _external_now(group: MotionGroup) -> tuple[float, ...]:
+    values = group.joint_target()[1]
+    return tuple(
+        v if v > ABSENT / 2 else v - o
+        for v, o in zip(values, group.modal.external_offset, strict=True)
+    )
+
+
+def _used(values: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(0.0 if v > ABSENT / 2 else v for v in values)
+
+
+# -- settings without effect on this model ----------------------------------------------------
+
+
+@builtin("MotionSup")
+def motion_sup(
+    task: Task, _on: bool | None, off: bool | None, tune: float | None, _stay: bool | None
+) -> None:
+    """Collision detection: nothing collides here. ERR_ARGVALERR outside 1 to 300 %."""
+    if tune is not None and not 1 <= tune <= 300:
+        raise RapidError("ERR_ARGVALERR", f"\\TuneValue:={tune:g}")
+    group_of(task).modal.extra["MotionSup"] = not off
+
+
+@builtin("GripLoad")
+def grip_load(task: Task, load: Ref) -> None:
+    """Loads change no kinematics, and there is no dynamic model."""
+    group_of(task).modal.extra["GripLoad"] = load.get().copy()
+
+
+@builtin("PathResol")
+def path_resol(task: Task, percent: float) -> None:
+    """Profiles are exact at any resolution. ERR_ARGVALERR outside 25 to 400 %."""
+    if not 25 <= percent <= 400:
+        raise RapidError("ERR_ARGVALERR", f"PathResol {percent:g}")
+    group_of(task).modal.extra["PathResol"] = percent
