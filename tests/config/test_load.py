@@ -95,7 +95,9 @@ def test_octal_looking_numbers_are_decimal(tmp_path):
 
 
 def test_a_section_of_comments_only_is_no_fault(tmp_path):
-    assert load(tmp_path, "model: irb120\nports:\n#  motion: 12000\n").groups[0].ports.motion == 11000
+    assert (
+        load(tmp_path, "model: irb120\nports:\n#  motion: 12000\n").groups[0].ports.motion == 11000
+    )
 
 
 def test_overrides_as_text_and_as_mapping_do_the_same():

@@ -190,10 +190,10 @@ def _translate(request: Request, fault: BaseException) -> Diagnostic:
         )
     if isinstance(inner, RecursionError):
         return error("RG061", f"xacro: a macro of {name} calls itself without end", request.place)
-    text = " ".join(str(fault).split()) or type(inner).__name__
+    text = " ".join(str(inner).split()) or type(inner).__name__
     hint = ""
-    if "Undefined substitution argument" in text or type(inner).__name__ == "ArgException":
-        wanted = text.split()[-1]
+    if type(inner).__name__ == "ArgException":
+        wanted, text = text, f"the argument '{text}' has no value"
         hint = f"add\n  urdf:\n    args: {{{wanted}: VALUE}}"
     return error("RG061", f"xacro cannot expand {name}: {text}", request.place, help=hint)
 

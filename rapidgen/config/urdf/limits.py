@@ -135,10 +135,10 @@ def _rounded(draft: JointDraft, span: Span | None) -> list[Diagnostic]:
         return []
     lower, upper = draft.lower, draft.upper
     ends = []
-    if 0.0005 < upper - round(upper) < _ROUNDING:
+    if 0.0001 < upper - round(upper) < _ROUNDING:
         draft.upper = float(round(upper))
         ends.append(f"{upper:.4f} to {draft.upper:g}")
-    if 0.0005 < round(lower) - lower < _ROUNDING:
+    if 0.0001 < round(lower) - lower < _ROUNDING:
         draft.lower = float(round(lower))
         ends.append(f"{lower:.4f} to {draft.lower:g}")
     if not ends:

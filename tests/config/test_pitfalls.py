@@ -1,0 +1,562 @@
+"""The pitfalls that 303 public models of ABB robots showed, each on a small URDF of its shape."""
+
+import math
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.diagnostics import DiagnosticError, Severity
+
+DEGREE = math.pi / 180
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+
+
+def joint(name, parent, child, kind="revolute", *, limit=True, more="", **limits):
+    """One <joint>; limits in the units of the file (rad, m)."""
+    given = {"lower": -1.5, "upper": 1.5, "velocity": 2.0, "effort": 0, **limits}
+    words = " ".join(f'{key}="{value}"' for key, value in given.items() if value is not None)
+    inner = f"<limit {words}/>" if limit and kind != "fixed" else ""
+    return (
+        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
+        f'<origin xyz="0 0 0.1"/><axis xyz="0 0 1"/>{inner}{more}</joint>'
+    )
+
+
+def links(*names):
+    return "".join(f'<link name="{name}"/>' for name in names)
+
+
+def robot(*parts, name="test"):
+    return f'<robot name="{name}">{"".join(parts)}</robot>'
+
+
+def arm(names=None, *, start="base_link", link="link_", kind="revolute", **limits):
+    """Joints in one chain with their links (without the first)."""
+    names = names or [f"joint_{n}" for n in range(1, 7)]
+    parents = [start, *(f"{link}{n}" for n in range(1, len(names)))]
+    return "".join(
+        joint(name, parent, f"{link}{n}", kind, **limits) + links(f"{link}{n}")
+        for n, (name, parent) in enumerate(zip(names, parents, strict=True), 1)
+    )
+
+
+def six(**changes):
+    """A plain six-axis robot; `changes` are the parts of joint_3."""
+    first = arm([f"joint_{n}" for n in (1, 2)])
+    third = joint("joint_3", "link_2", "link_3", **changes) + links("link_3")
+    rest = "".join(
+        joint(f"joint_{n}", f"link_{n - 1}", f"link_{n}") + links(f"link_{n}") for n in (4, 5, 6)
+    )
+    return robot(links("base_link"), first, third, rest)
+
+
+BASE = links("base_link")
+
+
+@pytest.fixture
+def check(tmp_path):
+    """Load a URDF with further configuration; (config or None, findings by code)."""
+
+    def run(text, more="", *, head="", urdf="", suffix=".urdf", package_paths=()):
+        (tmp_path / f"robot{suffix}").write_text(text)
+        config = f"{head}\nurdf:\n  file: robot{suffix}\n{urdf}\n{more}\n"
+        (tmp_path / "cell.yaml").write_text(config)
+        try:
+            made = load_config(tmp_path / "cell.yaml", package_paths=package_paths)
+        except DiagnosticError as fault:
+            return None, {d.code: d for d in fault.diagnostics}
+        return made, {d.code: d for d in made.diagnostics}
+
+    return run
+
+
+def errors(found):
+    return sorted(code for code, d in found.items() if d.severity is Severity.ERROR)
+
+
+def axes(config):
+    return {j.name: j.axis for j in config.groups[0].joints}
+
+
+def test_a_plain_robot_has_no_findings(check):
+    config, found = check(robot(BASE, arm()))
+    assert not found
+    assert axes(config) == {f"joint_{n}": f"rax_{n}" for n in range(1, 7)}
+    assert [link.joint for link in config.groups[0].chain] == list(axes(config))
+
+
+def test_01_a_macro_file_is_an_empty_robot(check):
+    macro = f'<xacro:macro name="arm" params="prefix size:=3">{BASE}</xacro:macro>'
+    text = f"<robot {XACRO}>{macro}</robot>"
+    _, found = check(text, suffix=".xacro")
+    assert errors(found) == ["RG031"]
+    assert "arm(prefix, size=)" in found["RG031"].message
+    assert "macro: arm" in found["RG031"].help
+
+
+def test_02_find_without_the_package(check):
+    include = '<xacro:include filename="$(find nowhere_pkg)/a.xacro"/>'
+    text = f'<robot name="r" {XACRO}>{include}</robot>'
+    _, found = check(text, suffix=".xacro")
+    assert errors(found) == ["RG032"]
+    assert "'nowhere_pkg'" in found["RG032"].message
+    assert "searched" in found["RG032"].message
+    assert "packages: {nowhere_pkg: FOLDER}" in found["RG032"].help
+
+
+@pytest.mark.parametrize("left", ['<macro name="m"/>', '<include filename="a"/>'])
+def test_03_unprefixed_tags_are_left_over(check, left):
+    text = (
+        robot(BASE, arm())
+        .replace("<robot ", f"<robot {XACRO} ")
+        .replace("<link", left + "<link", 1)
+    )
+    _, found = check(text, suffix=".xacro")
+    assert errors(found) == ["RG033"]
+
+
+def test_03_expressions_in_a_plain_urdf_have_their_line(check):
+    _, found = check(robot(BASE, "\n", arm(), "\n", joint("${name}", "link_6", "x"), links("x")))
+    assert errors(found) == ["RG033"]
+    assert found["RG033"].span.line == 3
+
+
+def test_04_order_in_the_chain_is_not_the_order_of_numbers(check):
+    names = [f"joint_{n}" for n in (1, 3, 2, 4, 5, 6)]
+    _, found = check(robot(BASE, arm(names)))
+    assert errors(found) == ["RG034"]
+    assert "'joint_3': it is number 2 in the chain and says 3" in found["RG034"].message
+    assert "joint_3: {axis: rax_3}" in found["RG034"].help
+
+
+def test_04_document_order_does_not_matter(check):
+    parts = [joint(f"joint_{n}", f"l{n - 1}", f"l{n}") for n in (4, 1, 6, 2, 5, 3)]
+    config, found = check(robot(links(*(f"l{n}" for n in range(7))), *parts))
+    assert not found
+    assert list(axes(config)) == [f"joint_{n}" for n in range(1, 7)]
+
+
+def test_05_numbers_off_by_one(check):
+    _, found = check(robot(BASE, arm([f"joint_{n}" for n in range(2, 8)])))
+    assert errors(found) == ["RG035"]
+
+
+def test_06_a_prefix_is_resolved_and_said(check):
+    config, found = check(robot(BASE, arm([f"cell_joint_{n}_a" for n in range(1, 7)])))
+    assert not errors(found)
+    assert found["RG036"].severity is Severity.WARNING
+    assert "cell_joint_1_a = rax_1" in found["RG036"].message
+    assert config is not None
+
+
+def test_06_names_with_blanks_are_mapped_by_hand(check):
+    names = [f"Revolute {n}" for n in (14, 15, 16, 17, 18, 19)]
+    text = robot(BASE, arm(names))
+    _, found = check(text)
+    assert '"Revolute 14"' in found["RG035"].help
+    lines = "\n".join(f'  "{name}": {{axis: rax_{n}}}' for n, name in enumerate(names, 1))
+    config, found = check(text, f"joints:\n{lines}")
+    assert not found
+    assert axes(config)["Revolute 16"] == "rax_3"
+
+
+def test_07_degrees_in_place_of_radians(check):
+    _, found = check(six(lower=-165, upper=165))
+    assert errors(found) == ["RG037"]
+    assert "looks like degrees" in found["RG037"].message
+
+
+def test_07_the_widest_real_axis_passes(check):
+    config, found = check(six(lower=-460 * DEGREE, upper=460 * DEGREE))
+    assert not errors(found)
+    assert config.groups[0].joints[2].upper == pytest.approx(460 * DEGREE, abs=0.01 * DEGREE)
+
+
+def test_07_a_speed_of_degrees_is_a_warning(check):
+    _, found = check(six(velocity=46))
+    assert found["RG037"].severity is Severity.WARNING
+
+
+@pytest.mark.parametrize("missing", [{"limit": False}, {"lower": None}, {"velocity": None}])
+def test_08_missing_limits(check, missing):
+    _, found = check(six(**missing))
+    assert errors(found) == ["RG038"]
+    config, found = check(
+        six(**missing),
+        "joints:\n"
+        + "\n".join(
+            f"  joint_{n}: {{axis: rax_{n}, lower: -10, upper: 10, speed: 5}}" for n in range(1, 7)
+        ),
+    )
+    assert not errors(found)
+    assert config.groups[0].joints[2].upper == math.radians(10)
+
+
+@pytest.mark.parametrize("figures", [{"velocity": 0}, {"lower": 0, "upper": 0}])
+def test_09_placeholders_are_errors(check, figures):
+    _, found = check(six(**figures))
+    assert errors(found) == ["RG039"]
+
+
+def test_09_a_velocity_of_100_is_a_warning_and_unsure(check):
+    config, found = check(six(velocity=100))
+    assert found["RG039"].severity is Severity.WARNING
+    assert config.groups[0].joints[2].unsure
+
+
+def test_10_a_continuous_robot_axis(check):
+    _, found = check(six(kind="continuous"))
+    assert errors(found) == ["RG040"]
+    assert "joint_3: {axis: rax_3, lower: -180" in found["RG040"].help
+
+
+def test_10_a_continuous_external_axis_is_an_independent_one(check):
+    text = robot(BASE, arm(), joint("table", "base_link", "top", "continuous"), links("top"))
+    mapping = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in range(1, 7))
+    config, found = check(text, f"joints:\n{mapping}\n  table: {{axis: eax_a}}")
+    assert found["RG040"].severity is Severity.WARNING
+    assert axes(config)["table"] == "eax_a"
+
+
+SCARA = "joints:\n" + "\n".join(
+    f"  joint_{n}: {{axis: rax_{n}{', unit: mm' if n == 3 else ''}}}" for n in range(1, 5)
+)
+
+
+def scara(lower, upper):
+    return robot(
+        BASE,
+        arm(["joint_1", "joint_2"]),
+        joint("joint_3", "link_2", "link_3", "prismatic", lower=lower, upper=upper, velocity=1),
+        joint("joint_4", "link_3", "link_4"),
+        links("link_3", "link_4"),
+    )
+
+
+def test_11_metres_become_millimetres_and_it_is_said(check):
+    config, found = check(scara(-0.18, 0), SCARA)
+    assert found["RG041"].severity is Severity.INFO
+    third = config.groups[0].joints[2]
+    assert (third.kind, third.lower, third.upper, third.speed) == ("prismatic", -0.18, 0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("lower", "upper", "severity"),
+    [(0, 180, Severity.ERROR), (0, 0.0005, Severity.ERROR), (0, 60, Severity.WARNING)],
+)
+def test_11_strokes_that_are_none(check, lower, upper, severity):
+    _, found = check(scara(lower, upper), SCARA)
+    assert found["RG041"].severity is severity
+
+
+def mimicking(of="joint_3", kind="continuous"):
+    more = f'<mimic joint="{of}" multiplier="-1"/>'
+    lever = joint("joint_lever", "link_2", "lever", kind, limit=False, more=more)
+    return robot(BASE, arm(), lever, links("lever"))
+
+
+def test_12_mimic_joints_are_left_out(check):
+    config, found = check(mimicking())
+    assert not found
+    assert len(config.groups[0].joints) == 6
+
+
+def test_12_a_mimic_of_nothing(check):
+    _, found = check(mimicking("joint_9"))
+    assert errors(found) == ["RG042"]
+
+
+def test_12_a_mapped_mimic(check):
+    lines = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in (1, 2, 4, 5, 6))
+    _, found = check(mimicking(), f"joints:\n{lines}\n  joint_lever: {{axis: rax_3}}")
+    assert errors(found) == ["RG042"]
+
+
+def test_12_a_mimic_in_the_chain_follows(check):
+    inner = joint("joint5b", "link_5", "link_5b", more='<mimic joint="joint_5" multiplier="-1"/>')
+    text = robot(
+        BASE,
+        arm([f"joint_{n}" for n in range(1, 6)]),
+        inner,
+        joint("joint_6", "link_5b", "link_6"),
+        links("link_5b", "link_6"),
+    )
+    config, found = check(text)
+    assert not found
+    assert config.groups[0].chain[5].follows == (("joint_5", -1.0),)
+
+
+def test_13_a_passive_joint_that_is_not_marked(check):
+    still = joint("tail", "link_2", "tail_link", lower=0, upper=0)
+    text = robot(BASE, arm(), still, links("tail_link"))
+    _, found = check(text)
+    assert errors(found) == ["RG043"]
+    assert "ignore_joints: [tail]" in found["RG043"].help
+    config, found = check(text, urdf="  ignore_joints: [tail]")
+    assert not found
+    assert len(config.groups[0].joints) == 6
+
+
+def test_13_an_ignored_joint_that_does_not_exist(check):
+    _, found = check(robot(BASE, arm()), urdf="  ignore_joints: [jiont_7]")
+    assert errors(found) == ["RG043"]
+
+
+def test_14_a_gripper(check):
+    finger = joint("finger_joint", "link_6", "finger", "prismatic", lower=0, upper=0.025)
+    text = robot(BASE, arm(), finger, links("finger"))
+    _, found = check(text)
+    assert errors(found) == ["RG044"]
+    mapping = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in range(1, 7))
+    _, found = check(text, f"joints:\n{mapping}")
+    assert errors(found) == ["RG044"]
+    _, found = check(text, urdf="  ignore_joints: [finger_joint]")
+    assert not found
+
+
+def test_15_seven_joints_need_a_mapping(check):
+    names = [f"joint_{n}" for n in (1, 2, 7, 3, 4, 5, 6)]
+    text = robot(BASE, arm(names))
+    _, found = check(text)
+    assert errors(found) == ["RG045"]
+    assert "joint_7: {axis: eax_a}" in found["RG045"].help
+    lines = found["RG045"].help[found["RG045"].help.index("joints:") :]
+    config, found = check(text, lines)
+    assert not found
+    assert axes(config)["joint_7"] == "eax_a"
+
+
+def test_15_two_joints_cannot_drive_one_axis(check):
+    names = [f"joint_{n}" for n in range(1, 8)]
+    lines = "\n".join(f"  {name}: {{axis: rax_{min(n, 6)}}}" for n, name in enumerate(names, 1))
+    _, found = check(robot(BASE, arm(names)), f"joints:\n{lines}")
+    assert errors(found) == ["RG013"]
+
+
+def track():
+    slide = joint("rail", "world", "base_link", "prismatic", lower=0, upper=4.2)
+    return robot(links("world", "base_link"), arm(), slide)
+
+
+def test_16_a_track_under_the_robot_is_external(check):
+    _, found = check(track())
+    assert errors(found) == ["RG046"]
+    assert "rail" in found["RG046"].message
+    mapping = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in range(1, 7))
+    config, found = check(track(), f"joints:\n{mapping}\n  rail: {{axis: eax_a, unit: mm}}")
+    assert not errors(found)
+    assert "its base moves" in found["RG046"].message
+    assert config.groups[0].chain[0].joint == "rail"
+    assert config.groups[0].joints[6].upper == 4.2
+
+
+def test_16_a_joint_on_another_branch_is_no_robot_axis(check):
+    text = robot(BASE, arm(), joint("table", "base_link", "top"), links("top"))
+    lines = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in range(1, 6))
+    more = f"joints:\n{lines}\n  table: {{axis: rax_6}}\n  joint_6: {{axis: eax_a}}"
+    _, found = check(text, more)
+    assert errors(found) == ["RG046"]
+
+
+def test_17_a_lever_robot_needs_its_coupling(check):
+    text = robot(BASE, arm(), name="abb_irb2400_12_155")
+    _, found = check(text)
+    assert errors(found) == ["RG047"]
+    config, found = check(text, "coupling: 1")
+    assert not found
+    assert config.groups[0].coupling == 1
+
+
+def test_17_a_serial_robot_has_none(check):
+    _, found = check(robot(BASE, arm(), name="irb6700_200_260"), "coupling: 1")
+    assert found["RG047"].severity is Severity.WARNING
+
+
+def mirrored():
+    """joint_3 of a CRB 15000 (-225..85) drawn the other way round."""
+    known = {1: 180, 2: 180, 4: 180, 5: 180, 6: 180}
+    parts = [
+        joint(f"joint_{n}", f"l{n - 1}", f"l{n}", lower=-known[n] * DEGREE, upper=known[n] * DEGREE)
+        for n in known
+    ]
+    third = joint("joint_3", "l2", "l3", lower=-85 * DEGREE, upper=225 * DEGREE)
+    return robot(links(*(f"l{n}" for n in range(7))), *parts, third)
+
+
+def test_18_a_mirrored_range_is_a_turned_axis(check):
+    _, found = check(mirrored(), head="model: crb15000")
+    assert errors(found) == ["RG048"]
+    assert "joints.joint_3.sign: -1" in found["RG048"].help
+    config, found = check(mirrored(), "joints: {joint_3: {sign: -1}}", head="model: crb15000")
+    assert not errors(found)
+    assert config.groups[0].joints[2].sign == -1
+    assert math.degrees(config.groups[0].joints[2].lower) == pytest.approx(-225)
+
+
+def test_19_ranges_that_differ_from_the_model(check):
+    config, found = check(robot(BASE, arm()), head="model: irb120")
+    assert found["RG049"].severity is Severity.WARNING
+    assert "joint_1 -85.94..85.94 (known -165..165 deg)" in found["RG049"].message
+    assert math.degrees(config.groups[0].joints[0].upper) == pytest.approx(165)
+
+
+def test_20_four_joints(check):
+    text = robot(BASE, arm([f"joint_{n}" for n in range(1, 5)]))
+    _, found = check(text)
+    assert errors(found) == ["RG050"]
+    lines = "joints:\n" + "\n".join(
+        f"  joint_{n}: {{axis: rax_{axis}}}" for n, axis in ((1, 1), (2, 2), (3, 3), (4, 6))
+    )
+    config, found = check(text, lines)
+    assert not found
+    assert axes(config)["joint_4"] == "rax_6"
+
+
+@pytest.mark.parametrize(
+    "extra",
+    [
+        joint("rod", "base_link", "link_3"),  # two parents: a closed loop
+        joint("joint_2", "link_6", "x") + links("x"),  # a name twice
+        links("link_1"),  # a link twice
+        joint("rod", "link_6", "nowhere"),  # undefined child
+        joint("rod", "nowhere", "x") + links("x"),  # undefined parent
+        joint("back", "link_6", "base_link"),  # a circle
+    ],
+)
+def test_21_no_tree(check, extra):
+    _, found = check(robot(BASE, arm(), extra))
+    assert errors(found) == ["RG051"]
+
+
+def test_21_two_roots_are_a_warning(check):
+    config, found = check(robot(BASE, links("world"), arm()))
+    assert found["RG051"].severity is Severity.WARNING
+    assert config is not None
+
+
+def two_arms():
+    left = arm([f"left_joint_{n}" for n in range(1, 7)], link="left_")
+    right = arm([f"right_joint_{n}" for n in range(1, 7)], link="right_")
+    return robot(BASE, left, right)
+
+
+def test_22_two_robots_in_one_description(check):
+    _, found = check(two_arms())
+    assert errors(found) == ["RG052"]
+    assert "left_6, right_6" in found["RG052"].message
+    config, found = check(two_arms(), urdf="  tip: right_6")
+    assert not errors(found)
+    assert axes(config)["right_joint_6"] == "rax_6"
+
+
+def test_22_a_group_for_each(tmp_path):
+    (tmp_path / "robot.urdf").write_text(two_arms())
+    (tmp_path / "cell.yaml").write_text(
+        "groups:\n"
+        "  a: {urdf: {file: robot.urdf, tip: left_6}}\n"
+        "  b: {urdf: {file: robot.urdf, tip: right_6}}\n"
+    )
+    config = load_config(tmp_path / "cell.yaml")
+    assert [g.joints[0].name for g in config.groups] == ["left_joint_1", "right_joint_1"]
+
+
+def test_22_a_tip_that_does_not_exist(check):
+    _, found = check(two_arms(), urdf="  tip: rihgt_6")
+    assert errors(found) == ["RG052"]
+    assert "right_6" in found["RG052"].help
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        {"kind": "floating", "limit": False},
+        {"kind": "planar", "limit": False},
+        {"kind": "screw"},
+        {"lower": 2, "upper": -2},
+        {"lower": "nan"},
+        {"upper": "inf"},
+        {"upper": "2,9"},
+        {"velocity": "fast"},
+    ],
+)
+def test_23_joints_that_cannot_be(check, changes):
+    _, found = check(six(**changes))
+    assert errors(found) == ["RG053"]
+    assert "joint_3" in found["RG053"].message
+
+
+@pytest.mark.parametrize("old", [' name="joint_3"', '<parent link="link_2"/>', ' type="revolute"'])
+def test_23_missing_parts(check, old):
+    text = six()
+    at = text.index('<joint name="joint_3"')
+    _, found = check(text[:at] + text[at:].replace(old, "", 1))
+    assert errors(found) == ["RG053"]
+
+
+def test_24_a_limit_rounded_outwards_comes_back(check):
+    config, found = check(six(lower=-3.1416, upper=3.1416))
+    assert found["RG054"].severity is Severity.INFO
+    third = config.groups[0].joints[2]
+    assert (third.lower, third.upper) == (-math.pi, math.pi)
+
+
+def test_24_other_limits_are_rounded_inwards(check):
+    config, _ = check(six(lower=-1.4855, upper=2.967))
+    third = config.groups[0].joints[2]
+    assert math.degrees(third.lower) == pytest.approx(-85.0, abs=1e-9)  # -85.11
+    assert math.degrees(third.upper) == pytest.approx(169.99, abs=1e-9)  # 169.9966
+
+
+def test_25_no_mesh_is_opened(check, tmp_path, monkeypatch):
+    import builtins
+    import io
+
+    (tmp_path / "link.stl").write_bytes(b"not a mesh")
+    opened = []
+    original = builtins.open
+
+    def spy(file, *arguments, **options):
+        opened.append(str(file))
+        return original(file, *arguments, **options)
+
+    monkeypatch.setattr(builtins, "open", spy)
+    monkeypatch.setattr(io, "open", spy)
+    mesh = '<visual><geometry><mesh filename="{}"/></geometry></visual>'
+    text = robot(BASE, arm()).replace(
+        '<link name="base_link"/>',
+        f'<link name="base_link">{mesh.format("link.stl")}{mesh.format("package://a/b.dae")}</link>',
+    )
+    config, found = check(text)
+    assert not found
+    assert config is not None
+    assert not [name for name in opened if name.endswith((".stl", ".dae"))]
+
+
+ARGUMENT = (
+    f'<robot name="r" {XACRO}><xacro:arg name="prefix" default=""/>'
+    + BASE
+    + arm([f"$(arg prefix)joint_{n}" for n in range(1, 7)])
+    + "</robot>"
+)
+
+
+def test_26_an_argument_that_no_file_declares(check):
+    _, found = check(ARGUMENT, urdf="  args: {prefx: a_}", suffix=".xacro")
+    assert errors(found) == ["RG056"]
+    assert "did you mean 'prefix'?" in found["RG056"].help
+    config, found = check(ARGUMENT, urdf="  args: {prefix: a_}", suffix=".xacro")
+    assert not errors(found)
+    assert axes(config)["a_joint_1"] == "rax_1"
+
+
+def test_27_two_packages_of_one_name(check, tmp_path):
+    for fork in ("one", "two"):
+        folder = tmp_path / "forks" / fork
+        folder.mkdir(parents=True)
+        (folder / "package.xml").write_text("<package><name>arm_pkg</name></package>")
+        (folder / "a.xacro").write_text(f"<robot {XACRO}>{BASE}{arm()}</robot>")
+    text = f'<robot name="r" {XACRO}><xacro:include filename="$(find arm_pkg)/a.xacro"/></robot>'
+    config, found = check(text, suffix=".xacro", package_paths=[tmp_path / "forks"])
+    assert found["RG057"].severity is Severity.WARNING
+    assert str(tmp_path / "forks" / "one") in found["RG057"].label
+    assert config is not None

@@ -1,0 +1,213 @@
+"""xacro without ROS: where packages are found, macros, hostile XML, what is left untouched."""
+
+import os
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.config.urdf.packages import PackageNotFound, Packages
+from rapidgen.diagnostics import DiagnosticError
+
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+
+
+def body(prefix=""):
+    parts = [f'<link name="{prefix}l0"/>']
+    for n in range(1, 7):
+        parts.append(
+            f'<link name="{prefix}l{n}"/><joint name="{prefix}joint_{n}" type="revolute">'
+            f'<parent link="{prefix}l{n - 1}"/><child link="{prefix}l{n}"/><axis xyz="0 0 1"/>'
+            '<limit lower="-1" upper="1" velocity="1" effort="0"/></joint>'
+        )
+    return "".join(parts)
+
+
+def package(folder, name):
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    return folder
+
+
+def codes(path, **options):
+    with pytest.raises(DiagnosticError) as caught:
+        load_config(path, **options)
+    return [d.code for d in caught.value.diagnostics]
+
+
+def configure(tmp_path, more=""):
+    path = tmp_path / "cell.yaml"
+    path.write_text(f"urdf:\n  file: robot.xacro\n{more}")
+    return path
+
+
+INCLUDE = f'<robot name="r" {XACRO}><xacro:include filename="$(find arm_pkg)/arm.xacro"/></robot>'
+
+
+@pytest.fixture
+def arm_package(tmp_path):
+    """A package whose folder is not called like it."""
+    folder = package(tmp_path / "elsewhere" / "checkout", "arm_pkg")
+    (folder / "arm.xacro").write_text(f"<robot {XACRO}>{body()}</robot>")
+    (tmp_path / "cell").mkdir()
+    (tmp_path / "cell" / "robot.xacro").write_text(INCLUDE)
+    return folder
+
+
+def test_a_package_from_the_configuration(arm_package, tmp_path):
+    path = configure(tmp_path / "cell", "  packages: {arm_pkg: ../elsewhere/checkout}")
+    config = load_config(path)
+    assert [name for name, _ in config.inputs] == ["cell.yaml", "robot.xacro", "arm.xacro"]
+
+
+def test_a_package_from_the_command_line(arm_package, tmp_path):
+    path = configure(tmp_path / "cell")
+    assert codes(path) == ["RG032"]
+    assert load_config(path, package_paths=[tmp_path / "elsewhere"])
+
+
+def test_a_package_from_ros_package_path(arm_package, tmp_path, monkeypatch):
+    monkeypatch.setenv("ROS_PACKAGE_PATH", os.pathsep.join(["/none", str(tmp_path / "elsewhere")]))
+    assert load_config(configure(tmp_path / "cell"))
+
+
+def test_a_package_from_ament(tmp_path, monkeypatch):
+    (tmp_path / "robot.xacro").write_text(INCLUDE)
+    share = tmp_path / "install" / "share"
+    marker = share / "ament_index" / "resource_index" / "packages" / "arm_pkg"
+    marker.parent.mkdir(parents=True)
+    marker.touch()
+    (share / "arm_pkg").mkdir()
+    (share / "arm_pkg" / "arm.xacro").write_text(f"<robot {XACRO}>{body()}</robot>")
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(tmp_path / "install"))
+    assert load_config(configure(tmp_path))
+
+
+def test_a_neighbour_of_the_files_own_package(arm_package, tmp_path):
+    own = package(tmp_path / "elsewhere" / "cell_description", "cell_description")
+    (own / "urdf").mkdir()
+    (own / "urdf" / "robot.xacro").write_text(INCLUDE)
+    assert load_config(configure(own / "urdf"))
+
+
+def test_the_configuration_goes_before_the_search(tmp_path):
+    one = package(tmp_path / "one" / "p", "p")
+    two = package(tmp_path / "two" / "p", "p")
+    packages = Packages({"p": one}, [tmp_path / "two"], tmp_path, {})
+    assert packages.find("p") == one
+    assert Packages({}, [tmp_path / "two"], tmp_path, {}).find("p") == two
+    with pytest.raises(PackageNotFound, match="does not exist"):
+        Packages({"p": tmp_path / "three"}, [tmp_path / "two"], tmp_path, {}).find("p")
+
+
+def test_what_is_replaced_in_xacro_is_put_back(arm_package, tmp_path):
+    import xacro
+    from xacro import substitution_args
+
+    before = (xacro.parse, substitution_args._eval_find, substitution_args._eval_dict["find"])
+    load_config(configure(tmp_path / "cell"), package_paths=[tmp_path / "elsewhere"])
+    codes(configure(tmp_path / "cell"))
+    after = (xacro.parse, substitution_args._eval_find, substitution_args._eval_dict["find"])
+    assert before == after
+
+
+MACRO = (
+    f'<robot {XACRO}><xacro:macro name="arm" params="prefix *origin size:=1 kind">'
+    f"{body('${prefix}')}</xacro:macro></robot>"
+)
+
+
+def test_a_macro_is_called_through_a_wrapper(tmp_path):
+    (tmp_path / "robot.xacro").write_text(MACRO)
+    path = configure(tmp_path, "  macro: arm\n  macro_args: {kind: small, prefix: a_}\n")
+    assert load_config(path).groups[0].joints[0].name == "a_joint_1"
+    path = configure(tmp_path, "  macro: arm\n  macro_args: {kind: small}\n")
+    assert load_config(path).groups[0].joints[0].name == "joint_1"
+
+
+def test_a_macro_says_what_it_needs(tmp_path):
+    (tmp_path / "robot.xacro").write_text(MACRO)
+    assert codes(configure(tmp_path, "  macro: arm\n  macro_args: {knid: x}\n")) == ["RG056"] * 2
+    assert codes(configure(tmp_path, "  macro: amr\n")) == ["RG031"]
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        (f'<robot name="$(arg who)" {XACRO}>{body()}</robot>', "RG061"),
+        (f'<robot name="${{undefined}}" {XACRO}>{body()}</robot>', "RG061"),
+        (f'<robot name="${{1/0}}" {XACRO}>{body()}</robot>', "RG061"),
+        (f'<robot {XACRO}><xacro:include filename="none.xacro"/></robot>', "RG060"),
+        ('<robot name="r"><xacro:if value="1"/></robot>', "RG060"),
+        (
+            f'<robot {XACRO}><xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/></robot>',
+            "RG061",
+        ),
+        (f"<robot {XACRO}><link", "RG060"),
+        (f"<machine {XACRO}/>", "RG060"),
+        (f"<robot {XACRO}/>", "RG031"),
+        ("", "RG060"),
+    ],
+)
+def test_what_cannot_be_expanded_is_one_finding(tmp_path, text, code):
+    (tmp_path / "robot.xacro").write_text(text)
+    assert codes(configure(tmp_path)) == [code]
+
+
+def test_an_argument_can_be_given(tmp_path):
+    (tmp_path / "robot.xacro").write_text(f'<robot name="$(arg who)" {XACRO}>{body()}</robot>')
+    assert load_config(configure(tmp_path, "  args: {who: me}"))
+
+
+BOMB = "".join(f'<!ENTITY e{n} "&e{n - 1};&e{n - 1};">' for n in range(1, 40))
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        f'<!DOCTYPE r [<!ENTITY e0 "ha">{BOMB}]><robot name="r">&e39;</robot>'.encode(),
+        b'<!DOCTYPE r [<!ENTITY x SYSTEM "file:///etc/passwd">]><robot name="r">&x;</robot>',
+        b'<!DOCTYPE r SYSTEM "http://localhost/x.dtd"><robot name="r"/>',
+        '<robot name="r"/>'.encode("utf-16"),
+        b'<robot name="\xff"/>',
+        b"<robot" + b" " * 20_000_001,
+        b"",
+    ],
+)
+@pytest.mark.parametrize("name", ["robot.urdf", "robot.xacro"])
+def test_hostile_xml_is_refused(tmp_path, data, name):
+    (tmp_path / name).write_bytes(data)
+    (tmp_path / "cell.yaml").write_text(f"urdf: {{file: {name}}}\n")
+    assert codes(tmp_path / "cell.yaml") == ["RG060"]
+
+
+def test_hostile_xml_is_refused_in_an_included_file(tmp_path):
+    (tmp_path / "robot.xacro").write_text(
+        f'<robot name="r" {XACRO}><xacro:include filename="part.xacro"/></robot>'
+    )
+    (tmp_path / "part.xacro").write_text(f'<!DOCTYPE r [<!ENTITY e0 "ha">{BOMB}]><robot/>')
+    assert codes(configure(tmp_path)) == ["RG060"]
+
+
+def test_a_word_of_a_doctype_in_a_comment_is_harmless(tmp_path):
+    text = f'<robot name="r" {XACRO}><!-- <!DOCTYPE r> -->{body()}</robot>'
+    (tmp_path / "robot.xacro").write_text(text)
+    assert load_config(configure(tmp_path))
+
+
+def test_a_plain_urdf_takes_no_arguments(tmp_path):
+    (tmp_path / "robot.urdf").write_text(f'<robot name="r">{body()}</robot>')
+    path = tmp_path / "cell.yaml"
+    path.write_text("urdf: {file: robot.urdf, args: {prefix: a_}}\n")
+    assert codes(path) == ["RG056"]
+
+
+def test_places_of_a_plain_urdf_are_its_own_lines(tmp_path):
+    text = f'<robot name="r">\n{body()}\n</robot>'.replace('lower="-1"', 'lower="-1,5"', 1)
+    (tmp_path / "robot.urdf").write_text(text)
+    (tmp_path / "cell.yaml").write_text("urdf: {file: robot.urdf}\n")
+    with pytest.raises(DiagnosticError) as caught:
+        load_config(tmp_path / "cell.yaml")
+    (fault,) = caught.value.diagnostics
+    assert fault.span is not None
+    assert (fault.span.path, fault.span.line) == (str(tmp_path / "robot.urdf"), 2)
+    assert "decimal point" in fault.help
