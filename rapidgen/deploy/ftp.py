@@ -26,7 +26,7 @@ from rapidgen.deploy.transport import (
 
 _ANSWER_LINES = 500
 _LISTING_BYTES = 4 * 1024 * 1024
-_SPACE_WORDS = ("space", "quota", "disk full", "exceeded storage")
+_SPACE_WORDS = ("no space", "disk full", "quota exceeded", "disk quota", "insufficient", "not enough")
 
 
 class FtpTransport:
@@ -207,7 +207,9 @@ class FtpTransport:
         code = answer[:3]
         if login:
             return "login" if code.startswith("5") else "lost"
-        if code in ("452", "552") or any(word in answer.lower() for word in _SPACE_WORDS):
+        # Servers repeat the path, and a path may hold any word.
+        words = answer.replace(path, "").lower() if path else answer.lower()
+        if code in ("452", "552") or any(word in words for word in _SPACE_WORDS):
             return "full"
         if code in ("500", "501", "502", "503", "504", "202"):
             return "unsupported"

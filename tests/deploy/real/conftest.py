@@ -1,0 +1,265 @@
+"""Debian's own servers, each on loopback with a configuration of ours, as little root as possible.
+
+They come from PATH or from build/servers (`.ci/servers`). A server that is missing skips its
+tests loudly; with CI=true it fails them.
+"""
+
+import getpass
+import os
+import platform
+import pwd
+import shutil
+import socket
+import subprocess
+import tempfile
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn
+
+import pytest
+
+from rapidgen.deploy import Access, connect, parse_target
+from rapidgen.deploy.target import Target
+from rapidgen.services import serve_ftp, serve_sftp
+
+ROOT = Path(__file__).parents[3]
+UNPACKED = ROOT / "build" / "servers" / "root"
+USER, PASSWORD = "Default User", "robot-test"
+HASH = "$1$rapidgen$Z4.YQEqmTI.KLC/JtVMCd."  # of PASSWORD, as AuthUserFile wants it
+IS_ROOT = os.geteuid() == 0
+NOBODY = 65534
+
+
+@dataclass
+class Server:
+    """A running server: `home` is the folder it serves, `url` leads there."""
+
+    kind: str
+    home: Path
+    port: int
+    url: str
+    access: Access
+    target: Target
+
+    def connect(self, port: int | None = None):
+        url = self.url if port is None else self.url.replace(str(self.port), str(port))
+        return connect(parse_target(url), self.access)
+
+
+def program(name: str, *places: str) -> str:
+    """Path of a server; skips, or fails under CI, when there is none."""
+    search = os.pathsep.join([os.environ.get("PATH", ""), "/usr/sbin", *places])
+    search += f"{os.pathsep}{UNPACKED}/usr/sbin{os.pathsep}{UNPACKED}/usr/bin"
+    found = shutil.which(name, path=search)
+    if found is None:
+        absent(f"{name}: run .ci/servers, or install it")
+    return str(found)
+
+
+def absent(what: str) -> NoReturn:
+    """Fail under CI, skip elsewhere."""
+    if os.environ.get("CI") == "true":
+        pytest.fail(f"this machine has no {what}")
+    pytest.skip(f"this machine has no {what}")
+
+
+def environment() -> dict[str, str]:
+    triplet = f"{platform.machine()}-linux-gnu"
+    libraries = [str(UNPACKED / "usr/lib" / triplet), str(UNPACKED / "lib" / triplet)]
+    return {**os.environ, "LD_LIBRARY_PATH": os.pathsep.join(libraries)}
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def start(command: list[str], port: int, folder: Path) -> subprocess.Popen:
+    """Start a server and wait until it answers."""
+    log = (folder / "log").open("wb")
+    process = subprocess.Popen(
+        command,
+        env=environment(),
+        stdin=subprocess.DEVNULL,
+        stdout=log,
+        stderr=log,
+    )
+    log.close()
+    end = time.monotonic() + 15
+    while True:
+        try:
+            with socket.create_connection(("127.0.0.1", port), timeout=1):
+                return process
+        except OSError:
+            if process.poll() is not None or time.monotonic() > end:
+                process.kill()
+                process.wait()
+                text = (folder / "log").read_text(errors="replace")
+                pytest.fail(f"{command[0]} does not start: {text}")
+            select_nothing(0.02)
+
+
+def select_nothing(seconds: float) -> None:
+    """Wait for a server of another project to listen: it says so in no other way."""
+    import select
+
+    select.select([], [], [], seconds)
+
+
+def stop(process: subprocess.Popen) -> None:
+    process.terminate()
+    try:
+        process.wait(5)
+    except subprocess.TimeoutExpired:
+        process.kill()
+        process.wait()
+
+
+def vsftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+    config = folder / "vsftpd.conf"
+    config.write_text(
+        f"""listen=YES
+listen_address=127.0.0.1
+listen_port={port}
+background=NO
+run_as_launching_user=YES
+anonymous_enable=YES
+no_anon_password=YES
+anon_root={home}
+write_enable=YES
+anon_upload_enable=YES
+anon_mkdir_write_enable=YES
+anon_other_write_enable=YES
+anon_umask=022
+anon_world_readable_only=NO
+allow_writeable_chroot=YES
+seccomp_sandbox=NO
+xferlog_enable=NO
+ftp_username={getpass.getuser()}
+nopriv_user={getpass.getuser()}
+"""
+    )
+    return [program("vsftpd"), str(config)], "anonymous@127.0.0.1", Access()
+
+
+def proftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+    import grp
+
+    users = folder / "users"
+    users.write_text(f"{USER}:{HASH}:{os.getuid()}:{os.getgid()}::{home}:/bin/sh\n")
+    users.chmod(0o600)
+    config = folder / "proftpd.conf"
+    config.write_text(
+        f"""ServerName test
+ServerType standalone
+DefaultServer on
+DefaultAddress 127.0.0.1
+SocketBindTight on
+Port {port}
+User {getpass.getuser()}
+Group {grp.getgrgid(os.getgid()).gr_name}
+AuthUserFile {users}
+AuthOrder mod_auth_file.c
+RequireValidShell off
+RootLogin on
+PidFile {folder}/pid
+ScoreboardFile {folder}/scoreboard
+DelayTable none
+WtmpLog off
+TransferLog none
+UseReverseDNS off
+AllowOverwrite on
+Umask 022
+"""
+    )
+    command = [program("proftpd"), "-n", "-q", "-c", str(config)]
+    return command, "Default%20User@127.0.0.1", Access()
+
+
+def pure_ftpd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+    if not IS_ROOT:
+        pytest.skip("pure-ftpd of Debian starts as root only")
+    tool = program("pure-pw")
+    database = folder / "pure.pdb"
+    users = folder / "users"
+    if home.stat().st_uid == 0:
+        os.chown(home, NOBODY, NOBODY)
+    # The tool refuses a user name with a space; the server reads what the file says.
+    users.write_text(f"{USER}:{HASH}:{NOBODY}:{NOBODY}::{home}/./::::::::::::\n")
+    subprocess.run([tool, "mkdb", str(database), "-f", str(users)], check=True, env=environment())
+    command = [program("pure-ftpd"), "-S", f"127.0.0.1,{port}", "-l", f"puredb:{database}"]
+    command += ["-g", str(folder / "pid"), "-u", "1", "-H", "-U", "022:022"]
+    return command, "Default%20User@127.0.0.1", Access()
+
+
+def sshd(folder: Path, home: Path, port: int) -> tuple[list[str], str, Access]:
+    for name in ("host", "client"):
+        command = ["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", str(folder / name)]
+        subprocess.run(command, check=True)
+    shutil.copy(folder / "client.pub", folder / "authorized")
+    config = folder / "sshd.conf"
+    config.write_text(
+        f"""ListenAddress 127.0.0.1
+Port {port}
+HostKey {folder}/host
+AuthorizedKeysFile {folder}/authorized
+PermitRootLogin yes
+PidFile {folder}/pid
+PasswordAuthentication no
+KbdInteractiveAuthentication no
+StrictModes no
+UsePAM no
+Subsystem sftp internal-sftp
+"""
+    )
+    key = (folder / "host.pub").read_text()
+    (folder / "known_hosts").write_text(f"[127.0.0.1]:{port} {key}")
+    access = Access(identity=str(folder / "client"), known_hosts=str(folder / "known_hosts"))
+    user = getpass.getuser()
+    if IS_ROOT:
+        Path("/run/sshd").mkdir(exist_ok=True)  # where root's sshd separates privileges
+        if "sshd" not in {entry.pw_name for entry in pwd.getpwall()}:
+            absent("user sshd, which root's sshd needs: install openssh-server")
+    return [program("sshd"), "-D", "-e", "-f", str(config)], f"{user}@127.0.0.1", access
+
+
+DEBIAN = {"vsftpd": vsftpd, "proftpd": proftpd, "pure-ftpd": pure_ftpd, "sshd": sshd}
+OURS = {"pyftpdlib": serve_ftp, "paramiko": serve_sftp}
+FTP = ("pyftpdlib", "vsftpd", "proftpd", "pure-ftpd")
+ALL = (*FTP, "paramiko", "sshd")
+
+
+@pytest.fixture
+def server(request, monkeypatch) -> Iterator[Server]:
+    """The server that the test's parameter names (indirect)."""
+    kind = request.param
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", PASSWORD)
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o755)
+        home = folder / "HOME"
+        home.mkdir()
+        if kind in OURS:
+            service = OURS[kind](home, user=USER, password=PASSWORD)
+            scheme = "ftp" if kind == "pyftpdlib" else "sftp"
+            known = folder / "known_hosts"
+            known.write_text(service.host_key + "\n")
+            url = f"{scheme}://Default%20User@127.0.0.1:{service.port}"
+            access = Access(known_hosts=str(known))
+            yield Server(kind, home, service.port, url, access, parse_target(url))
+            service.close()
+            return
+        port = free_port()
+        command, login, access = DEBIAN[kind](folder, home, port)
+        process = start(command, port, folder)
+        scheme = "sftp" if kind == "sshd" else "ftp"
+        # Behind a login that ends in HOME there is nothing to name.
+        place = str(home) if kind in ("sshd",) else ""
+        url = f"{scheme}://{login}:{port}{place}"
+        try:
+            yield Server(kind, home, port, url, access, parse_target(url))
+        finally:
+            stop(process)
