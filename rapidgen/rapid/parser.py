@@ -215,12 +215,14 @@ class ModuleParser(RoutineParser):
             try:
                 if kinds[at] is not NAME:
                     raise SyntaxFault(at, "a component (type and name) or ENDRECORD")
-                if kinds[at + 1] is not NAME:
-                    raise SyntaxFault(at + 1, "the name of the component")
-                if kinds[at + 2] == "{":
-                    raise SyntaxFault(at + 2, "';'", "a component cannot be an array [K §2.14]")
-                end = self.semicolon_here(at + 2, "';'")
-                components.append(Component(at, end, texts[at], texts[at + 1]))
+                name_here = self.identifier(at + 1, "the name of the component")
+                end = at + 2
+                if kinds[end] == "{":
+                    help = "a component cannot be an array [K §2.14]"
+                    self.fault(SyntaxFault(end, "';'", help))
+                    end = self._behind_braces(end)
+                end = self.semicolon_here(end, "';'")
+                components.append(Component(at, end, texts[at], name_here))
                 at = end + 1
             except SyntaxFault as found:
                 self.fault(found)
@@ -235,6 +237,15 @@ class ModuleParser(RoutineParser):
         if not components:
             self.fault(SyntaxFault(at, "a component", "a record has at least one [K §2.14]"))
         return RecordDeclaration(first, at, scope, name, components)
+
+    def _behind_braces(self, i: int) -> int:
+        """Index behind the braces at i, if they are closed before anything else ends."""
+        at = i
+        while self.kinds[at] not in MODULE_STOPS and self.kinds[at] not in ("ENDRECORD", ";"):
+            if self.kinds[at] == "}":
+                return at + 1
+            at += 1
+        return at
 
     def _alias(self, first: int, i: int, scope: Scope) -> AliasDeclaration:
         type_name = self.identifier(i + 1, "the name of a type")
@@ -281,7 +292,7 @@ def _run(parser: ModuleParser, tokens: Tokens) -> Module:
     attributes: tuple[str, ...] = ()
     declarations: list[Declaration] = []
     try:
-        for finding in text.long_names(tokens):
+        for finding in text.spellings(tokens):
             parser.report(finding)
         module_name, attributes, declarations = parser.module()
     except GivenUp as reason:

@@ -11,7 +11,7 @@ from typing import Final
 from rapidgen.rapid import faults
 from rapidgen.rapid.expressions import MAX_BLOCK_DEPTH, ExpressionParser
 from rapidgen.rapid.faults import CLOSER, GivenUp, SyntaxFault
-from rapidgen.rapid.lexer import EOF, HOLDER, NAME, UNTERMINATED, Tokens
+from rapidgen.rapid.lexer import EOF, HOLDER, KEYWORDS, NAME, UNTERMINATED, Tokens
 from rapidgen.rapid.nodes import (
     Argument,
     Assignment,
@@ -65,6 +65,7 @@ _STARTERS: Final = frozenset(
 ) | {EOF}
 """Keywords at which a statement, a declaration or an end begins."""
 
+_BEHIND_NAMES: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
 _DIVIDERS: Final = {"ELSE": "ENDIF", "ELSEIF": "ENDIF", "CASE": "ENDTEST", "DEFAULT": "ENDTEST"}
 _BLOCK_ENDS: Final = {"ENDIF": "IF", "ENDFOR": "FOR", "ENDWHILE": "WHILE", "ENDTEST": "TEST"}
 
@@ -148,14 +149,16 @@ class StatementParser(ExpressionParser):
             except SyntaxFault as found:
                 self.depth = 0
                 self.fault(found)
-                i = self.resume(i, found.at)
+                i = self.resume(i, found.at, found.expected)
 
-    def resume(self, start: int, at: int) -> int:
+    def resume(self, start: int, at: int, expected: str = "") -> int:
         """Index from which to go on after an error at token `at` of what began at `start`."""
         kinds = self.kinds
         if kinds[at] is UNTERMINATED:
             return at + 1  # the quote took the rest of its line
-        if at == start and kinds[at] is not EOF:
+        # A keyword in the midst of a line, where an operand should be, starts no statement.
+        operand = expected == "an expression" and kinds[at] in _STARTERS
+        if kinds[at] is not EOF and (at == start or (operand and not self._starts_line(at))):
             if kinds[at] == ";":
                 return at + 1
             at += 1
@@ -363,6 +366,10 @@ class StatementParser(ExpressionParser):
             return self.texts[i]
         if self.kinds[i] is HOLDER and self.texts[i].upper() == "<ID>":
             return "<ID>"
+        if self.kinds[i] in KEYWORDS and self.kinds[i + 1] in _BEHIND_NAMES:
+            # Taken as the name that it was meant for, so that nothing follows from it.
+            self.fault(SyntaxFault(i, expected, f"{self.kinds[i]} is a reserved word"))
+            return self.texts[i]
         raise SyntaxFault(i, expected)
 
     def _goto(self, i: int) -> Goto:
@@ -519,6 +526,7 @@ class StatementParser(ExpressionParser):
     def _test(self, i: int) -> Test:
         kinds = self.kinds
         subject: Expression
+        told = -1
         try:
             subject = self.expression(i + 1)
             at = subject.last + 1
@@ -528,7 +536,7 @@ class StatementParser(ExpressionParser):
             self.depth = 0
             self.fault(found)
             subject = Placeholder(i, i, "<EXP>")
-            at = self.resume(i, found.at)
+            told = at = found.at if self._starts_line(found.at) else self.resume(i, found.at)
         self.enter("TEST", i)
         cases: list[Case] = []
         default: list[Statement] | None = None
@@ -555,7 +563,8 @@ class StatementParser(ExpressionParser):
             elif kind == "ENDTEST" or kind in _BLOCK_ENDS:
                 break
             else:
-                self.fault(SyntaxFault(at, "CASE, DEFAULT or ENDTEST"))
+                if at != told:
+                    self.fault(SyntaxFault(at, "CASE, DEFAULT or ENDTEST"))
                 self.statements(at)
                 if self.after == at:
                     break

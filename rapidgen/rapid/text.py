@@ -6,7 +6,7 @@ from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span
 from rapidgen.rapid import faults
-from rapidgen.rapid.lexer import MAX_NAME, NAME, Tokens
+from rapidgen.rapid.lexer import MAX_NAME, NAME, STRING, Tokens
 from rapidgen.rapid.source import Source
 
 MAX_BYTES: Final = 8_000_000
@@ -67,11 +67,23 @@ def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
     )
 
 
-def long_names(tokens: Tokens) -> list[Diagnostic]:
-    """One finding for each name that is longer than K allows, at its first place."""
+def spellings(tokens: Tokens) -> list[Diagnostic]:
+    """Names that are longer than K allows and strings with a tab, each at its first place."""
     found = []
     folded = set()
     for text, kind in tokens.spellings.items():
+        if kind is STRING and "\t" in text:
+            at = tokens.source.tokens.index(text)
+            found.append(
+                faults.error(
+                    "RG206",
+                    "a tab in a string is written as the code \\09",
+                    tokens.source.span(at, at),
+                    help="write \\09 in its place",
+                    notes=("the characters of a string [K §2.1, 2.7]",),
+                    severity=Severity.WARNING,
+                )
+            )
         if kind is NAME and len(text) > MAX_NAME and text.lower() not in folded:
             folded.add(text.lower())
             at = tokens.source.tokens.index(text)

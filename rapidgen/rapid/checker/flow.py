@@ -92,7 +92,8 @@ class FlowChecker(CallChecker):
                     else "",
                     notes=("value classes [K §2.16]",),
                 )
-                wanted = None
+                self.used(node.value)
+                return True
         self.expect(node.value, wanted, "the value")
         if wanted is not None and isinstance(node.value, Name) and degree(wanted):
             self._same_sizes(node, target)
@@ -129,7 +130,8 @@ class FlowChecker(CallChecker):
         if isinstance(left.node, DataDeclaration) and isinstance(right.node, DataDeclaration):
             ours = [self.constant(d) for d in left.node.dimensions]
             theirs = [self.constant(d) for d in right.node.dimensions]
-            if None not in ours and None not in theirs and ours != theirs:
+            same_degree = len(ours) == len(theirs)
+            if same_degree and None not in (*ours, *theirs) and ours != theirs:
                 self.report("RG318", "the arrays differ in size", node)
 
     def _call_statement(self, node: ProcedureCall) -> bool:
@@ -171,6 +173,8 @@ class FlowChecker(CallChecker):
             )
         if node.value is not None:
             wanted = self.scope.base(routine.type) if routine.type else None
+            if wanted is not None and self.scope.type_class(wanted) != "value":
+                wanted = None  # reported at the head of the function
             self.expect(node.value, wanted, "the returned value")
         return False
 

@@ -7,7 +7,6 @@ from typing import Final
 
 from rapidgen.rapid.dialect import Dialect
 
-
 _SHORT: Final = 3
 _LONG: Final = 7
 

@@ -131,13 +131,17 @@ class TypeChecker(Reporter):
         self.check_arguments(symbol, node)
         return self.scope.type_of(symbol)
 
+    def used(self, node: Expression) -> None:
+        """Look at an expression whose place says nothing about its type."""
+        if isinstance(node, Name | Index | Member):
+            self.datum(node)
+        else:
+            self.type_of(node)
+
     def loose_argument(self, argument: Argument) -> None:
         """Look at an argument of a routine that is not known."""
         if argument.value is not None:
-            if isinstance(argument.value, Name | Index | Member):
-                self.datum(argument.value)
-            else:
-                self.type_of(argument.value)
+            self.used(argument.value)
 
     # -- data ----------------------------------------------------------------------------
 

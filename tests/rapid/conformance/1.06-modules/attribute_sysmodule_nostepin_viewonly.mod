@@ -1,0 +1,4 @@
+! rule: the attribute list SYSMODULE, NOSTEPIN, VIEWONLY
+! source: [K §9.1]
+MODULE Demo(SYSMODULE, NOSTEPIN, VIEWONLY)
+ENDMODULE

@@ -1,0 +1,4 @@
+! rule: the attribute list SYSMODULE, NOVIEW
+! source: [K §9.1]
+MODULE Demo(SYSMODULE, NOVIEW)
+ENDMODULE

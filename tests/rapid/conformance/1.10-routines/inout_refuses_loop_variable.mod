@@ -1,0 +1,17 @@
+! rule: a loop variable as argument of a INOUT parameter
+! source: [K §5.1]
+MODULE Demo
+    CONST num c := 1;
+    VAR num v;
+    VAR num e{2};
+    VAR pos q;
+    PERS num s := 1;
+    PROC main()
+        FOR i FROM 1 TO 2 DO
+            p i;  ! -> RG315
+        ENDFOR
+    ENDPROC
+    PROC p(INOUT num a)
+        a := a;
+    ENDPROC
+ENDMODULE

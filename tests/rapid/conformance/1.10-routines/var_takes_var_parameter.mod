@@ -1,0 +1,12 @@
+! rule: an VAR parameter as argument of a VAR parameter
+! source: [K §5.1]
+MODULE Demo
+    PROC main()
+    ENDPROC
+    PROC outer(VAR num x)
+        p x;
+    ENDPROC
+    PROC p(VAR num a)
+        a := a;
+    ENDPROC
+ENDMODULE

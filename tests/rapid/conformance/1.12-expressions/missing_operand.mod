@@ -1,0 +1,14 @@
+! rule: an operator has its operands
+! source: [K §3]
+MODULE Demo
+    VAR num n;
+    VAR dnum d;
+    VAR pos p;
+    VAR string s;
+    VAR orient o;
+    VAR bool b;
+    VAR pose f;
+    PROC main()
+        n := n + ;  ! -> RG201
+    ENDPROC
+ENDMODULE

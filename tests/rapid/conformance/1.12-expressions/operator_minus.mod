@@ -1,0 +1,16 @@
+! rule: operands of minus
+! source: [K §3.11]
+MODULE Demo
+    VAR num n;
+    VAR dnum d;
+    VAR pos p;
+    VAR string s;
+    VAR orient o;
+    VAR bool b;
+    VAR pose f;
+    PROC main()
+        n := n - n;
+        p := p - p;
+        d := d - d;
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,19 @@
+! rule: operands of times
+! source: [K §3.11]
+MODULE Demo
+    VAR num n;
+    VAR dnum d;
+    VAR pos p;
+    VAR string s;
+    VAR orient o;
+    VAR bool b;
+    VAR pose f;
+    PROC main()
+        n := n * n;
+        p := n * p;
+        p := p * n;
+        p := p * p;
+        o := o * o;
+        d := d * d;
+    ENDPROC
+ENDMODULE

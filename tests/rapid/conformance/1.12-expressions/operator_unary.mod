@@ -1,0 +1,16 @@
+! rule: operands of unary
+! source: [K §3.11]
+MODULE Demo
+    VAR num n;
+    VAR dnum d;
+    VAR pos p;
+    VAR string s;
+    VAR orient o;
+    VAR bool b;
+    VAR pose f;
+    PROC main()
+        n := -n;
+        p := -p;
+        d := -d;
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,14 @@
+! rule: parentheses start a new level
+! source: [K §3]
+MODULE Demo
+    VAR num n;
+    VAR dnum d;
+    VAR pos p;
+    VAR string s;
+    VAR orient o;
+    VAR bool b;
+    VAR pose f;
+    PROC main()
+        b := (n < n) = b;
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,10 @@
+! rule: a call of a FUNC is no statement
+! source: [K §4]
+MODULE Demo
+    PROC main()
+        f;  ! -> RG306
+    ENDPROC
+    FUNC num f()
+        RETURN 1;
+    ENDFUNC
+ENDMODULE

@@ -1,0 +1,12 @@
+! rule: a compact IF takes a simple statement: goto
+! source: [K §4.14]
+MODULE Demo
+    VAR num a;
+    VAR intnum i;
+    PROC main()
+        IF a = 1 GOTO out;
+        out:
+    ENDPROC
+    TRAP t
+    ENDTRAP
+ENDMODULE

@@ -1,0 +1,9 @@
+! rule: ERRNO and INTNO
+! source: [K §12]
+MODULE Demo
+    VAR num a;
+    PROC main()
+        a := ERRNO;
+        a := INTNO;
+    ENDPROC
+ENDMODULE

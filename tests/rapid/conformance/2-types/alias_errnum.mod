@@ -1,0 +1,11 @@
+! rule: errnum is num
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR errnum a;
+    VAR num n;
+    PROC main()
+        a := n;
+        n := a;
+        a := "x";  ! -> RG307
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,11 @@
+! rule: handler_type is num
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR handler_type a;
+    VAR num n;
+    PROC main()
+        a := n;
+        n := a;
+        a := "x";  ! -> RG307
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,10 @@
+! rule: signalgo reads as num and is not assigned
+! source: [K §2.16]
+MODULE Demo
+    VAR signalgo a;
+    VAR num n;
+    PROC main()
+        n := a;
+        a := 1;  ! -> RG309
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,10 @@
+! rule: arguments of BitOr
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR byte r_byte;
+    PROC main()
+        r_byte := BitOr(1, 1);
+        r_byte := BitOr(1);  ! -> RG311
+        r_byte := BitOr(1, 1 \NoSuchArgument);  ! -> RG312
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,11 @@
+! rule: arguments of Offs
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR robtarget v_robtarget;
+    VAR robtarget r_robtarget;
+    PROC main()
+        r_robtarget := Offs(v_robtarget, 1, 1, 1);
+        r_robtarget := Offs(v_robtarget, 1, 1);  ! -> RG311
+        r_robtarget := Offs(v_robtarget, 1, 1, 1 \NoSuchArgument);  ! -> RG312
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,10 @@
+! rule: arguments of StrDigCmp
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR bool r_bool;
+    PROC main()
+        r_bool := StrDigCmp("1", 1, "1");
+        r_bool := StrDigCmp("1", 1);  ! -> RG311
+        r_bool := StrDigCmp("1", 1, "1" \NoSuchArgument);  ! -> RG312
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,16 @@
+! rule: arguments of EGMActPose
+! source: [manual] 3HAC050917
+MODULE Demo
+    VAR egmident e;
+    PERS tooldata t;
+    PERS wobjdata w;
+    PERS loaddata l;
+    CONST egm_minmax m := [-1, 1];
+    VAR pose f;
+    VAR mecunit u;
+    PROC main()
+        EGMActPose e, f, EGM_FRAME_BASE, f, EGM_FRAME_BASE;
+        EGMActPose e \Tool:=t \WObj:=w \TLoad:=l, f, EGM_FRAME_BASE, f, EGM_FRAME_BASE \x:=m \y:=m \z:=m \rx:=m \ry:=m \rz:=m \LpFilter:=1 \SampleRate:=4 \MaxPosDeviation:=1 \MaxSpeedDeviation:=1;
+        EGMActPose e, f, EGM_FRAME_BASE, f;  ! -> RG311
+    ENDPROC
+ENDMODULE

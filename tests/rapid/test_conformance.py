@@ -1,0 +1,19 @@
+"""Every conformance file gives just what it announces; see conformance_files.py."""
+
+import pytest
+
+from tests.rapid.conformance_files import all_files
+
+FILES = all_files()
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda f: str(f.path.relative_to(f.path.parents[1])))
+def test_file_gives_what_it_announces(file):
+    shown = "\n".join(
+        f"{d.span.line if d.span else 0}: {d.code} {d.message}" for d in file.findings()
+    )
+    assert file.found() == file.expected, shown
+
+
+def test_every_file_says_its_rule_and_source():
+    assert [f.path.name for f in FILES if not {"rule", "source"} <= f.head.keys()] == []
