@@ -33,6 +33,10 @@ def move(
         float | None,
         typer.Option(help="Go to the first point first, in so many seconds.", metavar="S"),
     ] = None,
+    resample: Annotated[
+        float | None,
+        typer.Option(help="A point about every so many seconds instead.", metavar="S"),
+    ] = None,
     record: Annotated[
         Path | None, typer.Option(help="Write the executed joints as CSV.", metavar="FILE")
     ] = None,
@@ -47,11 +51,14 @@ def move(
     )
     _positive("--speed", speed)
     _positive("--approach", approach)
+    _positive("--resample", resample)
     robot = Robot(config, address=to or None, group=group)
     must_ask = need_confirmation(robot.address, yes=yes, real_robot=move_real_robot)
     used = first_speed(robot.address, asked) if speed is None else speed
     with robot:
         trajectory = asked.scaled(used)
+        if resample is not None:
+            trajectory = _resampled(trajectory, resample)
         if approach is not None:
             trajectory = trajectory.starting_at(robot.state, approach)
         warnings = robot.check(trajectory)
@@ -68,6 +75,15 @@ def move(
         remember(robot.address, asked)
     _report(result, as_json)
     return 0
+
+
+def _resampled(trajectory: "Trajectory", period: float) -> "Trajectory":
+    """Other points on the same path; a path without one is left for the checks to refuse."""
+    import numpy as np
+
+    times = trajectory.times
+    sound = bool(np.isfinite(times).all() and (np.diff(times) > 0).all())
+    return trajectory.resampled(period) if sound else trajectory
 
 
 def _positive(option: str, value: float | None) -> None:

@@ -257,21 +257,27 @@ def _start(
     if start is None:
         return []
     away = np.abs(wire[0] - np.array(start[: wire.shape[1]]))
-    found = []
-    for column in np.flatnonzero(away > group.start_tolerance + ROUNDING).tolist():
-        joint = group.joints[column]
+    columns = np.flatnonzero(away > group.start_tolerance + ROUNDING).tolist()
+    if not columns:
+        return []
+    rows = []
+    for column in columns:
+        joint, tolerance = group.joints[column], group.start_tolerance[column]
         unit = "rad" if joint.kind == "revolute" else "m"
-        found.append(
-            _finding(
-                "RG616",
-                f"{joint.name} starts {away[column]:.4f} {unit} away from where the robot stands",
-                "`trajectory.starting_at(robot.state, seconds)` goes there first",
-                f"the robot stands at {start[column]:.4f}, point 0 is {wire[0, column]:.4f} "
-                f"(axis values), tolerance {group.start_tolerance[column]:.4f} {unit}",
-                at=(trajectory, 0),
-            )
+        rows.append(
+            f"{joint.name}: the robot's axis stands at {start[column]:.4f} {unit}, the first "
+            f"point is {wire[0, column]:.4f}, tolerance {tolerance:.4f}"
         )
-    return found
+    return [
+        _finding(
+            "RG616",
+            "the trajectory does not start where the robot stands",
+            "go there first: `trajectory.starting_at(robot.state, seconds)`, or "
+            "`rapidgen move --approach SECONDS`",
+            *rows,
+            at=(trajectory, 0),
+        )
+    ]
 
 
 def _short(trajectory: Trajectory, group: Group, durations: Array) -> list[Diagnostic]:
