@@ -88,10 +88,14 @@ class Operator:
 
     # -- screen -----------------------------------------------------------------------------
 
-    def write(self, task: str, text: str) -> None:
-        """Show a text on new rows of 40 characters; listeners get it whole."""
+    def show(self, text: str) -> None:
+        """Show a text on new rows of 40 characters."""
         for start in range(0, max(len(text), 1), ROW):
             self.rows.append(text[start : start + ROW])
+
+    def write(self, task: str, text: str) -> None:
+        """A program's own text: shown, and listeners get it whole."""
+        self.show(text)
         for listener in tuple(self._listeners):
             listener(task, text)
 
@@ -117,6 +121,8 @@ class Operator:
         """Put a dialog on the screen; `withdraw` it in the end."""
         question = Question(next(self._numbers), task, dialog, text, tuple(choices), check)
         self.questions.append(question)
+        for line in text.split("\n"):
+            self.show(line)
         self.asked.notify()
         script = self._script or []
         answer = next((a for a in script if a.fits(question)), None)
@@ -148,7 +154,7 @@ class Operator:
             try:
                 self.answer(question.number, value)
             except ValueError as error:
-                self.write(question.task, f"answer '{value}' refused: {error}")
+                self.show(f"answer '{value}' refused: {error}")
 
 
 def read_answers(path: Path) -> list[Answer]:

@@ -5,6 +5,7 @@ names one instance, and is left alone.
 """
 
 from rapidgen.virtual.configuration import Configuration
+from rapidgen.virtual.datum import target_of, value_of
 from rapidgen.virtual.errors import EndOfRun, RapidError
 from rapidgen.virtual.files import FileSystem
 from rapidgen.virtual.loading import words_of
@@ -23,9 +24,10 @@ def _attributes(task: Task, path: str) -> dict[str, str | int | float | bool]:
 
 @builtin("ReadCfgData", cost="socket")
 def read_cfg_data(
-    task: Task, path: str, attribute: str, target: Ref, _list_number: Ref | None
+    task: Task, path: str, attribute: str, datum: object, _list_number: Ref | None
 ) -> None:
     """A system parameter; an absent flag is FALSE."""
+    target = target_of(datum)
     value = _attributes(task, path).get(attribute.lower())
     kind = target.type.kind
     if kind == "bool" and value is None:
@@ -44,12 +46,12 @@ def read_cfg_data(
 
 @builtin("WriteCfgData", cost="socket")
 def write_cfg_data(
-    task: Task, path: str, attribute: str, source: Ref, _list_number: Ref | None
+    task: Task, path: str, attribute: str, datum: object, _list_number: Ref | None
 ) -> None:
     """Change a system parameter; only ReadCfgData sees it."""
     attributes = _attributes(task, path)
     before = attributes.get(attribute.lower())
-    value = source.get()
+    value, _ = value_of(datum)
     if before is not None and isinstance(before, str) is not isinstance(value, str):
         raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
     attributes[attribute.lower()] = value

@@ -12,6 +12,7 @@ from typing import Any, BinaryIO
 
 from rapidgen.virtual.builtins.operator import appended
 from rapidgen.virtual.calendar import date_time
+from rapidgen.virtual.datum import target_of, value_of
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.files import CAPACITY as DISK
 from rapidgen.virtual.files import Directory, FileSystem, IODevice
@@ -173,16 +174,18 @@ def write_raw_bytes(task: Task, device: IODevice, raw: RawBytes, count: float | 
 
 
 @builtin("WriteAnyBin", cost="socket")
-def write_any_bin(task: Task, device: IODevice, datum: Ref) -> None:
+def write_any_bin(task: Task, device: IODevice, datum: object) -> None:
     """Write a value of any type so that ReadAnyBin reads it back."""
-    body = _encoded(datum.get(), datum.type)
-    label = _label(datum.type, dimensions(datum.get())).encode("latin-1")
+    value, kind = value_of(datum)
+    body = _encoded(value, kind)
+    label = _label(kind, dimensions(value)).encode("latin-1")
     _put(task, device, struct.pack("<BI", len(label), len(body)) + label + body, binary=True)
 
 
 @builtin("ReadAnyBin", cost="socket")
-def read_any_bin(_task: Task, device: IODevice, target: Ref, _time: float | None) -> None:
+def read_any_bin(_task: Task, device: IODevice, datum: object, _time: float | None) -> None:
     """Read a value that WriteAnyBin wrote; ERR_RANYBIN_CHK when it is of another type."""
+    target = target_of(datum)
     file = _reader(device, binary=True)
     head = file.read(5)
     if len(head) < 5:

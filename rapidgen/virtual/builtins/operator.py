@@ -216,7 +216,6 @@ def _a_text(value: str) -> str:
 @builtin("TPReadNum", cost="string")
 def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
     """Ask for a number."""
-    _operator(task).write(task.name, text)
     value = _ask(task, "TPReadNum", text, {}, _a_number(), tail)
     if value is not None:
         answer.set(value)
@@ -225,7 +224,6 @@ def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa
 @builtin("TPReadDnum", cost="string")
 def tp_read_dnum(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
     """Ask for a number, exactly."""
-    _operator(task).write(task.name, text)
     value = _ask(task, "TPReadDnum", text, {}, _a_number(), tail)
     if value is not None:
         answer.set(value)
@@ -245,7 +243,6 @@ def tp_read_fk(
 ) -> None:
     """Ask for one of five keys; one without a text is dead."""
     keys = {key: float(i) for i, key in enumerate((fk1, fk2, fk3, fk4, fk5), 1) if key.strip()}
-    _operator(task).write(task.name, text)
     value = _ask(task, "TPReadFK", text, keys, _one_of(keys), tail)
     if value is not None:
         answer.set(value)

@@ -6,6 +6,7 @@ empty container.
 
 from collections.abc import Callable
 
+from rapidgen.virtual.datum import target_of, value_of
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.rawbytes import (
     CAPACITY,
@@ -28,7 +29,7 @@ _MASK = (1 << DNUM_BITS) - 1
 @builtin("PackRawBytes", cost="string")
 def pack_raw_bytes(
     _task: Task,
-    datum: Ref,
+    datum: object,
     raw: RawBytes,
     network: bool | None,
     start: float,
@@ -38,7 +39,7 @@ def pack_raw_bytes(
     ascii_: bool | None,
 ) -> None:
     """Write one value into a container."""
-    value = datum.get()
+    value, _ = value_of(datum)
     index = whole(start, "ERR_OUTOFBND")
     if isinstance(value, str):
         if not ascii_ or not value:
@@ -60,13 +61,14 @@ def unpack_raw_bytes(
     raw: RawBytes,
     network: bool | None,
     start: float,
-    value: Ref,
+    datum: object,
     hex1: bool | None,
     int_type: float | None,
     float4: bool | None,
     ascii_: float | None,
 ) -> None:
     """Read one value out of a container."""
+    value = target_of(datum)
     index = whole(start, "ERR_OUTOFBND")
     if int_type is not None:
         value.set(integer_from(raw, index, int_type, network=bool(network)))

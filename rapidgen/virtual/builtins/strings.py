@@ -4,6 +4,7 @@ Sources: the S4 reference's page of each name for the edges (positions from 1, a
 outside is an error); which error number that is, is remembered only [mem].
 """
 
+from rapidgen.virtual.datum import target_of, value_of
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.rawbytes import byte_value, whole
 from rapidgen.virtual.registry import builtin
@@ -16,7 +17,7 @@ from rapidgen.virtual.text import (
     parse_value,
     value_text,
 )
-from rapidgen.virtual.values import Ref, single
+from rapidgen.virtual.values import single
 
 _LARGEST_STRDIG = 4_294_967_295
 _LARGEST_DECIMAL = 9_223_372_036_854_775_807
@@ -88,8 +89,9 @@ def str_order(_task: Task, one: str, two: str, order: str) -> bool:
 
 
 @builtin("StrToVal", cost="string")
-def str_to_val(_task: Task, text: str, target: Ref) -> bool:
+def str_to_val(_task: Task, text: str, datum: object) -> bool:
     """Read a literal of the target's type; FALSE leaves the target as it was [S4 StrToVal]."""
+    target = target_of(datum)
     try:
         value = parse_value(text, target.type, target.dims)
     except NotALiteral:
@@ -99,9 +101,9 @@ def str_to_val(_task: Task, text: str, target: Ref) -> bool:
 
 
 @builtin("ValToStr", cost="string")
-def val_to_str(_task: Task, value: Ref) -> str:
+def val_to_str(_task: Task, datum: object) -> str:
     """The text of any value; ERR_STRTOOLNG over 80 characters."""
-    return limited(value_text(value.get(), value.type))
+    return limited(value_text(*value_of(datum)))
 
 
 @builtin("StrFormat", cost="string", pure=True)

@@ -11,6 +11,7 @@ from rapidgen.rapid import nodes as n
 from rapidgen.virtual.builtins.modules import task_named
 from rapidgen.virtual.compiler.program import LoadedModule
 from rapidgen.virtual.compiler.symbols import Data
+from rapidgen.virtual.datum import target_of
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.loading import ModuleTable
 from rapidgen.virtual.registry import builtin
@@ -62,7 +63,7 @@ def _indices(name: str) -> tuple[str, tuple[int, ...]]:
     return match[1], tuple(int(part) for part in match[2].split(","))
 
 
-def _check_type(source: Ref | Cell, degree: int, target: Ref) -> None:
+def _check_type(source: Ref | Cell, degree: int, target: Ref | Cell) -> None:
     if source.type is not target.type:
         raise RapidError("ERR_SYMBOL_TYPE", f"{source.name} is a {source.type.name}")
     if source.dims[degree:] != target.dims:
@@ -76,9 +77,10 @@ def get_data_val(
     block: DataPosition | None,
     reference: object,
     task_name: str | None,
-    target: Ref,
+    datum: object,
 ) -> None:
     """The value of a datum whose name is a string; an element as `name{i}`."""
+    target = target_of(datum)
     owner = task_named(task, reference, task_name)
     plain, indices = _indices(name)
     _, source = _datum(owner, block.module if block is not None else None, plain)
@@ -96,9 +98,10 @@ def set_data_val(
     block: DataPosition | None,
     reference: object,
     task_name: str | None,
-    value: Ref,
+    datum: object,
 ) -> None:
     """Give a datum whose name is a string a value; constants are ERR_SYM_ACCESS."""
+    value = target_of(datum)
     owner = task_named(task, reference, task_name)
     plain, indices = _indices(name)
     data, target = _datum(owner, block.module if block is not None else None, plain)
@@ -189,9 +192,10 @@ def set_all_data_val(
     _type_module: str | None,
     pattern: str | None,
     _hidden: bool | None,
-    value: Ref,
+    datum: object,
 ) -> None:
     """Give all module data of a type (and name) one value; constants stay."""
+    value = target_of(datum)
     for module, _, data in list(_declared(task, type_, "", pattern or "")):
         _, target = _datum(task, module, data.name)
         if not data.readonly and target.dims == value.dims:
