@@ -78,3 +78,21 @@ def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None
 def wait_rob(task: Task, _in_position: bool | None, _zero_speed: bool | None) -> None:
     """Waits for standstill without letting the program run ahead."""
     group_of(task).wait_standing(task)
+
+
+@builtin("StorePath", cost="call")
+def store_path(task: Task, _keep_sync: bool | None) -> None:
+    """Puts the path aside; moves that follow make a new one."""
+    group_of(task).store_path(task, _reason(task))
+
+
+@builtin("RestoPath", cost="call")
+def resto_path(task: Task) -> None:
+    """Brings the stored path back; StartMove sets the robot going on it."""
+    group_of(task).restore_path(_reason(task))
+
+
+@builtin("PathLevel")
+def path_level(task: Task) -> int:
+    """1 = original path."""
+    return group_of(task).path_level

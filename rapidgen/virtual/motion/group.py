@@ -79,6 +79,15 @@ class Motion:
         return posture_at(self.pieces, self.law.state(time)[0], self.rest)
 
 
+@dataclass(frozen=True, slots=True)
+class _Level:
+    """What StorePath puts aside."""
+
+    path: Path
+    motion: Motion
+    events: list[tuple[Leg, PathEvent]]
+
+
 class MotionGroup:
     """One mechanical unit group: its path, its position and its stops."""
 
@@ -114,6 +123,7 @@ class MotionGroup:
         self._due = inf
         self._commit = inf
         self._events: list[tuple[Leg, PathEvent]] = []
+        self._stored: list[_Level] = []
         self._release = inf
         self._was_standing = True
         self._late = 0.0
@@ -408,9 +418,56 @@ class MotionGroup:
         self._finish(lost, cleared=True)
         self._settle()
 
+    @property
+    def path_level(self) -> int:
+        """1 on the original path, one more for each StorePath."""
+        return 1 + len(self._stored)
+
+    def store_path(self, task: Waiter, reason: str) -> None:
+        """Put the path aside and begin an empty one where the robot stands.
+
+        Without a stop the move under way first comes to its end; with one the robot stays in
+        mid-path (S4 datasys StorePath). Stops of `reason` are put aside, too.
+        """
+        if reason not in self._stops:
+            task.wait_for(lambda: self.is_settled, on=(self.changed,))
+        else:
+            self.wait_standing(task)
+        place, _ = self._state()
+        self._path.prune(place)
+        self._stored.append(_Level(self._path, self._motion, self._events))
+        self._path = Path(self._motion.rest)
+        self._events = []
+        self._stops.pop(reason, None)
+        self._set_motion(TimeLaw(0.0), self._kernel.now)
+        self._settle()
+
+    def restore_path(self, reason: str) -> None:
+        """Bring the stored path back; nothing moves until `start(reason)`.
+
+        A robot that stands elsewhere returns to the path on a joint line first.
+        """
+        if not self._stored:
+            raise FatalError(events.NOT_ALLOWED, "No path is stored")
+        self._settle()
+        here = self.positions()
+        level = self._stored.pop()
+        self._finish(list(self._path.legs), cleared=True)
+        self._path, self._events = level.path, level.events
+        self._stops[reason] = None
+        place = level.motion.law.place
+        if self._path.regain(here, level.motion.rest, place, self._limits):
+            place = self._path.pieces[0].start
+        self._motion = Motion(self._kernel.now, TimeLaw(place), self._path.pieces, here)
+        self._rearm()
+        self._settle()
+
     def reset(self) -> None:
         """PP to main: no path, no stops by programs, default speeds."""
         self.clear_path()
+        for level in self._stored:
+            self._finish(list(level.path.legs), cleared=True)
+        self._stored.clear()
         for reason in ("move task", "other task"):
             self._stops.pop(reason, None)
         self.modal = ModalSettings()

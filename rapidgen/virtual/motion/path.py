@@ -10,7 +10,7 @@ from rapidgen.axes.kinematics import Kinematics
 from rapidgen.virtual.motion.corners import corner
 from rapidgen.virtual.motion.legs import Geometry, Leg
 from rapidgen.virtual.motion.moves import Move, Posture
-from rapidgen.virtual.motion.pieces import AxisLimits, Piece
+from rapidgen.virtual.motion.pieces import AxisLimits, JointLine, Piece
 from rapidgen.virtual.motion.timelaw import TimeLaw
 
 WayMaker = Callable[[Posture, Move, bool], Geometry]
@@ -18,6 +18,8 @@ WayMaker = Callable[[Posture, Move, bool], Geometry]
 Planner = Callable[[tuple[Piece, ...]], TimeLaw | None]
 """The time law over pieces from the robot's present state; None when there is none."""
 _SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
+REGAIN_SPEED = 0.1
+"""Share of the axes' speed at which the robot returns to its path."""
 NOTHING_M = 1e-9
 """rad or m of an axis below which a move goes nowhere."""
 
@@ -133,6 +135,18 @@ class Path:
             self.pieces = (*self.pieces[:-1], last.until(last.end, stop=True))
         self.end = place
         return lost
+
+    def regain(self, here: Posture, there: Posture, place: float, limits: AxisLimits) -> bool:
+        """Put a joint line from `here` to the path's `place` before it; False: it is there."""
+        reach = max(abs(b - a) / v for a, b, v in zip(here, there, limits.speeds, strict=True))
+        if reach < NOTHING_M or not self.pieces:
+            return False
+        duration = reach / REGAIN_SPEED
+        rates = tuple([(b - a) / duration for a, b in zip(here, there, strict=True)])
+        start = place - duration
+        back = JointLine(start, place, start, here, rates, limits, 0.0)
+        self.pieces = (back.until(place, stop=True), *self.pieces)
+        return True
 
     def at(self, place: float) -> Posture:
         """Axis values at a place."""

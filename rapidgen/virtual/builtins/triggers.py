@@ -1,0 +1,294 @@
+"""Events at places of a move: TriggIO, TriggInt, TriggEquip, TriggCheckIO and TriggL, J, C.
+
+Sources: S4 datasys 2-TriggIO, 2-TriggInt, 2-TriggEquip, 2-TriggL; 3HAC050917 for arguments.
+A distance counts from the end (\\Start: the beginning) of the move, \\Time in s before the end.
+"""
+
+from collections.abc import Callable, Iterable
+from operator import eq, ge, gt, le, lt, ne
+from typing import Any, TypeAlias
+
+from rapidgen.virtual.builtins.path import MOVE_TASK
+from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.io import AnySignal
+from rapidgen.virtual.motion import events
+from rapidgen.virtual.motion.access import group_of
+from rapidgen.virtual.motion.moves import From, PathEvent
+from rapidgen.virtual.motion.request import Request
+from rapidgen.virtual.motion.triggers import TriggData
+from rapidgen.virtual.registry import builtin
+from rapidgen.virtual.task import Task
+from rapidgen.virtual.values import Ref
+
+Data: TypeAlias = Any
+_RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
+"""opnum [mem]"""
+
+
+def _where(distance: float, start: bool | None, time: bool | None) -> tuple[From, float]:
+    if distance < 0:
+        raise RapidError("ERR_ARGVALERR", f"Distance {distance:g}")
+    if time:
+        return From.BEFORE_END, distance
+    return (From.START if start else From.END), distance / 1000
+
+
+def _inhibited(inhibit: Ref | None) -> bool:
+    return inhibit is not None and bool(inhibit.get())
+
+
+def _output(
+    task: Task,
+    signals: tuple[AnySignal | None, AnySignal | None, AnySignal | None],
+    values: tuple[float | None, float | None],
+    delay: float,
+    inhibit: Ref | None,
+    instead: Ref | None,
+) -> Callable[[], None]:
+    """Sets an output; inhibited, 0 or the given value is written (S4 datasys 2-TriggIO-4).
+
+    ERR_AO_LIM, ERR_GO_LIM: the value does not fit the signal.
+    """
+    chosen = next((s for s in signals if s is not None), None)
+    value = next((v for v in values if v is not None), 0.0)
+    if chosen is None:
+        raise FatalError(events.NOT_SIMULATED, "Process events are not simulated", "\\ProcID")
+    signal = chosen.signal
+    try:
+        signal.fit(value)
+    except ValueError as error:
+        name = {"A": "ERR_AO_LIM", "G": "ERR_GO_LIM"}.get(signal.spec.type[0], "ERR_ARGVALERR")
+        raise RapidError(name, str(error)) from error
+    io = task.controller.io
+
+    def act() -> None:
+        wanted = value
+        if _inhibited(inhibit):
+            wanted = instead.get() if instead is not None else 0.0
+        io.set(signal, wanted, delay=delay)
+
+    return act
+
+
+@builtin("TriggIO")
+def trigg_io(
+    task: Task,
+    data: TriggData,
+    distance: float,
+    start: bool | None,
+    _next: bool | None,
+    time: bool | None,
+    digital: AnySignal | None,
+    group: AnySignal | None,
+    analogue: AnySignal | None,
+    _process: float | None,
+    value: float | None,
+    large: float | None,
+    delay: float | None,
+    inhibit: Ref | None,
+    instead: Ref | None,
+    _mode: float | None,
+) -> None:
+    """An output at a place."""
+    where, amount = _where(distance, start, time)
+    act = _output(task, (digital, group, analogue), (value, large), delay or 0.0, inhibit, instead)
+    data.set(where, amount, act)
+
+
+@builtin("TriggEquip")
+def trigg_equip(
+    task: Task,
+    data: TriggData,
+    distance: float,
+    start: bool | None,
+    _next: bool | None,
+    lag: float,
+    digital: AnySignal | None,
+    group: AnySignal | None,
+    analogue: AnySignal | None,
+    _process: float | None,
+    value: float | None,
+    large: float | None,
+    inhibit: Ref | None,
+    instead: Ref | None,
+    _mode: float | None,
+) -> None:
+    """An output at a place, earlier by the equipment's lag (negative: later)."""
+    where, amount = _where(distance, start, None)
+    act = _output(task, (digital, group, analogue), (value, large), 0.0, inhibit, instead)
+    data.set(where, amount, act, lag)
+
+
+@builtin("TriggInt")
+def trigg_int(
+    task: Task,
+    data: TriggData,
+    distance: float,
+    start: bool | None,
+    _next: bool | None,
+    time: bool | None,
+    interrupt: Ref,
+    inhibit: Ref | None,
+    _mode: float | None,
+) -> None:
+    """An interrupt at a place. ERR_UNKINO: not connected."""
+    where, amount = _where(distance, start, time)
+    ordered = task.interrupts.find(interrupt.get())
+
+    def act() -> None:
+        if not _inhibited(inhibit):
+            task.interrupts.happen(ordered)
+
+    data.set(where, amount, act)
+
+
+@builtin("TriggCheckIO")
+def trigg_check_io(
+    task: Task,
+    data: TriggData,
+    distance: float,
+    start: bool | None,
+    _next: bool | None,
+    time: bool | None,
+    signal: Data,
+    relation: float,
+    value: float | None,
+    large: float | None,
+    stop: bool | None,
+    interrupt: Ref,
+    inhibit: Ref | None,
+    _mode: float | None,
+) -> None:
+    """Looks at a signal at a place; when the relation does not hold, an interrupt (and a stop)."""
+    where, amount = _where(distance, start, time)
+    ordered = task.interrupts.find(interrupt.get())
+    compare = _RELATIONS.get(int(relation))
+    if compare is None:
+        raise RapidError("ERR_ARGVALERR", f"relation {relation:g}")
+    wanted = value if value is not None else large or 0.0
+    watched = signal.get() if isinstance(signal, Ref) else signal
+    group = group_of(task)
+
+    def act() -> None:
+        if _inhibited(inhibit) or compare(watched.value, wanted):
+            return
+        if stop:
+            group.stop(MOVE_TASK)
+        task.interrupts.happen(ordered)
+
+    data.set(where, amount, act)
+
+
+def _prepared(first: Data, array: Data, others: Iterable[Data]) -> tuple[PathEvent, ...]:
+    if array is not None:
+        held = array.get() if isinstance(array, Ref) else array
+        given = list(held.values())
+    else:
+        given = [first, *others]
+    found = []
+    for data in given:
+        if data is None:
+            continue
+        if data.event is None:
+            raise FatalError(events.NOT_ALLOWED, "triggdata is not defined")
+        found.append(data.event)
+    return tuple(found)
+
+
+@builtin("TriggL", cost="move")
+def trigg_l(
+    task: Task,
+    concurrent: bool | None,
+    to: Data,
+    _identity: float | None,
+    speed: Data,
+    time: float | None,
+    first: Data,
+    array: Data,
+    t2: Data,
+    t3: Data,
+    t4: Data,
+    t5: Data,
+    t6: Data,
+    t7: Data,
+    t8: Data,
+    zone: Data,
+    stop: Data,
+    tool: Ref,
+    work_object: Ref | None,
+    _correction: bool | None,
+    _load: Ref | None,
+) -> None:
+    """MoveL with events."""
+    request = Request(
+        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time, stop=stop,
+        concurrent=concurrent, events=_prepared(first, array, (t2, t3, t4, t5, t6, t7, t8)),
+    )  # fmt: skip
+    group, move = request.cartesian(task, to)
+    group.move(task, move)
+
+
+@builtin("TriggJ", cost="move")
+def trigg_j(
+    task: Task,
+    concurrent: bool | None,
+    to: Data,
+    _identity: float | None,
+    speed: Data,
+    time: float | None,
+    first: Data,
+    array: Data,
+    t2: Data,
+    t3: Data,
+    t4: Data,
+    t5: Data,
+    t6: Data,
+    t7: Data,
+    t8: Data,
+    zone: Data,
+    stop: Data,
+    tool: Ref,
+    work_object: Ref | None,
+    _load: Ref | None,
+) -> None:
+    """MoveJ with events; distances are approximate, as on a controller."""
+    request = Request(
+        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time, stop=stop,
+        concurrent=concurrent, events=_prepared(first, array, (t2, t3, t4, t5, t6, t7, t8)),
+    )  # fmt: skip
+    group, move = request.joint(task, to)
+    group.move(task, move)
+
+
+@builtin("TriggC", cost="move")
+def trigg_c(
+    task: Task,
+    concurrent: bool | None,
+    via: Data,
+    to: Data,
+    _identity: float | None,
+    speed: Data,
+    time: float | None,
+    first: Data,
+    array: Data,
+    t2: Data,
+    t3: Data,
+    t4: Data,
+    t5: Data,
+    t6: Data,
+    t7: Data,
+    t8: Data,
+    zone: Data,
+    stop: Data,
+    tool: Ref,
+    work_object: Ref | None,
+    _correction: bool | None,
+    _load: Ref | None,
+) -> None:
+    """MoveC with events."""
+    request = Request(
+        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time, stop=stop,
+        concurrent=concurrent, events=_prepared(first, array, (t2, t3, t4, t5, t6, t7, t8)),
+    )  # fmt: skip
+    group, move = request.cartesian(task, to, via)
+    group.move(task, move)
