@@ -39,6 +39,8 @@ class GroupDraft:
     joints: list[JointDraft] = field(default_factory=list)
     chain: list[Link] = field(default_factory=list)
     coupling: float | None = None
+    known: dict[tuple[str, str], float] = field(default_factory=dict)
+    """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
 
 
 class Report:

@@ -65,7 +65,7 @@ def load_config(
         _draft(name, keys, models.get(name, ""), report)
         for name, keys in valid.configuration.groups.items()
     ]
-    _report_wider(root, drafts, report)
+    _report_wider(drafts, report)
     for draft in drafts:
         keys = valid.configuration.groups[draft.name]
         if keys.urdf:
@@ -211,7 +211,8 @@ def _draft(name: str, keys: schema.GroupKeys, model: str, report: Report) -> Gro
         for joint, given in keys.joints.items()
     ]
     chain = [_link(step) for step in keys.chain]
-    return GroupDraft(name, model, joints, chain, keys.coupling)
+    known = known_figures(model) if model else {}
+    return GroupDraft(name, model, joints, chain, keys.coupling, known)
 
 
 def _link(step: schema.ChainStep) -> Link:
@@ -224,13 +225,12 @@ def _link(step: schema.ChainStep) -> Link:
     return Link(step.joint, (x, y, z), (roll, pitch, yaw), (a, b, c), tuple(step.follows.items()))
 
 
-def _report_wider(root: Mapping, drafts: list[GroupDraft], report: Report) -> None:
+def _report_wider(drafts: list[GroupDraft], report: Report) -> None:
     """A limit beyond the shipped model's is said: ranges are never widened silently."""
     for draft in drafts:
-        known = _known_ranges(draft.model) if draft.model else {}
         for joint in draft.joints:
             for figure, sign in (("lower", -1), ("upper", 1), ("speed", 1)):
-                bound = known.get((joint.axis, figure))
+                bound = draft.known.get((joint.axis, figure))
                 value = getattr(joint, figure)
                 if bound is not None and value is not None and (value - bound) * sign > 1e-9:
                     report.add(
@@ -244,7 +244,7 @@ def _report_wider(root: Mapping, drafts: list[GroupDraft], report: Report) -> No
                     )
 
 
-def _known_ranges(model: str) -> dict[tuple[str, str], float]:
+def known_figures(model: str) -> dict[tuple[str, str], float]:
     """Figures of a shipped model by (axis, figure)."""
     root, _ = parse(decode(find_shipped(model).read_bytes(), model), model)
     groups = canonical(root, ()).root.entries["groups"][1]

@@ -57,38 +57,40 @@ def check_coupling(
 
 
 def check_joint(
-    draft: JointDraft, joint: UrdfJoint, place: Span | None
+    draft: JointDraft, joint: UrdfJoint, group: GroupDraft, place: Span | None
 ) -> tuple[list[Diagnostic], str]:
-    """The URDF's range against the known one (before it is completed): faults, and a difference.
+    """The URDF's range against the model's, else the configuration's: faults, and a difference.
 
-    A mirrored range is an error (RG048); other differences are returned as a phrase.
+    A mirrored range is an error (RG048); another difference from the model is a phrase.
     """
-    if None in (draft.lower, draft.upper, joint.lower, joint.upper) or joint.kind == "continuous":
+    known_lower = group.known.get((draft.axis, "lower"), draft.lower)
+    known_upper = group.known.get((draft.axis, "upper"), draft.upper)
+    if joint.lower is None or joint.upper is None or joint.kind == "continuous":
         return [], ""
-    assert draft.lower is not None
-    assert draft.upper is not None
-    assert joint.lower is not None
-    assert joint.upper is not None
+    if known_lower is None or known_upper is None:
+        return [], ""
     factor = 1000.0 if joint.kind == "prismatic" else 180 / math.pi
     lower, upper = sorted(
         draft.sign * end * factor + draft.offset for end in (joint.lower, joint.upper)
     )
-    if _near(lower, draft.lower) and _near(upper, draft.upper):
+    if _near(lower, known_lower) and _near(upper, known_upper):
         return [], ""
     unit = "mm" if joint.kind == "prismatic" else "deg"
-    if _near(lower, -draft.upper) and _near(upper, -draft.lower):
+    if _near(lower, -known_upper) and _near(upper, -known_lower):
         return [
             error(
                 "RG048",
                 f"joint '{joint.name}': {lower:.4g}..{upper:.4g} {unit} is the mirror of the known "
-                f"range {draft.lower:g}..{draft.upper:g} {unit}",
+                f"range {known_lower:g}..{known_upper:g} {unit}",
                 joint.span or place,
                 "turns the other way",
                 f"set joints.{joint.name}.sign: {-draft.sign}, or correct the URDF",
             )
         ], ""
+    if not group.known:
+        return [], ""
     return [], (
-        f"{joint.name} {lower:.4g}..{upper:.4g} (known {draft.lower:g}..{draft.upper:g} {unit})"
+        f"{joint.name} {lower:.4g}..{upper:.4g} (known {known_lower:g}..{known_upper:g} {unit})"
     )
 
 

@@ -263,9 +263,9 @@ def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
     for joint in draft.joints:
         known = graph.robot.joint(joint.name)
         assert known is not None
-        faults, phrase = crosscheck.check_joint(joint, known, place)
+        faults, phrase = crosscheck.check_joint(joint, known, draft, place)
         found += faults
-        phrases += [phrase] if phrase and draft.model else []
+        phrases += [phrase] if phrase else []
         found += limits.fill(joint, known, place)
     return [*found, *crosscheck.differences(phrases, place)]
 
