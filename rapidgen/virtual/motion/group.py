@@ -23,6 +23,7 @@ from rapidgen.virtual.motion.cartesian import CartesianWay
 from rapidgen.virtual.motion.corners import zone_entry
 from rapidgen.virtual.motion.legs import Geometry, Leg, joint_measure, joint_way, lever_measure
 from rapidgen.virtual.motion.modal import ModalSettings
+from rapidgen.virtual.motion.motion import Motion
 from rapidgen.virtual.motion.moves import (
     NO_WAY,
     CartesianMove,
@@ -33,7 +34,7 @@ from rapidgen.virtual.motion.moves import (
     PathEvent,
     Posture,
 )
-from rapidgen.virtual.motion.path import NOTHING_M, Path, posture_at
+from rapidgen.virtual.motion.path import NOTHING_M, Path
 from rapidgen.virtual.motion.pieces import AxisLimits, Piece
 from rapidgen.virtual.motion.settings import MotionSettings
 from rapidgen.virtual.motion.timelaw import TimeLaw, brake, plan
@@ -58,25 +59,6 @@ class Waiter(Protocol):
         timeout: float | None = None,
     ) -> bool:
         """Wait until the predicate holds."""
-
-
-@dataclass(frozen=True, slots=True)
-class Motion:
-    """A time law over pieces of path from a moment on: all that positions depend on."""
-
-    start: int
-    """Kernel ns"""
-    law: TimeLaw
-    pieces: tuple[Piece, ...]
-    rest: Posture
-    """Where it ends."""
-
-    def posture(self, now: int) -> Posture:
-        """Axis values at a time."""
-        time = (now - self.start) / S
-        if time >= self.law.duration:
-            return self.rest
-        return posture_at(self.pieces, self.law.state(time)[0], self.rest)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,16 +120,30 @@ class MotionGroup:
         """wobjdata of the last move, None before the first or when it had none."""
         self.observers: list[Callable[[Motion], None]] = []
         """Called with every new motion (the recorder)."""
+        self.listeners: list[Callable[[Move], None]] = []
+        """Called with every move that the program asks for."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
         self._path = Path(start)
-        self._motion = Motion(kernel.now, TimeLaw(0.0), (), start)
+        self._motion = Motion(kernel.now, kernel.now, TimeLaw(0.0), (), start)
+        self._history: list[Motion] = []
         self._report(True)
         io.report("MechUnitActive", 1, config.mechanical_unit)
 
     # -- where it is ------------------------------------------------------------------------
 
     def positions(self) -> Posture:
-        """Axis values now: controller axes, rad and m, wire order."""
+        """Axis values now, as measured: controller axes, rad and m, wire order."""
+        now = self._kernel.now
+        if not self._history:
+            return self._motion.posture(now)
+        then = now - round(self.settings.servo_lag * S)
+        for motion in reversed((*self._history, self._motion)):
+            if motion.since <= then:
+                return motion.posture(then)
+        return self._history[0].posture(then)
+
+    def commanded(self) -> Posture:
+        """Axis values now, as planned: ahead of `positions` by the servo lag."""
         return self._motion.posture(self._kernel.now)
 
     def joint_target(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
@@ -263,6 +259,8 @@ class MotionGroup:
     def enqueue(self, move: Move) -> Leg | None:
         """Put a move on the path without holding anybody; None when the robot is there."""
         self._check(move)
+        for listener in self.listeners:
+            listener(move)
         self._settle()
         leg = self._append(move)
         self._settle()
@@ -412,9 +410,7 @@ class MotionGroup:
         if speed > 0.0 and not self._braking():
             self._brake(place, speed, False)
         lost = self._path.cut(self._motion.law.place)
-        self._motion = Motion(
-            self._motion.start, self._motion.law, self._motion.pieces, self._path.target
-        )
+        self._move_by(self._motion.law, self._motion.start, self._path.target)
         self._finish(lost, cleared=True)
         self._settle()
 
@@ -458,8 +454,7 @@ class MotionGroup:
         place = level.motion.law.place
         if self._path.regain(here, level.motion.rest, place, self._limits):
             place = self._path.pieces[0].start
-        self._motion = Motion(self._kernel.now, TimeLaw(place), self._path.pieces, here)
-        self._rearm()
+        self._move_by(TimeLaw(place), self._kernel.now, here)
         self._settle()
 
     def reset(self) -> None:
@@ -520,7 +515,17 @@ class MotionGroup:
         path = self._path
         self._note_passing()
         rest = path.target if law.place >= path.end else path.at(law.place)
-        self._motion = Motion(start, law, path.pieces, rest)
+        self._move_by(law, start, rest)
+
+    def _move_by(self, law: TimeLaw, start: int, rest: Posture) -> None:
+        now = self._kernel.now
+        if self.settings.servo_lag > 0:
+            old = now - round(self.settings.servo_lag * S)
+            later = [m for m in self._history if m.since > old]
+            kept = self._history[-len(later) - 1 :] if self._history else []
+            self._history = [*kept, self._motion]
+        legs = tuple((leg.end, leg.move) for leg in self._path.legs)
+        self._motion = Motion(now, start, law, self._path.pieces, rest, legs)
         for observer in self.observers:
             observer(self._motion)
         self._rearm()

@@ -42,3 +42,6 @@ class MotionSettings:
 
     settle: float = 0.0
     """s after the end of motion until a stop point counts as reached. No figure is public."""
+
+    servo_lag: float = 0.0
+    """s by which the measured position follows the commanded one (S4 overview p.5-26: 0 to 1)."""

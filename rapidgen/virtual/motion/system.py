@@ -7,6 +7,7 @@ from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.motion.recorder import Recorder
 from rapidgen.virtual.motion.settings import MotionSettings
 
 
@@ -21,6 +22,7 @@ class MotionSystem:
         io: IOSystem,
         settings: MotionSettings | None = None,
     ) -> None:
+        self._kernel = kernel
         self.settings = settings if settings is not None else MotionSettings()
         self.groups: dict[str, MotionGroup] = {
             config.name: MotionGroup(config, kernel, log, io, self.settings) for config in robots
@@ -30,6 +32,10 @@ class MotionSystem:
     def group(self, name: str) -> MotionGroup:
         """The group of that name. KeyError: there is none."""
         return self.groups[name]
+
+    def record(self) -> dict[str, Recorder]:
+        """Start recording every group; see `recorder.py`."""
+        return {name: Recorder(self._kernel, group) for name, group in self.groups.items()}
 
     def assign(self, task: str, group: str) -> None:
         """Let a task act on a group (UseMechanicalUnitGroup of a background task)."""

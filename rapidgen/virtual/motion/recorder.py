@@ -1,0 +1,146 @@
+"""Recording motion: commanded and measured axes, TCP and pointers, sampled when asked for.
+
+While it runs a recorder only keeps each new motion (a few a move); samples are computed from
+the formulas afterwards, at any period.
+"""
+
+import csv
+from bisect import bisect_right
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rapidgen.axes import frames
+from rapidgen.virtual.kernel import Kernel, S
+from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.motion.motion import Motion
+from rapidgen.virtual.motion.moves import Move
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+PERIOD = 0.004
+"""s between samples: that of the controller's own motion interface."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """Samples of one group. Rows are samples; units rad and m, s from the controller's start."""
+
+    joints: tuple[str, ...]
+    time: "npt.NDArray[np.float64]"
+    commanded: "npt.NDArray[np.float64]"
+    actual: "npt.NDArray[np.float64]"
+    tcp: "npt.NDArray[np.float64] | None"
+    """x y z q1 q2 q3 q4 of the commanded TCP in the world; None without geometry."""
+    program_pointer: tuple[str, ...]
+    """The move instruction that the program had reached, empty before the first."""
+    motion_pointer: tuple[str, ...]
+    """The move instruction that the robot was executing."""
+
+    def write_csv(self, path: Path | str) -> None:
+        """One row a sample, with a header."""
+        header = ["time", *self.joints, *(f"actual_{name}" for name in self.joints)]
+        if self.tcp is not None:
+            header += ["x", "y", "z", "q1", "q2", "q3", "q4"]
+        header += ["program_pointer", "motion_pointer"]
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(header)
+            for i, time in enumerate(self.time):
+                row = [f"{time:.6f}", *_digits(self.commanded[i]), *_digits(self.actual[i])]
+                if self.tcp is not None:
+                    row += _digits(self.tcp[i])
+                writer.writerow([*row, self.program_pointer[i], self.motion_pointer[i]])
+
+
+class Recorder:
+    """Watches one group from its making until `stop()`."""
+
+    def __init__(self, kernel: Kernel, group: MotionGroup) -> None:
+        self._kernel = kernel
+        self._group = group
+        self._start = kernel.now
+        self._end: int | None = None
+        self._motions: list[Motion] = [group.motion]
+        self._moves: list[tuple[int, Move]] = []
+        group.observers.append(self._moved)
+        group.listeners.append(self._heard)
+
+    def _moved(self, motion: Motion) -> None:
+        self._motions.append(motion)
+
+    def _heard(self, move: Move) -> None:
+        self._moves.append((self._kernel.now, move))
+
+    def stop(self) -> None:
+        """End the recording; harmless when it has ended."""
+        if self._end is None:
+            self._end = self._kernel.now
+            self._group.observers.remove(self._moved)
+            self._group.listeners.remove(self._heard)
+
+    def recording(self, period: float = PERIOD) -> Recording:
+        """Samples every `period` s from the start until now or the end."""
+        import numpy as np  # only who asks for arrays pays for them
+
+        end = self._kernel.now if self._end is None else self._end
+        step = max(1, round(period * S))
+        times = range(self._start, end + 1, step)
+        lag = round(self._group.settings.servo_lag * S)
+        motions = [self._at(time) for time in times]
+        commanded = [m.posture(t) for m, t in zip(motions, times, strict=True)]
+        actual = commanded
+        if lag:
+            delayed = [max(self._start, t - lag) for t in times]
+            actual = [self._at(t).posture(t) for t in delayed]
+        moves = [m.move(t) for m, t in zip(motions, times, strict=True)]
+        tcp = None
+        kinematics = self._group.kinematics
+        if kinematics is not None:
+            rows = []
+            for posture, move in zip(commanded, moves, strict=True):
+                pose = kinematics.forward(posture)
+                if move is not None and not move.carrier.stationary:
+                    pose = frames.compose(pose, move.carrier.tool)
+                rows.append((*pose[0], *pose[1]))
+            tcp = np.array(rows, dtype=np.float64)
+        starts = [time for time, _ in self._moves]
+        pointers = [bisect_right(starts, time) - 1 for time in times]
+        return Recording(
+            joints=tuple(joint.name for joint in self._group.config.joints),
+            time=np.array([t / S for t in times]),
+            commanded=np.array(commanded, dtype=np.float64),
+            actual=np.array(actual, dtype=np.float64),
+            tcp=tcp,
+            program_pointer=tuple(_names(self._moves[i][1] if i >= 0 else None for i in pointers)),
+            motion_pointer=tuple(_names(moves)),
+        )
+
+    def _at(self, time: int) -> Motion:
+        index = bisect_right(self._motions, time, key=_since) - 1
+        return self._motions[max(0, index)]
+
+
+def _since(motion: Motion) -> int:
+    return motion.since
+
+
+def _names(moves: Iterable[Move | None]) -> list[str]:
+    known: dict[Callable[[], object], str] = {}
+    found = []
+    for move in moves:
+        where = move.place if move is not None else None
+        if where is None:
+            found.append("")
+            continue
+        if where not in known:
+            known[where] = str(where() or "")
+        found.append(known[where])
+    return found
+
+
+def _digits(values: "npt.NDArray[np.float64]") -> list[str]:
+    return [f"{value:.9f}" for value in values]
