@@ -210,12 +210,12 @@ class Bench:
         for when, seen in self.track:
             if when < since:
                 continue
-            while at < len(path) - 2 and _off(seen, path[at], path[at + 1]) > SETTLED:
-                if _off(seen, path[at + 1], path[at + 2]) > _off(seen, path[at], path[at + 1]):
+            while at < len(path) - 2 and off(seen, path[at], path[at + 1]) > SETTLED:
+                if off(seen, path[at + 1], path[at + 2]) > off(seen, path[at], path[at + 1]):
                     break
                 at += 1
             near = min(
-                _off(seen, path[i], path[i + 1]) for i in range(at, min(at + 2, len(path) - 1))
+                off(seen, path[i], path[i + 1]) for i in range(at, min(at + 2, len(path) - 1))
             )
             if near > corner:
                 raise Broken(
@@ -343,7 +343,7 @@ def distance(one: Position, other: Position) -> float:
     return max(abs(a - b) for a, b in zip(one, other, strict=True))
 
 
-def _off(seen: Position, start: Position, end: Position) -> float:
+def off(seen: Position, start: Position, end: Position) -> float:
     """Distance of a position from the straight way between two (largest axis)."""
     along = [e - s for s, e in zip(start, end, strict=True)]
     length = sum(a * a for a in along)
