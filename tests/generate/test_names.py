@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
-from rapidgen.rapid import check, nodes, parse
+from rapidgen.rapid import check, format_source, nodes, parse
 
 ROBOTS = ["irb120", "irb14000"]
 
@@ -97,3 +97,11 @@ def test_the_checker_finds_nothing(name):
 def test_the_checker_finds_nothing_in_variants(override):
     config = load_config("irb120", overrides=[override])
     assert check(make_system(config, build(config))) == []
+
+
+@pytest.mark.parametrize("name", ROBOTS)
+def test_modules_are_laid_out_as_the_formatter_does(name):
+    for file in build(load_config(name)).files:
+        if file.kind == "module":
+            text = file.data.decode("latin-1")
+            assert format_source(text) == text, file.path

@@ -17,6 +17,11 @@ CASES = [
 ]
 
 
+def overrides_for(generation):
+    kind = "irc5" if generation < 7 else "omnicore"
+    return [f"controller.robotware={VERSIONS[generation]}", f"controller.type={kind}"]
+
+
 def targets(config, group, bench):
     """Where the group stands, and two places near it within the limits."""
     here = list(bench.joints(group.name))
@@ -32,7 +37,7 @@ def targets(config, group, bench):
 
 @pytest.mark.parametrize(("name", "generation"), CASES)
 def test_boots_and_moves(name, generation):
-    config = load_config(name, overrides=[f"controller.robotware={VERSIONS[generation]}"])
+    config = load_config(name, overrides=overrides_for(generation))
     assert config.robotware[0] == generation
     bench = Bench(config)
     try:
@@ -63,10 +68,7 @@ def test_boots_and_moves(name, generation):
 
 @pytest.mark.parametrize("generation", [5, 6, 7])
 def test_files_of_a_generation(generation, tmp_path):
-    config = load_config(
-        "irb1200" if generation < 7 else "crb15000",
-        overrides=[f"controller.robotware={VERSIONS[generation]}"],
-    )
+    config = load_config("irb1200", overrides=overrides_for(generation))
     output = build(config)
     paths = {f.path: f for f in output.files}
     end = "x" if generation == 7 else ""
