@@ -23,10 +23,10 @@ from rapidgen.virtual.errors import FatalError
 from rapidgen.virtual.faults import FaultPlan
 from rapidgen.virtual.faults import schedule as schedule_faults
 from rapidgen.virtual.files import FileSystem
+from rapidgen.virtual.handled import ControllerLog
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import ClockKind, Kernel, Schedule
 from rapidgen.virtual.loading import ModuleTable
-from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
 from rapidgen.virtual.network.faulty import FaultyNetwork
@@ -185,7 +185,7 @@ class VirtualController(ControllerState):
             quantum=self.costs.quantum,
             schedule=schedule,
         )
-        self.log = EventLog(self.kernel)
+        self.log = ControllerLog(self.kernel)
         self.io = IOSystem(self.kernel, self.log, system)
         self.motion = MotionSystem(self.kernel, robots, self.log, self.io)
         if network is None:

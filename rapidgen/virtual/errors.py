@@ -112,11 +112,15 @@ PYTHON_ERRORS: dict[type[Exception], str] = {
 RECOVERABLE: tuple[type[Exception], ...] = (RapidError, *PYTHON_ERRORS)
 
 
+@cache
+def python_error(kind: type[BaseException]) -> int:
+    """Number of the RAPID error that a Python exception in compiled code stands for."""
+    for known, name in PYTHON_ERRORS.items():
+        if issubclass(kind, known):
+            return errnum(name)
+    raise TypeError(f"{kind.__name__} is no RAPID error")
+
+
 def as_rapid_error(error: BaseException) -> RapidError:
     """The RAPID error that one of `RECOVERABLE` stands for."""
-    if isinstance(error, RapidError):
-        return error
-    for kind, name in PYTHON_ERRORS.items():
-        if isinstance(error, kind):
-            return RapidError(name)
-    raise TypeError(f"{type(error).__name__} is no RAPID error") from error
+    return error if isinstance(error, RapidError) else RapidError(python_error(type(error)))

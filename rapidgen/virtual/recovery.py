@@ -17,6 +17,7 @@ from rapidgen.virtual.errors import (
     as_rapid_error,
     errnum,
     error_name,
+    python_error,
 )
 from rapidgen.virtual.kernel import Kernel, Process
 
@@ -64,6 +65,7 @@ class Recovery(Process):
         self.retry_base = 0
         self.skip_warning = False
         self.handler_level = 0
+        self._stops = controller.dialect.unhandled_error == "stop"
         self.undo_level = 0
 
     # -- handlers --------------------------------------------------------------------------------
@@ -84,15 +86,63 @@ class Recovery(Process):
         traceback = error.__traceback__
         frame = sys._getframe(1)
         known = self._settled(error, traceback, frame, budget)
+        number = known.number
         if known.target is not None:
             if known.target is not frame:
                 raise known
-        elif listed is not None and not _lists(listed(), known.number):
+            known.target = None
+        elif listed is not None and not _lists(listed(), number):
             raise known
-        elif self.controller.dialect.unhandled_error == "stop":
+        elif self._stops:
             self._stop_at_bare_callee(known, traceback)
-        known.target = None
-        return self._run_handler(handler, known, retries, frame, traceback)
+        self.errno = number
+        self.retry_number = retries
+        if not retries:
+            self.retry_base = 0
+        self.skip_warning = False
+        self.handler_level += 1
+        try:
+            way = handler()
+        except RECOVERABLE as second:
+            # Errors inside a handler go straight to the system error handler [K §7.1].
+            raise self.unhandled(self._settled(second, second.__traceback__, frame, None)) from None
+        finally:
+            self.handler_level -= 1
+        if not self.skip_warning:
+            self.controller.log.handled(self.name, number, known.text)
+        if way in (TRYNEXT, RETURN):
+            return way
+        if way == RAISE:
+            known.target = self._recovery_point(frame, number)
+            raise known
+        if way == RETRY:
+            return self._retry(handler, known, retries)
+        raise self.unhandled(known) from None
+
+    def _retry(self, handler: Callable[[], int], error: RapidError, retries: int) -> int:
+        """RETRY, as often as it is allowed [K §7.5].
+
+        After that the handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; when it asks
+        for RETRY again the task stops.
+        """
+        if error.raised and not self.controller.dialect.retry_raised:
+            raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
+        if retries - self.retry_base < RETRIES:
+            return RETRY
+        last = RapidError("ERR_EXCRTYMAX")
+        last.settled = True
+        last.__traceback__ = error.__traceback__
+        self.errno = last.number
+        self.handler_level += 1
+        try:
+            way = handler()
+        finally:
+            self.handler_level -= 1
+        if way in (TRYNEXT, RETURN):
+            return way
+        if way == RAISE:
+            raise last
+        raise self.unhandled(last) from None
 
     def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
         """Dialect: an error that came out of a routine without ERROR is nobody's."""
@@ -105,61 +155,6 @@ class Recovery(Process):
                 return
             at = at.tb_next
 
-    def _run_handler(
-        self,
-        handler: Callable[[], int],
-        error: RapidError,
-        retries: int,
-        frame: FrameType,
-        traceback: TracebackType | None,
-    ) -> int:
-        self.errno = error.number
-        self.retry_number = retries
-        if retries == 0:
-            self.retry_base = 0
-        self.skip_warning = False
-        self.handler_level += 1
-        try:
-            way = handler()
-        except RECOVERABLE as second:
-            # Errors inside a handler go straight to the system error handler [K §7.1].
-            raise self.unhandled(self._settled(second, second.__traceback__, frame, None)) from None
-        finally:
-            self.handler_level -= 1
-        if not self.skip_warning:
-            self.controller.handled(self, error, traceback)
-        if way == RETRY:
-            self._count_retry(error, retries)
-            if retries - self.retry_base >= RETRIES:
-                return self._exhausted(handler, error, retries, frame, traceback)
-            return RETRY
-        if way in (TRYNEXT, RETURN):
-            return way
-        if way == RAISE:
-            error.target = self._recovery_point(frame, error.number)
-            raise error
-        raise self.unhandled(error) from None
-
-    def _count_retry(self, error: RapidError, retries: int) -> None:
-        if error.raised and not self.controller.dialect.retry_raised:
-            raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
-
-    def _exhausted(
-        self,
-        handler: Callable[[], int],
-        error: RapidError,
-        retries: int,
-        frame: FrameType,
-        traceback: TracebackType | None,
-    ) -> int:
-        """The handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; then the task stops."""
-        if error.number == errnum("ERR_EXCRTYMAX"):
-            raise self.unhandled(error) from None
-        last = RapidError("ERR_EXCRTYMAX")
-        last.settled = True
-        last.__traceback__ = traceback
-        return self._run_handler(handler, last, retries, frame, traceback)
-
     def _settled(
         self,
         error: Exception,
@@ -168,11 +163,17 @@ class Recovery(Process):
         budget: int | None,
     ) -> RapidError:
         """The RAPID error, with the task's budget put right for where it was raised."""
-        known = as_rapid_error(error)
-        if known is not error:
+        if isinstance(error, RapidError):
+            known = error
+            if known.settled:
+                return known
+        else:
+            known = RapidError(python_error(error.__class__))
             known.__traceback__ = traceback
-        if known.settled:
-            return known
+            if traceback is not None and traceback.tb_next is None and budget is not None:
+                self.b = budget
+                known.settled = True
+                return known
         known.settled = True
         at = traceback
         inner = None

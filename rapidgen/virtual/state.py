@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from types import TracebackType
 from typing import TYPE_CHECKING, Literal
 
 from rapidgen.rapid import nodes as n
@@ -12,10 +11,10 @@ from rapidgen.virtual.costs import Costs
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.files import FileSystem
+from rapidgen.virtual.handled import ControllerLog
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, WaitSet
 from rapidgen.virtual.loading import ModuleTable
-from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
 from rapidgen.virtual.task import Task
@@ -42,7 +41,7 @@ class ControllerState:
 
     system: System
     kernel: Kernel
-    log: EventLog
+    log: ControllerLog
     io: IOSystem
     motion: MotionSystem
     files: FileSystem
@@ -315,10 +314,6 @@ class ControllerState:
         group = self.motion.of_task(task.name)
         if group is not None and self.motion.is_motion_task(task.name):
             group.reset()
-
-    def handled(self, task: Task, error: RapidError, traceback: TracebackType | None) -> None:
-        """A handled error leaves a warning, unless SkipWarn removed it [K §7.5]."""
-        self.log.warning(40_199, "Handled error", error.name, error.text, task=task.name)
 
     def event_routines(self, task: "RapidTask", event: str) -> Iterator[str]:
         """Names of the routines of an event (CAB_EXEC_HOOKS)."""

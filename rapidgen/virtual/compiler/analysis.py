@@ -5,7 +5,8 @@ from collections.abc import Callable, Iterator
 from rapidgen.rapid import nodes as n
 from rapidgen.virtual.compiler.symbols import Routine
 
-WHOLE_FUNCTIONS = frozenset({"strlen", "dim"})
+WHOLE_FUNCTIONS = frozenset({"strlen", "dim", "strfind", "strmatch"})
+"""Built-ins that become code and give whole numbers from 0."""
 
 
 def children(node: n.Node) -> Iterator[n.Node]:
@@ -127,51 +128,84 @@ class Facts:
             self.by_reference.add(node.name.lower())
 
 
-def whole_locals(
-    candidates: set[str],
-    facts: Facts,
-    constant: Callable[[str], object],
-) -> set[str]:
-    """Those of `candidates` (and loop variables) that only ever hold whole numbers.
+class Whole:
+    """Which locals and loop variables hold whole numbers only, and which none below zero.
 
-    `constant(name)` gives the value of a num constant, or None.
+    Both are the largest sets that agree with every store; `initial` are the candidates with
+    their initial values, `constant(name)` gives the value of a num constant, or None.
     """
-    loop_names = {loop.variable.lower() for loop in facts.loops}
-    whole = {c for c in candidates if c not in facts.by_reference} | loop_names
 
-    def is_whole(node: n.Expression | None) -> bool:
+    def __init__(
+        self, initial: dict[str, int], facts: Facts, constant: Callable[[str], object]
+    ) -> None:
+        self._constant = constant
+        loops: dict[str, list[n.For]] = {}
+        for loop in facts.loops:
+            loops.setdefault(loop.variable.lower(), []).append(loop)
+        names = {name for name in initial if name not in facts.by_reference} | set(loops)
+        stores = {name: facts.stores.get(name, []) for name in names}
+        self.whole = names
+        self._shrink(
+            self.whole,
+            lambda name: (
+                all(map(self._is_whole, stores[name]))
+                and all(self._is_whole_loop(loop) for loop in loops.get(name, ()))
+            ),
+        )
+        self.natural = {name for name in self.whole if initial.get(name, 0) >= 0}
+        self._shrink(
+            self.natural,
+            lambda name: (
+                all(map(self._is_natural, stores[name]))
+                and all(self._is_natural_loop(loop) for loop in loops.get(name, ()))
+            ),
+        )
+
+    @staticmethod
+    def _shrink(names: set[str], holds: Callable[[str], bool]) -> None:
+        changed = True
+        while changed:
+            wrong = [name for name in sorted(names) if not holds(name)]
+            names.difference_update(wrong)
+            changed = bool(wrong)
+
+    def _is_whole_loop(self, loop: n.For) -> bool:
+        return self._is_whole(loop.start) and (loop.step is None or self._is_whole(loop.step))
+
+    def _is_natural_loop(self, loop: n.For) -> bool:
+        return loop.step is None and self._is_natural(loop.start) and self._is_natural(loop.end)
+
+    def _is_whole(self, node: n.Expression | None) -> bool:
         match node:
             case n.NumberLiteral():
                 return isinstance(node.value, int)
             case n.Name():
-                key = node.name.lower()
-                return key in whole or isinstance(constant(key), int)
-            case n.Parenthesis():
-                return is_whole(node.inner)
-            case n.Unary():
-                return is_whole(node.operand)
-            case n.Binary():
-                if node.operator in ("DIV", "MOD"):
-                    return True
-                return node.operator in ("+", "-", "*") and (
-                    is_whole(node.left) and is_whole(node.right)
+                return node.name.lower() in self.whole or isinstance(
+                    self._constant(node.name.lower()), int
                 )
+            case n.Parenthesis():
+                return self._is_whole(node.inner)
+            case n.Unary():
+                return node.operator != "NOT" and self._is_whole(node.operand)
+            case n.Binary(operator="DIV" | "MOD"):
+                return True
+            case n.Binary(operator="+" | "-" | "*"):
+                return self._is_whole(node.left) and self._is_whole(node.right)
             case n.FunctionCall():
                 return node.name.lower() in WHOLE_FUNCTIONS
         return False
 
-    changed = True
-    while changed:
-        changed = False
-        for name in sorted(whole):
-            values = facts.stores.get(name, [])
-            loops = [loop for loop in facts.loops if loop.variable.lower() == name]
-            parts: list[n.Expression | None] = list(values)
-            for loop in loops:
-                parts.append(loop.start)
-                if loop.step is not None:
-                    parts.append(loop.step)
-            if not all(is_whole(p) for p in parts):
-                whole.discard(name)
-                changed = True
-    return whole
+    def _is_natural(self, node: n.Expression | None) -> bool:
+        match node:
+            case n.NumberLiteral():
+                return isinstance(node.value, int)
+            case n.Name():
+                value = self._constant(node.name.lower())
+                return node.name.lower() in self.natural or (isinstance(value, int) and value >= 0)
+            case n.Parenthesis():
+                return self._is_natural(node.inner)
+            case n.Binary(operator="+" | "*" | "DIV" | "MOD"):
+                return self._is_natural(node.left) and self._is_natural(node.right)
+            case n.FunctionCall():
+                return node.name.lower() in WHOLE_FUNCTIONS
+        return False

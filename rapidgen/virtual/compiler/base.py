@@ -14,6 +14,9 @@ if TYPE_CHECKING:
 EXACT = 1 << 24
 """IEEE single holds every whole number up to here."""
 
+UNBOUNDED = 1 << 60
+"""Upper end of the range of a whole number of which only the lower end is known."""
+
 SILENT, SHARED, CALLS = 0, 1, 2
 """What an expression touches: the routine's own data; data that traps or others see; calls
 that may wait, so that the budget has to be written back around them."""

@@ -251,6 +251,16 @@ class Calls(Expressions):
             done = inline(self, node)
             if done is not None:
                 return done
+        return self.call_without_inline(routine, node)
+
+    def plain_call(self, node: n.FunctionCall | n.ProcedureCall) -> E:
+        """The ordinary call of a built-in that is usually code of its own."""
+        routine = self.known_routine(node.name)
+        assert routine is not None
+        return self.call_without_inline(routine, node)
+
+    def call_without_inline(self, routine: Routine, node: n.FunctionCall | n.ProcedureCall) -> E:
+        """Compile a call as a Python call."""
         if routine.missing:
             self.program.said_missing(routine.name)
             return E(

@@ -26,8 +26,11 @@ class Expressions(CompilerBase):
             return e.code
         if e.whole and e.range is not None and e.range[0] >= -EXACT and e.range[1] <= EXACT:
             return e.code
-        if e.whole or e.risky:
-            return f"RND({e.code})"
+        if e.whole:
+            return f"(_x if -{EXACT} <= (_x := {e.code}) <= {EXACT} else RND(_x))"
+        if e.risky:
+            split = f"(_t := (_y := {e.code}) * 536870913.0) - (_t - _y)"
+            return f"(_x if -{_LARGEST} <= (_x := {split}) <= {_LARGEST} else RND(_y))"
         return f"((_t := (_y := {e.code}) * 536870913.0) - (_t - _y))"
 
     def store_lines(self, target: str, e: E, kind: Type, *, keep: bool = False) -> list[str]:
@@ -41,7 +44,9 @@ class Expressions(CompilerBase):
         if e.whole:
             lines = [f"{target} = {e.code}"]
             low, high = e.range if e.range is not None else (-EXACT - 1, EXACT + 1)
-            if low < -EXACT or high > EXACT:
+            if low >= -EXACT and high > EXACT:
+                lines.append(f"if {target} > {EXACT}: {target} = RND({target})")
+            elif low < -EXACT or high > EXACT:
                 lines.append(f"if not -{EXACT} <= {target} <= {EXACT}: {target} = RND({target})")
             return lines
         if not e.risky:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.rapid import nodes as n
 from rapidgen.virtual.compiler.base import E
-from rapidgen.virtual.values import BOOL, NUM, STRING
+from rapidgen.virtual.values import BOOL, NUM, STRING, Type
 
 if TYPE_CHECKING:
     from rapidgen.virtual.compiler.calls import Calls
@@ -76,6 +76,50 @@ def _str_len(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E:
     return result.take(e)
 
 
+def _string_function(
+    c: "Calls", node: n.FunctionCall | n.ProcedureCall, code: str, kinds: tuple[Type, ...]
+) -> E | None:
+    """A string function of runtime.py with required arguments only; else the built-in."""
+    if len(node.arguments) != len(kinds) or any(a.kind != "required" for a in node.arguments):
+        return None
+    parts = [
+        c.value_of(a.value, kind, (), "argument")
+        for a, kind in zip(node.arguments, kinds, strict=True)
+        if a.value is not None
+    ]
+    cost = int(50_000 * c.options.builtin_scale)
+    inside = ", ".join(p.code for p in parts)
+    return E(f"{code}({inside})", STRING, cost=cost, fails=True, exact=True).take(*parts)
+
+
+def _str_part(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E | None:
+    """StrPart."""
+    return _string_function(c, node, "PARTOF", (STRING, NUM, NUM))
+
+
+def _position(c: "Calls", node: n.FunctionCall | n.ProcedureCall, code: str) -> E | None:
+    e = _string_function(c, node, code, (STRING, NUM, STRING))
+    if e is not None:
+        e.type, e.whole, e.range = NUM, True, (1, 81)
+    return e
+
+
+def _str_find(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E | None:
+    """StrFind without the switch; one character needs no set."""
+    last = node.arguments[-1].value if node.arguments else None
+    single = isinstance(last, n.StringLiteral) and len(last.value) == 1
+    e = _position(c, node, "FIND1" if single else "FINDSET")
+    if e is None:  # with \NotInSet the built-in gives an int, too
+        e = c.plain_call(node)
+        e.whole, e.range, e.exact = True, (1, 81), True
+    return e
+
+
+def _str_match(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E | None:
+    """StrMatch."""
+    return _position(c, node, "FIND1")
+
+
 def _is_pers(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E:
     """IsPers: of an INOUT parameter only run time knows [K §11]."""
     place = c.place(_only_argument(c, node))
@@ -101,6 +145,9 @@ INLINE: dict[str, Inline] = {
     "dim": _dim,
     "abs": _abs,
     "strlen": _str_len,
+    "strpart": _str_part,
+    "strfind": _str_find,
+    "strmatch": _str_match,
     "ispers": _is_pers,
     "isvar": _is_var,
 }

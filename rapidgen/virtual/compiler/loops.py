@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from rapidgen.rapid import nodes as n
-from rapidgen.virtual.compiler.base import CALLS, E
+from rapidgen.virtual.compiler.base import CALLS, SILENT, E
 from rapidgen.virtual.compiler.statements import LOOP, Statements
 from rapidgen.virtual.compiler.symbols import Data
 from rapidgen.virtual.values import BOOL, NUM
@@ -90,6 +90,9 @@ class Loops(Statements):
         w = self.w
         condition = self.condition(node.condition)
         token = node.first
+        if condition.effect == SILENT and not condition.fails:
+            self._silent_while(node, condition)
+            return
         simple = condition.effect != CALLS and not (self.guarded and condition.fails)
         self.pay(condition)
         if simple:
@@ -105,6 +108,18 @@ class Loops(Statements):
             self.guard(condition, [f"{name} = {condition.code}"], skip=f"{name} = False")
             w.emit(f"if not {name}: break")
         self._body(node.body, lambda: self._next_pass(condition, token))
+
+    def _silent_while(self, node: n.While, condition: E) -> None:
+        """A condition that nothing outside can see is paid after it was looked at: together
+        with what begins the pass, or with what follows the loop."""
+        w = self.w
+        w.close()
+        w.emit(f"while {condition.code}:")
+        w.depth += 1
+        self.pay(condition)
+        self._body(node.body, None)
+        w.token = node.first
+        self.pay(condition)
 
     def _next_pass(self, condition: E, token: int) -> None:
         self.w.token = token

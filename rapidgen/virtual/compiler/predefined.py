@@ -8,7 +8,20 @@ from rapidgen.virtual.compiler.symbols import Data, Parameter, Routine
 from rapidgen.virtual.registry import bound
 from rapidgen.virtual.values import TYPES, Type, make_record, register_type
 
-COMPILED = frozenset({"present", "dim", "abs", "strlen", "ispers", "isvar", "argname"})
+COMPILED = frozenset(
+    {
+        "present",
+        "dim",
+        "abs",
+        "strlen",
+        "strpart",
+        "strfind",
+        "strmatch",
+        "ispers",
+        "isvar",
+        "argname",
+    }
+)
 """Built-ins that the compiler turns into code: see inline.py."""
 
 

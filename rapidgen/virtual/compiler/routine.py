@@ -6,12 +6,12 @@ from types import CodeType
 from typing import TYPE_CHECKING, Any
 
 from rapidgen.rapid import nodes as n
-from rapidgen.virtual.compiler.analysis import Facts, whole_locals
-from rapidgen.virtual.compiler.base import Options
+from rapidgen.virtual.compiler.analysis import Facts, Whole
+from rapidgen.virtual.compiler.base import UNBOUNDED, Options
 from rapidgen.virtual.compiler.inline import NEVER_BOXES
 from rapidgen.virtual.compiler.loops import Loops
 from rapidgen.virtual.compiler.symbols import Data, Parameter, Routine
-from rapidgen.virtual.compiler.writer import Writer
+from rapidgen.virtual.compiler.writer import Line, Writer
 from rapidgen.virtual.values import NUM, Type
 
 if TYPE_CHECKING:
@@ -100,7 +100,19 @@ class RoutineCompiler(Loops):
         body = self._part(node.body, "")
         head: list[Any] = []
         if node.error is not None:
-            head += self._function("_h", node.error.body, "ERROR")
+            handler = self._function("_h", node.error.body, "ERROR")
+            if any("v_" in line.text for line in handler):
+                head += handler
+            else:  # it uses none of the routine's variables: made once, not at each call
+                apart = f"{self.routine.code}_h"
+                for line in handler:
+                    line.depth -= 1
+                w.lines[0:0] = handler
+                before = len(handler)
+                w.lines.insert(before, Line(0, f"{apart} = _h", node.error.first))
+                globals_at += before + 1
+                handlers_at += before + 1
+                head.append(Line(1, f"_h = {apart}", node.error.first))
             head += self._recovery_list(node.error)
         if node.undo is not None:
             head += self._function("_u", node.undo.body, "UNDO")
@@ -235,7 +247,7 @@ class RoutineCompiler(Loops):
         )
 
     def _declare(self, declarations: list[n.DataDeclaration]) -> None:
-        candidates: set[str] = set()
+        candidates: dict[str, int] = {}
         values: list[tuple[n.DataDeclaration, Type, tuple[int, ...], Any]] = []
         constants: dict[str, Any] = {}
         for declaration in declarations:
@@ -250,9 +262,9 @@ class RoutineCompiler(Loops):
                 continue
             values.append((declaration, kind, dims, value))
             if kind.kind == "num" and not dims and isinstance(value, int):
-                candidates.add(key)
+                candidates[key] = value
             self.locals[key] = Data(declaration.name, "VAR", kind, dims, "local", f"v_{key}")
-        whole = whole_locals(candidates, self.facts, self._constant)
+        whole = Whole(candidates, self.facts, self._constant)
         for declaration, kind, dims, value in values:
             self._variable(declaration, kind, dims, value, whole)
 
@@ -266,7 +278,7 @@ class RoutineCompiler(Loops):
         kind: Type,
         dims: tuple[int, ...],
         value: Any,  # noqa: ANN401 - a RAPID value
-        whole: set[str],
+        whole: Whole,
     ) -> None:
         key = declaration.name.lower()
         data = self.locals[key]
@@ -292,7 +304,9 @@ class RoutineCompiler(Loops):
             t = self.program.type_code(kind)
             w.emit(f"{data.code} = BOX({value!r}, {t}, (), {declaration.name!r})")
             return
-        data.whole = key in whole and kind.kind == "num"
+        data.whole = key in whole.whole and kind.kind == "num"
+        if data.whole and key in whole.natural:
+            data.range = (0, UNBOUNDED)
         w.emit(f"{data.code} = {value!r}")
 
 

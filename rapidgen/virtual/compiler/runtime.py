@@ -120,6 +120,40 @@ def orient_multiply(a: Any, b: Any) -> Any:  # noqa: ANN401
     )
 
 
+def _at(text: str, position: float) -> int:
+    """A position in a text from 0; ERR_OUTOFBND outside [S4 StrFind]."""
+    place = int(position)
+    if place != position or not 1 <= place <= len(text):
+        raise RapidError("ERR_OUTOFBND")
+    return place - 1
+
+
+def part_of(text: str, position: float, length: float) -> str:
+    """StrPart: ERR_OUTOFBND when the part sticks out [S4 StrPart]."""
+    start = position - 1
+    end = start + length
+    if start.__class__ is end.__class__ is int and 0 <= start <= end <= len(text) > start:
+        return text[start:end]  # type: ignore[misc]
+    start = _at(text, position)
+    if length != int(length) or length < 0 or start + length > len(text):
+        raise RapidError("ERR_OUTOFBND")
+    return text[start : start + int(length)]
+
+
+def find_text(text: str, position: float, pattern: str) -> int:
+    """StrMatch, and StrFind for one character: length + 1 when there is none."""
+    found = text.find(pattern, _at(text, position))
+    return found + 1 if found >= 0 else len(text) + 1
+
+
+def find_set(text: str, position: float, characters: str) -> int:
+    """StrFind: the first position from there with one of the characters."""
+    for place in range(_at(text, position), len(text)):
+        if text[place] in characters:
+            return place + 1
+    return len(text) + 1
+
+
 # -- loops ---------------------------------------------------------------------------------------
 
 
@@ -333,6 +367,9 @@ NAMESPACE: dict[str, Callable[..., Any]] = {
     "PCROSS": pos_cross,
     "QMUL": orient_multiply,
     "STEPS": count_steps,
+    "PARTOF": part_of,
+    "FIND1": find_text,
+    "FINDSET": find_set,
     "ITEM": ItemRef,
     "MEMBER": MemberRef,
     "ASVAR": as_variable,

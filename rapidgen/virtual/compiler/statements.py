@@ -205,7 +205,7 @@ class Statements(Calls):
         w.emit("_f, _n = _e, 0")
         w.emit("while True:")
         w.depth += 1
-        budget = "None" if calls else "b"
+        budget = "None" if calls or self.options.accounting == "none" else "b"
         w.emit(f"_k = R.handle(_h, _f, {budget}, _n, _l)")
         w.emit("b = R.b")
         w.emit(f"if _k == 1: {skip + '; ' if skip else ''}break")
@@ -329,7 +329,7 @@ class Statements(Calls):
             lines.append(f"_i = {key}")
             key = "_i"
         if not self._inside(place):
-            lines.append(f"if {key} not in {place.holder}: FAIL('ERR_OUTOFBND')")
+            lines.append(f"{place.holder}[{key}]")  # outside: KeyError
         return lines + self._through("_x", f"{place.holder}[{key}]", value, kind)
 
     def _kept(self, data: Data) -> str:
@@ -492,10 +492,12 @@ class Statements(Calls):
             target = "R.ret" if self.handler else "_r"
             lines = [f"{target} = {self.by_value(e, kind)}"]
             e.fails = e.fails or e.risky
-            if not self.handler and not (self.guarded and e.fails) and e.effect != CALLS:
+            if not self.handler and not (self.guarded and e.fails):
                 self.pay(e)
                 w.emit("R.b = b")
+                w.synced = e.effect == CALLS
                 w.emit(f"return {self.by_value(e, kind)}")
+                w.synced = False
                 w.close()
                 return
             self.pay(e)

@@ -9,6 +9,8 @@ accounting tell exactly the same times.
 from dataclasses import dataclass, field
 
 INDENT = " "
+_BUDGET_LINES = frozenset({"b = R.b", "R.b = b", "else: b = R.b", "b += @REFUND@"})
+"""What nobody needs without accounting."""
 
 
 @dataclass(slots=True, eq=False)
@@ -48,6 +50,8 @@ class Writer:
 
     def emit(self, text: str) -> None:
         """Add one line at the current depth."""
+        if self._accounting == "none" and text in _BUDGET_LINES:
+            return
         block = self._block
         paid = len(block.costs) if block is not None else 0
         self.lines.append(Line(self.depth, text, self.token, block, paid, synced=self.synced))
