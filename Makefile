@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
 
-.PHONY: demo test lint types contract unit wheel bench clean
+.PHONY: demo test lint types contract unit wheel foreign bench clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
@@ -46,6 +46,10 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP)
 # Last, so that pytest's own summary closes the output.
 unit: $(STAMP)
 	$(BIN)/python -m pytest -n auto
+
+# Trial with abb_driver's own modules: FOREIGN is the folder that holds them.
+foreign: $(STAMP)
+	$(BIN)/python -m tests.foreign.abb_driver $(FOREIGN)
 
 bench: $(STAMP)
 	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done

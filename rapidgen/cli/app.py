@@ -29,6 +29,7 @@ VERBS = {
     "fmt": "Format RAPID: keywords in upper case, four spaces a level, comments kept.",
     "run": "Run RAPID on the virtual clock.",
     "sim": "Run a virtual controller in real time.",
+    "test": "Prove the driver for this robot: every behaviour, stops and faults in many schedules.",
     "move": "Execute a trajectory. Ctrl-C stops the robot.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",

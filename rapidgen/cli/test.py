@@ -1,0 +1,150 @@
+"""`rapidgen test`: the driver's own suite, on the virtual controller, for this robot."""
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rapidgen.config.model import RobotConfig
+    from rapidgen.proving.model import Report
+
+
+def test(
+    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    seeds: Annotated[int, typer.Option(help="Random schedules to explore.", min=0)] = 100,
+    jobs: Annotated[
+        int | None, typer.Option(help="Processes; default one for each core.", min=1)
+    ] = None,
+    case: Annotated[
+        list[str] | None, typer.Option(help="Only this case (repeatable).", metavar="NAME")
+    ] = None,
+    quick: Annotated[
+        bool, typer.Option("--quick", help="Only the default of every assumption.")
+    ] = False,
+    replay: Annotated[
+        int | None, typer.Option(help="One schedule again, exactly.", metavar="SEED")
+    ] = None,
+    junit: Annotated[Path | None, typer.Option(help="Write JUnit XML.", metavar="FILE")] = None,
+    html: Annotated[
+        Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
+    ] = None,
+    overrides: Annotated[
+        list[str] | None,
+        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
+    ] = None,
+) -> int:
+    """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
+
+    Runs on the virtual controller; every assumption about real controllers is also tried the
+    other way round. Exit code 1 when something did not hold.
+    """
+    from rapidgen.config import load_config
+    from rapidgen.proving.report import write_html, write_junit
+    from rapidgen.proving.run import prove
+
+    model = load_config(config, overrides=overrides or ())
+    if replay is not None:
+        return _replay(model, replay)
+    _check_names(case or [])
+    with _Progress() as progress:
+        report = prove(
+            model,
+            seeds=seeds,
+            jobs=jobs,
+            only=case or (),
+            every_setting=not quick,
+            progress=progress,
+        )
+    if junit is not None:
+        write_junit(report, junit)
+    if html is not None:
+        write_html(report, html)
+    _show(report)
+    return 0 if report.passed else 1
+
+
+def _check_names(names: list[str]) -> None:
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+    from rapidgen.proving.suite import CASES
+
+    known = [case.name for case in CASES]
+    wrong = [name for name in names if name not in known]
+    if wrong:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG801",
+                Severity.ERROR,
+                f"there is no case '{name}'",
+                help=suggest(name, known) or f"the cases are: {', '.join(known)}",
+            )
+            for name in wrong
+        )
+
+
+class _Progress:
+    """A bar for each kind of work, on a terminal only."""
+
+    def __init__(self) -> None:
+        from rich.console import Console
+        from rich.progress import Progress
+
+        self._bars = Progress(console=Console(stderr=True), disable=not sys.stderr.isatty())
+        self._tasks: dict[str, object] = {}
+
+    def __enter__(self) -> "Callable[[str, int, int], None]":
+        self._bars.start()
+        return self._step
+
+    def __exit__(self, *_: object) -> None:
+        self._bars.stop()
+
+    def _step(self, what: str, done: int, total: int) -> None:
+        if what not in self._tasks:
+            self._tasks[what] = self._bars.add_task(what, total=total)
+        self._bars.update(self._tasks[what], completed=done)  # type: ignore[arg-type]
+
+
+def _show(report: "Report") -> None:
+    from rich.console import Console
+    from rich.table import Table
+
+    console = Console(highlight=False)
+    table = Table("group", "held", "of", "answers", box=None)
+    groups = dict.fromkeys(o.case.group for o in report.outcomes)
+    for group in groups:
+        own = [o for o in report.outcomes if o.case.group == group]
+        answers = sorted({a.strip() for o in own for a in o.case.answers.split(",") if a})
+        table.add_row(group, str(sum(o.passed for o in own)), str(len(own)), " ".join(answers))
+    if report.schedules:
+        held = report.schedules - len(report.findings)
+        table.add_row("schedules", str(held), str(report.schedules), "R1 R5 R7 R12")
+    console.print(table)
+    for outcome in report.outcomes:
+        if not outcome.passed:
+            setting = f" [{outcome.setting}]" if outcome.setting else ""
+            console.print(f"failed: {outcome.case.name}{setting}: {outcome.detail}", markup=False)
+    for finding in report.findings:
+        console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
+    verdict = "everything held" if report.passed else "something did not hold"
+    console.print(
+        f"{report.name} (build {report.build_id}): {verdict}, in {report.elapsed:.0f} s. "
+        "On the virtual controller: no real controller was asked.",
+        markup=False,
+    )
+
+
+def _replay(config: "RobotConfig", seed: int) -> int:
+    from rapidgen.proving.run import replay
+
+    finding = replay(config, seed)
+    if finding is None:
+        typer.echo(f"seed {seed}: the invariant held")
+        return 0
+    typer.echo(f"seed {seed}: {finding.detail}")
+    typer.echo(finding.plan)
+    typer.echo("\n".join(finding.log))
+    return 1
