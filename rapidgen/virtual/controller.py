@@ -188,6 +188,7 @@ class VirtualController(ControllerState):
         self.log = ControllerLog(self.kernel)
         self.io = IOSystem(self.kernel, self.log, system)
         self.motion = MotionSystem(self.kernel, robots, self.log, self.io)
+        self._connect_background_tasks()
         if network is None:
             network = (
                 SystemNetwork(self.kernel, host=host or "127.0.0.1", ports=ports)
@@ -230,6 +231,18 @@ class VirtualController(ControllerState):
             schedule_faults(faults, self)
         if autostart:
             self.start_program()
+
+    def _connect_background_tasks(self) -> None:
+        """Let background tasks act on the robot that their UseMechanicalUnitGroup names."""
+        robots = {
+            spec.mechanical_unit_group.lower(): group.name
+            for spec in self.system.tasks
+            if (group := self.motion.of_task(spec.name)) is not None and spec.motion
+        }
+        for spec in self.system.tasks:
+            robot = robots.get(spec.mechanical_unit_group.lower())
+            if robot is not None and spec.mechanical_unit_group and not spec.motion:
+                self.motion.assign(spec.name, robot)
 
     # -- other ways in ---------------------------------------------------------------------------
 
