@@ -284,7 +284,7 @@ def half(d):
     try:
         r = 10 / d
     except ZeroDivisionError:
-        pass
+        return r
     return r
 
 

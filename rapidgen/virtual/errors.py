@@ -113,7 +113,7 @@ RECOVERABLE: tuple[type[Exception], ...] = (RapidError, *PYTHON_ERRORS)
 
 
 @cache
-def python_error(kind: type[BaseException]) -> int:
+def python_error(kind: Any) -> int:  # noqa: ANN401 - a class of BaseException
     """Number of the RAPID error that a Python exception in compiled code stands for."""
     for known, name in PYTHON_ERRORS.items():
         if issubclass(kind, known):

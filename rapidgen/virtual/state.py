@@ -9,7 +9,7 @@ from rapidgen.system.model import System
 from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.costs import Costs
 from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.errors import FatalError
 from rapidgen.virtual.files import FileSystem
 from rapidgen.virtual.handled import ControllerLog
 from rapidgen.virtual.io import IOSystem

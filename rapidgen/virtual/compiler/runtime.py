@@ -133,7 +133,7 @@ def part_of(text: str, position: float, length: float) -> str:
     start = position - 1
     end = start + length
     if start.__class__ is end.__class__ is int and 0 <= start <= end <= len(text) > start:
-        return text[start:end]  # type: ignore[misc]
+        return text[start:end]
     start = _at(text, position)
     if length != int(length) or length < 0 or start + length > len(text):
         raise RapidError("ERR_OUTOFBND")
@@ -142,7 +142,10 @@ def part_of(text: str, position: float, length: float) -> str:
 
 def find_text(text: str, position: float, pattern: str) -> int:
     """StrMatch, and StrFind for one character: length + 1 when there is none."""
-    found = text.find(pattern, _at(text, position))
+    start = position - 1
+    if start.__class__ is not int or not 0 <= start < len(text):
+        start = _at(text, position)
+    found = text.find(pattern, start)
     return found + 1 if found >= 0 else len(text) + 1
 
 
