@@ -63,7 +63,7 @@ def build(
 
 
 def _tell(diagnostics: "tuple[Diagnostic, ...]") -> None:
-    from rapidgen.cli.app import use_colour
+    from rapidgen.cli.terminal import use_colour
     from rapidgen.diagnostics import render
 
     typer.echo(render(diagnostics, colour=use_colour()), err=True, nl=False)
