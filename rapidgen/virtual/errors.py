@@ -112,8 +112,7 @@ PYTHON_ERRORS: dict[type[Exception], str] = {
 RECOVERABLE: tuple[type[Exception], ...] = (RapidError, *PYTHON_ERRORS)
 
 
-@cache
-def python_error(kind: Any) -> int:  # noqa: ANN401 - a class of BaseException
+def python_error(kind: type[BaseException]) -> int:
     """Number of the RAPID error that a Python exception in compiled code stands for."""
     for known, name in PYTHON_ERRORS.items():
         if issubclass(kind, known):
