@@ -23,7 +23,9 @@ Point: TypeAlias = tuple[Position, float]
 """Joints and the seconds from the point before."""
 
 SAMPLE = 4_000_000
-"""ns between two samples of the record."""
+"""ns between two samples of the record while the robot moves ..."""
+SAMPLE_STANDING = 100_000_000
+"""... and while it stands and says so."""
 SETTLED = 1e-4
 """rad or m: as far as a standing robot may be from a point that it has reached."""
 
@@ -120,7 +122,8 @@ class Bench:
         self.controller = self._boot()
         self.group: MotionGroup = config.groups[0]
         self.track: list[tuple[float, Position]] = []
-        self._sample()
+        self._next = self.controller.kernel.after(0, self._sample)
+        self.controller.motion.group(self.group.name).changed.add(self._sample)
 
     def _boot(self) -> VirtualController:
         controller = VirtualController(
@@ -135,8 +138,13 @@ class Bench:
         return controller
 
     def _sample(self) -> None:
-        self.track.append((self.now, self.position))
-        self.controller.kernel.after(SAMPLE, self._sample)
+        """Keep the position when it has changed; look less often while the robot stands."""
+        here = self.position
+        if not self.track or here != self.track[-1][1]:
+            self.track.append((self.now, here))
+        self._next.cancel()
+        wait = SAMPLE_STANDING if self.standing else SAMPLE
+        self._next = self.controller.kernel.after(wait, self._sample)
 
     def close(self) -> None:
         """Give the controller back."""
@@ -293,7 +301,7 @@ class Bench:
         for time, seen in reversed(self.track):
             if time <= when:
                 return seen
-        return self.track[0][1]
+        return self.track[0][1] if self.track else self.position
 
     def series(self, points: Iterable[Point] = (), since: float = 0.0) -> tuple[Series, ...]:
         """Executed joints, and commanded ones if given, for a plot."""

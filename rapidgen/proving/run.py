@@ -4,9 +4,9 @@ import os
 import time
 from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from multiprocessing import get_context
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.generate import build, make_system
@@ -43,11 +43,11 @@ def settings() -> dict[str, Setting]:
         "switch at PERS": Setting(seed=1, random_schedule=True, switch_at_pers=True),
     }
     for name, value in _inverted():
-        found[f"{name}={value}"] = Setting(dialect=Dialect(**{name: value}))
+        found[f"{name}={value}"] = Setting(dialect=replace(Dialect(), **{name: value}))
     return found
 
 
-def _inverted() -> Iterable[tuple[str, object]]:
+def _inverted() -> Iterable[tuple[str, Any]]:
     for field in fields(Dialect):
         if isinstance(field.default, bool):
             yield field.name, not field.default
