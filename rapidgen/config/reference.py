@@ -32,6 +32,12 @@ def json_schema() -> dict[str, Any]:
     from pydantic import TypeAdapter
 
     made = TypeAdapter(schema.Configuration).json_schema()
+    parts = {"Configuration": made, **made["$defs"]}
+    for section in SECTIONS:
+        # pydantic drops the words beside a reference to another part.
+        for key in dataclasses.fields(section):
+            value = parts[section.__name__]["properties"][key.name]
+            value.setdefault("description", _doc(key.type))
     group = made["$defs"]["GroupKeys"]["properties"]
     made["properties"] = {**group, **made["properties"]}
     return {

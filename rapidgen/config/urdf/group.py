@@ -66,7 +66,7 @@ def request(
 ) -> Request:
     """What to read, with paths relative to the configuration's folder."""
     path = folder / given.file
-    explicit = {name: folder / where for name, where in given.packages.items()}
+    explicit = {name: (folder / where).resolve() for name, where in given.packages.items()}
     return Request(
         path,
         Packages(explicit, [Path(p) for p in package_paths], path.resolve().parent),

@@ -1,0 +1,132 @@
+"""`rapidgen new`: what it writes loads, or it says exactly what is missing and leaves nothing."""
+
+import json
+
+import pytest
+
+from rapidgen.cli.new import new
+from rapidgen.cli.robots import robots
+from rapidgen.cli.schema import schema
+from rapidgen.config import load_config, shipped_names
+from rapidgen.config.registry import find_shipped
+from rapidgen.diagnostics import DiagnosticError
+
+URDFS = find_shipped("irb120").parent / "urdf"
+XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+
+
+def chain(prefix="", names=range(1, 7)):
+    parts = [f'<link name="{prefix}l0"/>']
+    for place, n in enumerate(names, 1):
+        parts.append(
+            f'<link name="{prefix}l{place}"/><joint name="{prefix}joint_{n}" type="revolute">'
+            f'<parent link="{prefix}l{place - 1}"/><child link="{prefix}l{place}"/>'
+            '<axis xyz="0 0 1"/><limit lower="-1" upper="1" velocity="1" effort="0"/></joint>'
+        )
+    return "".join(parts)
+
+
+def codes(*arguments, **options):
+    with pytest.raises(DiagnosticError) as caught:
+        new(*arguments, **options)
+    return [d.code for d in caught.value.diagnostics], caught.value.exit_code
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_a_shipped_model(tmp_path, name):
+    path = tmp_path / "cell.yaml"
+    new(path, robot=name)
+    made, known = load_config(path), load_config(name)
+    assert made.groups == known.groups
+    assert (made.controller, made.robotware) == (known.controller, known.robotware)
+    assert made.name == "cell"
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_every_comment_that_shows_a_key_is_right(tmp_path, name):
+    path = tmp_path / "cell.yaml"
+    new(path, robot=name)
+    lines = path.read_text(encoding="utf-8").splitlines()
+    start = next(i for i, line in enumerate(lines) if line == "# trajectory:")
+    path.write_text("\n".join([*lines[:start], *(line[2:] for line in lines[start:])]))
+    assert load_config(path).trajectory == load_config(name).trajectory
+
+
+@pytest.mark.parametrize("name", ["irb120", "irb2400"])
+def test_a_plain_urdf(tmp_path, name):
+    path = tmp_path / "cell.yaml"
+    new(path, urdf=URDFS / f"{name}.urdf")
+    made = load_config(path).groups[0]
+    known = load_config(name).groups[0]
+    assert [j.axis for j in made.joints] == [j.axis for j in known.joints]
+    assert made.coupling == known.coupling
+    assert [link.joint for link in made.chain] == [link.joint for link in known.chain]
+
+
+def test_one_macro_is_called_and_packages_are_written_down(tmp_path, monkeypatch):
+    package = tmp_path / "ws" / "arm"
+    package.mkdir(parents=True)
+    (package / "package.xml").write_text("<package><name>arm_pkg</name></package>")
+    (package / "parts.xacro").write_text(f"<robot {XACRO}/>")
+    (tmp_path / "a_macro.xacro").write_text(
+        f'<robot {XACRO}><xacro:include filename="$(find arm_pkg)/parts.xacro"/>'
+        f'<xacro:macro name="arm" params="prefix">{chain("${prefix}")}</xacro:macro></robot>'
+    )
+    path = tmp_path / "cells" / "cell.yaml"
+    path.parent.mkdir()
+    new(path, urdf=tmp_path / "a_macro.xacro", package_path=[tmp_path / "ws"])
+    assert "macro: arm" in path.read_text()
+    monkeypatch.chdir(path.parent)
+    assert len(load_config("cell.yaml").groups[0].joints) == 6
+
+
+def test_arguments_and_tip(tmp_path):
+    (tmp_path / "r.xacro").write_text(
+        f'<robot name="r" {XACRO}><xacro:arg name="side" default="x_"/>'
+        f"{chain('$(arg side)')}{chain('b_')}</robot>"
+    )
+    path = tmp_path / "cell.yaml"
+    assert codes(path, urdf=tmp_path / "r.xacro") == (["RG052"], 2)
+    new(path, urdf=tmp_path / "r.xacro", arg=["side=a_"], tip="a_l6")
+    assert load_config(path).groups[0].joints[0].name == "a_joint_1"
+
+
+def test_what_cannot_be_known_is_said_and_nothing_is_written(tmp_path):
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
+    )
+    path = tmp_path / "cell.yaml"
+    assert codes(path, urdf=tmp_path / "r.urdf") == (["RG045"], 2)
+    assert not path.exists()
+
+
+def test_a_file_is_only_replaced_when_told(tmp_path):
+    path = tmp_path / "cell.yaml"
+    path.write_text("mine")
+    assert codes(path, robot="irb120") == (["RG020"], 1)
+    assert path.read_text() == "mine"
+    new(path, robot="irb120", force=True)
+    assert load_config(path)
+
+
+def test_one_of_robot_and_urdf(tmp_path):
+    assert codes(tmp_path / "c.yaml") == (["RG020"], 2)
+    assert codes(tmp_path / "c.yaml", robot="irb120", urdf=URDFS) == (["RG020"], 2)
+    assert codes(tmp_path / "c.yaml", robot="irb121") == (["RG009"], 2)
+    assert codes(tmp_path / "none" / "c.yaml", robot="irb120") == (["RG001"], 2)
+    assert codes(tmp_path / "c.yaml", urdf=tmp_path / "none.urdf") == (["RG060"], 2)
+
+
+def test_the_list_of_robots(capsys):
+    robots()
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(shipped_names())
+    robots(as_json=True)
+    listed = {model["name"]: model for model in json.loads(capsys.readouterr().out)}
+    assert listed["irb14000"]["groups"] == {"rob_l": 7, "rob_r": 7}
+    assert listed["irb120"]["unsure"] is False
+
+
+def test_the_schema_is_json(capsys):
+    schema()
+    assert json.loads(capsys.readouterr().out)["properties"]["groups"]
