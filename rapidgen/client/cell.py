@@ -90,6 +90,7 @@ class Cell:
         """
         moving = {name: robot for name, robot in self.robots.items() if name in trajectories}
         cores = {name: robot._core for name, robot in self.robots.items()}
+        _each(moving, lambda robot: robot._run(flows.ready(robot._core)))
         runs = _prepare_all(cores, trajectories)
         try:
             for name, robot in moving.items():
@@ -192,6 +193,9 @@ class AsyncCell:
         """Start trajectories together, by robot name; see `Cell.execute`."""
         moving = {name: robot for name, robot in self.robots.items() if name in trajectories}
         cores = {name: robot._core for name, robot in self.robots.items()}
+        await _gather(
+            {name: robot._run(flows.ready(robot._core)) for name, robot in moving.items()}
+        )
         runs = _prepare_all(cores, trajectories)
         try:
             for name, robot in moving.items():

@@ -65,6 +65,8 @@ class Timeouts:
     """How long a driver may take to answer HELLO before it counts as plain simple_message."""
     state: float = 5.0
     """First state after connecting; also the next one, where no other time is given."""
+    ready: float = 1.0
+    """For the robot to say that motion is possible, before a trajectory is sent."""
     silence: float = 2.0
     """Without a state for so long, a motion under way is stopped and has failed."""
     send: float = 5.0
@@ -263,26 +265,26 @@ class Core:
             goes_to_single=self.tracker.driver.is_rapidgen,
         )
 
+    def hindrances(self) -> list[str]:
+        """Why the robot cannot move now, by its own word."""
+        status = self.tracker.status
+        pairs = (
+            (status.e_stopped is TriState.TRUE, "an emergency stop is active"),
+            (status.drives is TriState.FALSE, "the motors are off"),
+            (
+                status.motion_possible is TriState.FALSE and status.in_motion is not TriState.TRUE,
+                "the controller says that motion is not possible",
+            ),
+        )
+        return [text for is_so, text in pairs if is_so]
+
     def ready(self) -> None:
         """Raise NotReady when the robot says that it cannot move, or moves already."""
         if self.run is not None and not self.run.is_over:
             raise NotReady(
                 fault("RG622", "a trajectory is under way", "wait for its result, or stop()")
             )
-        status = self.tracker.status
-        hindrances = [
-            text
-            for is_so, text in (
-                (status.e_stopped is TriState.TRUE, "an emergency stop is active"),
-                (status.drives is TriState.FALSE, "the motors are off"),
-                (
-                    status.motion_possible is TriState.FALSE
-                    and status.in_motion is not TriState.TRUE,
-                    "the controller says that motion is not possible",
-                ),
-            )
-            if is_so
-        ]
+        hindrances = self.hindrances()
         if hindrances:
             text = "; ".join(hindrances)
             raise NotReady(

@@ -41,6 +41,8 @@ _PER_POINT = 0.02
 """s that a controller may take to read one point."""
 _RETRY = 0.5
 """s between two attempts to connect again."""
+_STILL_SAMPLES = 5
+"""Joint messages without a movement after which a robot stands, whatever its status says."""
 _INTERRUPTIONS = (KeyboardInterrupt, CancelledError)
 
 
@@ -151,7 +153,7 @@ def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
 
 def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
     """Check, send, and wait until the controller took it; only then it moves."""
-    yield from alive(core, to_move=True)
+    yield from ready(core)
     run, data = prepare(core, trajectory)
     try:
         yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send)
@@ -163,6 +165,12 @@ def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
         run.failed(error)
         raise
     return run
+
+
+def ready(core: Core) -> Flow[None]:
+    """Connected, and no reason why the robot could not move, or none that passes soon."""
+    yield from alive(core, to_move=True)
+    yield Wait(lambda: not core.hindrances() or not core.state_open, core.timeouts.ready)
 
 
 def prepare(core: Core, trajectory: Trajectory) -> tuple[Run, bytes]:
@@ -281,7 +289,11 @@ def _until_standing(core: Core) -> Flow[State]:
 
     def stands() -> bool:
         # Two joint messages: the status between them was made after the STOP was answered.
-        return tracker.samples >= seen + 2 and tracker.status.in_motion is not TriState.TRUE
+        if tracker.samples < seen + 2:
+            return False
+        # After an emergency stop a driver may call a motion under way that stands.
+        still = tracker.samples >= seen + _STILL_SAMPLES and tracker.is_still(_STILL_SAMPLES)
+        return tracker.status.in_motion is not TriState.TRUE or still
 
     yield Wait(lambda: stands() or not core.state_open, core.timeouts.stop)
     state = tracker.state

@@ -15,6 +15,8 @@ from rapidgen.protocol.frames import Frame
 KEPT_MESSAGES = 32
 KEPT_STATES = 16
 _RATE_WINDOW = 16
+_NOISE = 1e-4
+"""rad or m"""
 _NAMES = {message.number: message.name for message in spec.MESSAGES}
 
 
@@ -112,6 +114,12 @@ class Tracker:
     def wire_joints(self) -> tuple[float, ...] | None:
         """The newest joints as the wire has them, None before the first."""
         return self._recent[-1].joints if self._recent else None
+
+    def is_still(self, count: int) -> bool:
+        """Whether the last `count` joint messages are the same but for a sensor's noise."""
+        last = list(self._recent)[-count:]
+        columns = zip(*(sample.joints for sample in last), strict=True)
+        return len(last) == count and all(max(c) - min(c) < _NOISE for c in columns)
 
     @property
     def rate(self) -> float:

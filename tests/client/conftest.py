@@ -27,4 +27,6 @@ def fake():
 @pytest.fixture
 def quick():
     """Time-outs for loopback."""
-    return Timeouts(connect=2, hello=0.3, state=1, silence=0.4, send=0.5, reply=0.5, stop=0.5)
+    return Timeouts(
+        connect=2, hello=0.3, state=1, ready=0.1, silence=0.4, send=0.5, reply=0.5, stop=0.5
+    )
