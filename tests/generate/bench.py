@@ -36,7 +36,8 @@ class Client:
     def __init__(self, bench, port):
         self.bench = bench
         self.network = bench.vc.network
-        self.endpoint = self.network.connect("10.0.0.1", port)
+        # In memory both ends have one address.
+        self.endpoint = self.network.connect(bench.address, port)
         self.received = b""
         self.closed = False
 
@@ -106,13 +107,15 @@ class Client:
 class Bench:
     """One driver on one virtual controller on the virtual clock."""
 
-    def __init__(self, config, **options):
+    def __init__(self, config, *, system=None, **options):
         key = (config, config.inputs)
         if key not in _CACHE:
             output = build(config)
             _CACHE[key] = (output, make_system(config, output))
         self.config = config
         self.output, self.system = _CACHE[key]
+        self.system = system or self.system
+        self.address = next(iter(config.allowed_clients), "10.0.0.1")
         self.vc = VirtualController.from_config(self.system, config, **options)
         self.vc.run_for(0.5)
 

@@ -652,6 +652,7 @@ def test_a_client_that_stalls_inside_a_message(bench):
 
 def test_strangers_are_refused(bench):
     b = bench(allowed_clients=("10.0.0.9",))
+    b.address = "10.0.0.8"
     stranger = b.client()
     b.vc.run_for(0.5)
     send_all(stranger, trajectory(FIVE, SECONDS))
@@ -661,6 +662,8 @@ def test_strangers_are_refused(bench):
     assert stranger.received == b""
     assert b.joints() == (0.0,) * 6
     assert b.healthy()
+    b.address = "10.0.0.9"
+    move_well(b)
 
 
 # -- the controller's own events --------------------------------------------------------------

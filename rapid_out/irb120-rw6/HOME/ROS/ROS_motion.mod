@@ -1,0 +1,193 @@
+MODULE ROS_motion
+    ! The motion task: the only one that moves.
+    !
+    ! Robot "irb120-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds refuse to work together.
+    !
+    ! It takes points out of the ring and gives them to the path planner, nothing else: every
+    ! check was made before a point was put in. A point with a successor is passed through its
+    ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
+    ! a corner.
+
+    CONST string ROS_BUILD_MOTION := "da33ad1c1030";
+
+    ! With \T in the move the speed is only formal.
+    LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
+    LOCAL CONST zonedata CORNER := z10;
+
+    LOCAL VAR intnum bell;
+    LOCAL VAR num bells := 0;
+    LOCAL VAR ROS_point point;
+    ! Trajectory under way here, and the point of it that comes next.
+    LOCAL VAR num session := 0;
+    LOCAL VAR num expected := 1;
+    ! Why a move failed.
+    LOCAL VAR num fault := 0;
+
+    PROC main()
+        ROS_run;
+    ENDPROC
+
+    ! Serve the ring for ever.
+    PROC ROS_run()
+        ROS_start_task ROS_shown_motion, ROS_BUILD_MOTION;
+        answer ROS_REASON_PROGRAM_STOPPED;
+        ! After PP to main no order is left, after a return of main there is one.
+        IDelete bell;
+        CONNECT bell WITH on_bell;
+        IPers ROS_bell, bell;
+        WHILE TRUE DO
+            IF ROS_abort <> ROS_abort_done THEN
+                answer ROS_halt_reason;
+            ELSEIF fault <> ROS_REASON_NONE THEN
+                give_up;
+            ELSEIF ROS_head <> ROS_tail THEN
+                next_point;
+            ELSE
+                WaitUntil ROS_head <> ROS_tail OR ROS_abort <> ROS_abort_done
+                    \PollRate:=0.04;
+            ENDIF
+        ENDWHILE
+    ENDPROC
+
+    ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
+    ! left the old path, and then go on with it.
+    PROC ROS_on_stop()
+        interrupted ROS_REASON_PROGRAM_STOPPED;
+    ENDPROC
+
+    PROC ROS_on_start()
+        interrupted ROS_REASON_PROGRAM_STOPPED;
+    ENDPROC
+
+    PROC ROS_on_power()
+        interrupted ROS_REASON_POWER_FAILURE;
+    ENDPROC
+
+    ! Nothing of what was ordered so far will move the robot; `reason` tells why.
+    LOCAL PROC drop_path(num reason)
+        clear_path;
+        IF ROS_active() THEN
+            IF ROS_halted = ROS_session reason := ROS_halt_reason;
+            ROS_dead_reason := reason;
+            ROS_dead := ROS_session;
+        ENDIF
+        ROS_tail := ROS_head;
+    ENDPROC
+
+    ! The program was stopped or started in the middle of a trajectory. Main may still wait in a
+    ! move of it, so that is told to the supervisor, who asks until main has answered.
+    LOCAL PROC interrupted(num reason)
+        IF NOT ROS_active() RETURN;
+        ROS_interrupts := ROS_next(ROS_interrupts);
+        stop_robot;
+        drop_path reason;
+        start_robot;
+    ENDPROC
+
+    ! Do what the supervisor asks for. Only main does: it is in no move then.
+    LOCAL PROC answer(num reason)
+        VAR num asked;
+
+        ! Read first: a request that comes meanwhile is not answered by this.
+        asked := ROS_abort;
+        drop_path reason;
+        bells := 0;
+        ROS_abort_done := asked;
+    ENDPROC
+
+    LOCAL PROC next_point()
+        VAR num next;
+        VAR num arrived;
+        VAR bool waited := FALSE;
+
+        point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
+        next := ROS_next(ROS_tail);
+        IF point.session <> ROS_session OR point.session = ROS_dead THEN
+            ! Left over from a trajectory that was halted.
+            ROS_tail := next;
+            RETURN;
+        ENDIF
+        IF point.session <> session THEN
+            session := point.session;
+            expected := 1;
+            ROS_reached := 0;
+        ENDIF
+        IF point.index <> expected THEN
+            fault := ROS_REASON_INTERNAL;
+            RETURN;
+        ENDIF
+        expected := expected + 1;
+        arrived := point.index;
+        ROS_tail := next;
+        ROS_planned := point.index;
+        IF point.dwell THEN
+            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited
+                \PollRate:=0.04;
+        ELSEIF point.duration = 0 THEN
+            ! The robot stands there already.
+        ELSEIF point.stop OR next = ROS_head THEN
+            MoveAbsJ point.target, SPEED \T:=point.duration, fine, tool0 \WObj:=wobj0;
+        ELSE
+            MoveAbsJ point.target, SPEED \T:=point.duration, CORNER, tool0 \WObj:=wobj0;
+            ! The robot is now somewhere before this point, and has passed the one before.
+            arrived := point.index - 1;
+        ENDIF
+        ! A move also returns because its path was cleared: then nothing was reached.
+        IF ROS_abort <> ROS_abort_done RETURN;
+        ROS_reached := arrived;
+        IF point.last ROS_done := session;
+    ERROR
+        fault := ROS_REASON_MOTION_ERROR;
+        IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
+        RETURN;
+    ENDPROC
+
+    ! This task itself ends the trajectory.
+    LOCAL PROC give_up()
+        ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
+            \RL2:="At point " + ValToStr(point.index - 1) + ".";
+        stop_robot;
+        drop_path fault;
+        start_robot;
+        fault := ROS_REASON_NONE;
+    ENDPROC
+
+    LOCAL PROC stop_robot()
+        StopMove;
+    ERROR
+        ! It is stopped already.
+        SkipWarn;
+        TRYNEXT;
+    ENDPROC
+
+    LOCAL PROC start_robot()
+        StartMove;
+    ERROR
+        ! The supervisor keeps it stopped.
+        SkipWarn;
+        TRYNEXT;
+    ENDPROC
+
+    LOCAL PROC clear_path()
+        WaitRob \ZeroSpeed;
+        ClearPath;
+    ERROR
+        ! There was no path.
+        SkipWarn;
+        TRYNEXT;
+    ENDPROC
+
+    ! The supervisor has stopped the robot and wants the path to be dropped. Main may be waiting
+    ! in a move: it returns when its path is gone, and then answers. If the bell rings
+    ! between main's last test and its move, the move begins after this and waits in its turn
+    ! for a robot that may not move; so the supervisor rings again until it has an answer.
+    LOCAL TRAP on_bell
+        IF ROS_abort = ROS_abort_done RETURN;
+        clear_path;
+        bells := bells + 1;
+        ! Should a move not return on this controller: start main again, which drops the path.
+        IF bells > 5 ExitCycle;
+    ENDTRAP
+ENDMODULE
