@@ -34,6 +34,7 @@ from rapidgen.virtual.network.interface import Network
 from rapidgen.virtual.network.memory import MemoryNetwork
 from rapidgen.virtual.network.system import PortMap, SystemNetwork
 from rapidgen.virtual.operator import Answer, Operator
+from rapidgen.virtual.queues import QueueSystem
 from rapidgen.virtual.recovery import Place
 from rapidgen.virtual.running import RapidTask
 from rapidgen.virtual.state import ControllerState
@@ -183,7 +184,7 @@ class VirtualController(ControllerState):
             seed=seed,
             speed=speed,
             quantum=self.costs.quantum,
-            schedule=schedule,
+            schedule="random" if switch_at_pers else schedule,
         )
         self.log = ControllerLog(self.kernel)
         self.io = IOSystem(self.kernel, self.log, system)
@@ -203,6 +204,7 @@ class VirtualController(ControllerState):
         self.operator = Operator(self.kernel, answers)
         self.texts = TextTables()
         self.modules = ModuleTable()
+        self.queues = QueueSystem()
         self.configuration = Configuration(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,

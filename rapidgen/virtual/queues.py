@@ -1,0 +1,96 @@
+"""RAPID message queues: one for each task, reached by the name RMQ_<task>.
+
+Limits are the defaults of RmqMaxNoOfMsg and RmqMaxMsgSize [mem]. A message whose type has an
+interrupt ordered in the receiving task goes to its trap, any other one waits to be read.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.kernel import WaitSet
+from rapidgen.virtual.text import literal_text
+from rapidgen.virtual.values import Type, register_type
+
+MAX_MESSAGES = 5
+MAX_SIZE = 400
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """What travels: a value by copy, its type, and who sent it."""
+
+    type: Type
+    dims: tuple[int, ...]
+    value: Any
+    sender: str
+    user: float
+
+    def is_a(self, type_: Type, dims: tuple[int, ...]) -> bool:
+        """Whether the message is of a type; records are compared by name."""
+        return self.type.name == type_.name and self.dims == dims
+
+
+class MessageBox:
+    """An `rmqmessage` datum."""
+
+    __slots__ = ("message",)
+
+    def __init__(self) -> None:
+        self.message: Message | None = None
+
+
+class Slot:
+    """An `rmqslot` datum: the name of a queue, or nothing."""
+
+    __slots__ = ("name",)
+
+    def __init__(self) -> None:
+        self.name = ""
+
+
+register_type("rmqmessage", MessageBox)
+register_type("rmqslot", Slot)
+
+
+@dataclass(slots=True, eq=False)
+class Queue:
+    """Messages of one task."""
+
+    messages: deque[Message] = field(default_factory=deque)
+    orders: list[tuple[Type, tuple[int, ...], Callable[[], None]]] = field(default_factory=list)
+    """Interrupts by type: (type, dimensions, what to do)."""
+    changed: WaitSet = field(default_factory=WaitSet)
+
+
+class QueueSystem:
+    """The queues of one controller."""
+
+    def __init__(self) -> None:
+        self._queues: dict[str, Queue] = {}
+
+    @staticmethod
+    def slot_name(task: str) -> str:
+        """Name of a task's queue."""
+        return f"RMQ_{task}"
+
+    def queue(self, task: str) -> Queue:
+        """Queue of a task."""
+        return self._queues.setdefault(self.slot_name(task).lower(), Queue())
+
+    def send(self, slot: str, message: Message) -> None:
+        """Put a message into a queue; ERR_RMQ_INVALID, ERR_RMQ_MSGSIZE, ERR_RMQ_FULL."""
+        if not slot:
+            raise RapidError("ERR_RMQ_INVALID")
+        if len(literal_text(message.value, message.type)) > MAX_SIZE:
+            raise RapidError("ERR_RMQ_MSGSIZE")
+        queue = self._queues.setdefault(slot.lower(), Queue())
+        if len(queue.messages) >= MAX_MESSAGES:
+            raise RapidError("ERR_RMQ_FULL", slot)
+        queue.messages.append(message)
+        for type_, dims, fire in queue.orders:
+            if message.is_a(type_, dims):
+                fire()
+        queue.changed.notify()
