@@ -68,14 +68,15 @@ class Tracker:
 
     def feed(self, data: bytes) -> None:
         """Take received bytes. Raises FramingError; unknown messages are noted and skipped."""
-        self._splitter.feed(data)
+        splitter, log = self._splitter, self._log
+        splitter.feed(data)
         now = self.clock()
-        while (frame := self._splitter.next()) is not None:
-            self._log.append((now, frame))
+        while (frame := splitter.next()) is not None:
+            log.append((now, frame))
             try:
                 content = decode(frame)
             except ContentError as error:
-                self._log.append((now, str(error)))
+                log.append((now, str(error)))
                 continue
             self._take(content, now)
 
@@ -83,22 +84,23 @@ class Tracker:
         self.heard = now
         self.updates += 1
         self._state = None
-        if isinstance(content, messages.JointPosition):
-            sample = Sample(now, content.joints)
-            self.samples += 1
-            self._recent.append(sample)
-            self._times.append(now)
-            for listener in self.listeners:
-                listener(sample)
-        elif isinstance(content, messages.Status):
-            self._status = content
-        elif isinstance(content, messages.Progress):
-            self.progress = content
-        elif isinstance(content, messages.HelloReply):
-            self.hello = content
-            self.driver = Driver(content)
-        elif isinstance(content, messages.HelloRefusal):
-            self.hello = content
+        match content:
+            case messages.JointPosition():
+                sample = Sample(now, content.joints)
+                self.samples += 1
+                self._recent.append(sample)
+                self._times.append(now)
+                for listener in self.listeners:
+                    listener(sample)
+            case messages.Status():
+                self._status = content
+            case messages.Progress():
+                self.progress = content
+            case messages.HelloReply():
+                self.hello = content
+                self.driver = Driver(content)
+            case messages.HelloRefusal():
+                self.hello = content
 
     @property
     def is_complete(self) -> bool:

@@ -15,6 +15,11 @@ _DECODERS = {
     for number, kind in messages.CONTENTS.items()
 }
 
+# The path of every message: no enum is asked there.
+_REPLY = int(Comm.REPLY)
+_ASKING = (int(Comm.TOPIC), int(Comm.REQUEST))
+_NO_REPLY = int(ReplyCode.NONE)
+
 
 def _reply_layouts() -> dict[tuple[int, int, int], tuple[Layout, type[Content]]]:
     found = {}
@@ -58,14 +63,14 @@ def decode(frame: Frame) -> Content:
     length does not fit; values are not judged (a float may be NaN).
     """
     number, comm, reply, data = frame
-    if comm == Comm.REPLY:
+    if comm == _REPLY:
         return _decode_reply(frame)
     known = _DECODERS.get(number)
     if known is None:
         raise ContentError(f"message type {number} is not known")
-    if comm not in (Comm.TOPIC, Comm.REQUEST):
+    if comm not in _ASKING:
         raise ContentError(f"comm_type is {comm}, must be 1, 2 or 3")
-    if reply != ReplyCode.NONE:
+    if reply != _NO_REPLY:
         raise ContentError(f"reply_code of a topic or request is {reply}, must be 0")
     size, layout, kind = known
     if len(data) != size:

@@ -12,6 +12,9 @@ from rapidgen.protocol import spec
 _HEAD = Struct("<4i")
 _HEAD_BYTES = spec.PREFIX_BYTES + spec.HEADER_BYTES
 _PREFIX = Struct("<i")
+# The path of every message: no look-up that can be made once.
+_PREFIX_BYTES = spec.PREFIX_BYTES
+_MIN_LENGTH = spec.MIN_LENGTH
 
 
 class WireError(ValueError):
@@ -40,6 +43,9 @@ class Frame(NamedTuple):
         return _HEAD.pack(length, self.number, self.comm, self.reply) + self.data
 
 
+_new_frame = tuple.__new__
+
+
 class FrameSplitter:
     """Turns received bytes into frames; holds at most one incomplete frame.
 
@@ -59,7 +65,8 @@ class FrameSplitter:
 
     def feed(self, data: bytes) -> None:
         """Add received bytes."""
-        self._buffer = self._buffer[self._at :] + data if self.pending else data
+        rest = self._buffer[self._at :]
+        self._buffer = rest + data if rest else data
         self._at = 0
 
     def next(self) -> Frame | None:
@@ -72,18 +79,15 @@ class FrameSplitter:
             raise FramingError(self._broken)
         buffer, at = self._buffer, self._at
         available = len(buffer) - at
-        if available < spec.PREFIX_BYTES:
+        if available < _PREFIX_BYTES:
             return None
         # A wrong length is known from its first four bytes; nobody waits for the rest.
         (length,) = _PREFIX.unpack_from(buffer, at)
-        if not spec.MIN_LENGTH <= length <= self._max_length:
-            self._broken = (
-                f"length field is {length}, must be {spec.MIN_LENGTH} to {self._max_length}"
-            )
+        if not _MIN_LENGTH <= length <= self._max_length:
+            self._broken = f"length field is {length}, must be {_MIN_LENGTH} to {self._max_length}"
             raise FramingError(self._broken)
-        end = at + spec.PREFIX_BYTES + length
-        if end > len(buffer):
+        if available < _PREFIX_BYTES + length:
             return None
         _, number, comm, reply = _HEAD.unpack_from(buffer, at)
-        self._at = end
-        return Frame(number, comm, reply, buffer[at + _HEAD_BYTES : end])
+        self._at = end = at + _PREFIX_BYTES + length
+        return _new_frame(Frame, (number, comm, reply, buffer[at + _HEAD_BYTES : end]))

@@ -21,7 +21,21 @@ class Layout:
         codes = (f"{f.count}{_CODES[f.type]}" for f in self.fields)
         self._struct = Struct("<" + "".join(codes))
         self.size = self._struct.size
-        self._scalars_only = all(f.count == 1 and f.type is not Wire.CHAR for f in self.fields)
+        self._places = self._find_places()
+        """First and last place of each field among the unpacked values; end 0: text, -1: one."""
+        self._is_flat = all(end < 0 for _, end in self._places)
+
+    def _find_places(self) -> tuple[tuple[int, int], ...]:
+        places = []
+        at = 0
+        for field in self.fields:
+            if field.type is Wire.CHAR:
+                places.append((at, 0))
+                at += 1
+            else:
+                places.append((at, -1 if field.count == 1 else at + field.count))
+                at += field.count
+        return tuple(places)
 
     def pack(self, values: Sequence[Value]) -> bytes:
         """The values as bytes. Raises ContentError when one does not fit its field."""
@@ -41,21 +55,18 @@ class Layout:
     def unpack(self, data: bytes, at: int = 0) -> tuple[Value, ...]:
         """The values in `data` from byte `at` on; the caller has checked the length."""
         flat = self._struct.unpack_from(data, at)
-        if self._scalars_only:
+        if self._is_flat:
             return flat
-        values: list[Value] = []
-        position = 0
-        for field in self.fields:
-            if field.type is Wire.CHAR:
-                values.append(flat[position].rstrip(b"\0").decode("latin-1"))
-                position += 1
-            elif field.count == 1:
-                values.append(flat[position])
-                position += 1
-            else:
-                values.append(flat[position : position + field.count])
-                position += field.count
-        return tuple(values)
+        return tuple(
+            [
+                flat[start]
+                if end < 0
+                else flat[start:end]
+                if end
+                else flat[start].rstrip(b"\0").decode("latin-1")
+                for start, end in self._places
+            ]
+        )
 
     def _names(self) -> str:
         return ", ".join(field.name for field in self.fields)

@@ -1,0 +1,333 @@
+"""The client's figures, over loopback, with sinks in a process of their own.
+
+python benchmarks/client.py [--quick]
+"""
+
+import asyncio
+import multiprocessing
+import os
+import resource
+import selectors
+import socket
+import statistics
+import struct
+import sys
+import threading
+import time
+
+import numpy as np
+
+from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeouts, Trajectory
+from rapidgen.client.core import STOP_FRAME
+from rapidgen.client.group import Group
+from rapidgen.client.tracker import Tracker
+from rapidgen.protocol.bulk import FRAME_BYTES, encode_trajectory
+
+HEAD = struct.Struct("<4i")
+JOINT = HEAD.pack(56, 10, 1, 0) + struct.pack("<i10f", 0, *[0.0] * 10)
+STATUS = HEAD.pack(40, 13, 1, 0) + struct.pack("<7i", 1, 0, 0, 0, 0, 2, 1)
+REPLY = HEAD.pack(12, 11, 3, 1)
+HELLO_BYTES = 36
+
+
+def hello(features):
+    limits = [3.0] * 6 + [0.0] * 4
+    data = struct.pack("<4i12s12s4i4f", 1, 0, 1, 0, b"0" * 12, b"", features, 10**9, 6, 0,
+                       0.02, 0.1, 0.01, 0.005)  # fmt: skip
+    data += struct.pack("<30f", *[-v for v in limits], *limits, *[9.0] * 10)
+    return HEAD.pack(12 + len(data), 1300, 3, 1) + data
+
+
+def progress(number, state):
+    return HEAD.pack(44, 1301, 1, 0) + struct.pack("<8i", number, state, 0, 0, 0, 0, -1, 0)
+
+
+class Sink:
+    """Ports of one robot: states at a rate, points thrown away, STOP and the end answered."""
+
+    def __init__(self, *, period, bytes_per_second=0.0, features=1, stamps=None):
+        self.period, self.rate, self.features = period, bytes_per_second, features
+        self.stamps = stamps
+        self.servers = [socket.create_server(("127.0.0.1", 0)) for _ in range(3)]
+        self.ports = [server.getsockname()[1] for server in self.servers]
+        self.number, self.state = 0, 0
+
+    def start(self):
+        motion, control, state = self.servers
+        for server, serve in ((motion, self.motion), (control, self.control), (state, self.tell)):
+            threading.Thread(target=self.accept, args=(server, serve), daemon=True).start()
+
+    @staticmethod
+    def accept(server, serve):
+        while True:
+            client, _ = server.accept()
+            client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+            threading.Thread(target=serve, args=(client,), daemon=True).start()
+
+    def motion(self, client):
+        buffer = bytearray(1 << 20)
+        tail = b""
+        chunk = 4096 if self.rate else len(buffer)
+        while count := client.recv_into(buffer, chunk):
+            if self.rate:
+                time.sleep(count / self.rate)
+            tail = (tail + bytes(buffer[max(0, count - FRAME_BYTES) : count]))[-FRAME_BYTES:]
+            (sequence,) = struct.unpack_from("<i", tail, 16) if len(tail) == FRAME_BYTES else (0,)
+            if sequence == -3 and tail[:8] == STOP_FRAME[:8]:
+                self.number += 1
+                self.state = 3
+                client.sendall(HEAD.pack(16, 11, 3, 1) + struct.pack("<i", self.number))
+            elif tail == STOP_FRAME:
+                client.sendall(REPLY)
+
+    def control(self, client):
+        while data := client.recv(4096):
+            now = time.monotonic_ns()
+            for _ in range(len(data) // FRAME_BYTES):
+                self.stamps.put(now)
+                client.sendall(REPLY)
+
+    def tell(self, client):
+        client.recv(HELLO_BYTES)
+        client.sendall(hello(self.features))
+        while True:
+            try:
+                client.sendall(JOINT + STATUS + progress(self.number, self.state))
+            except OSError:
+                return
+            time.sleep(self.period)
+
+
+def serve_sink(pipe, options, stamps):
+    sink = Sink(**options, stamps=stamps)
+    sink.start()
+    pipe.send(sink.ports)
+    pipe.recv()
+
+
+class Running:
+    """A sink in a process of its own."""
+
+    def __init__(self, target=serve_sink, **options):
+        context = multiprocessing.get_context("spawn")
+        self.pipe, other = context.Pipe()
+        self.stamps = context.SimpleQueue()
+        self.process = context.Process(target=target, args=(other, options, self.stamps))
+        self.process.start()
+        self.ports = self.pipe.recv()
+
+    def address(self):
+        from rapidgen.client.address import Address
+
+        motion, control, state = self.ports
+        return Address("127.0.0.1", motion, state, control)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.join()
+
+
+def robot_at(running, **options):
+    robot = Robot("127.0.0.1", timeouts=Timeouts(send=30, reply=60, **options))
+    robot.address = running.address()
+    return robot
+
+
+def still(count):
+    return Trajectory(np.arange(count) * 0.1, np.zeros((count, 6)))
+
+
+def encoding(count):
+    joints, durations = np.random.default_rng(1).normal(size=(count, 6)), np.full(count, 0.1)
+    best = min(_timed(lambda: encode_trajectory(joints, durations)) for _ in range(5))
+    print(f"encode alone                {count / best:14,.0f} points/s   (>= 1,000,000)")
+
+
+def _timed(function):
+    started = time.perf_counter()
+    function()
+    return time.perf_counter() - started
+
+
+def sending(count, rounds):
+    with Running(period=0.02) as sink, robot_at(sink) as robot:
+        trajectory = still(count)
+        rates = []
+        for _ in range(rounds):
+            started = time.perf_counter()
+            execution = robot.execute(trajectory)
+            rates.append(count / (time.perf_counter() - started))
+            execution.result()
+    print(f"check, encode, send, reply  {statistics.median(rates):14,.0f} points/s   (>= 150,000)")
+
+
+def decoding(count):
+    tracker = Tracker(time.monotonic)
+    tracker.use(Group.unknown([f"joint_{i}" for i in range(6)]))
+    data = (JOINT + STATUS) * 20
+    rounds = count // 40
+    best = min(_timed(lambda: [tracker.feed(data) for _ in range(rounds)]) for _ in range(3))
+    print(f"decode, merged segments     {rounds * 40 / best:14,.0f} messages/s (>= 200,000)")
+    pair = JOINT + STATUS
+    best = min(_timed(lambda: [tracker.feed(pair) for _ in range(rounds)]) for _ in range(3))
+    print(f"decode, two a segment       {rounds * 2 / best:14,.0f} messages/s")
+
+
+def stopping(seconds, stops):
+    """Latency from stop() to STOP at the sink, on a connection of its own, under load."""
+    with Running(period=0.02, bytes_per_second=2e6, features=3) as sink, robot_at(sink) as robot:
+        ended = threading.Event()
+        trajectory = still(400_000)
+
+        def load():
+            while not ended.is_set():
+                try:
+                    robot.execute(trajectory)
+                except (MotionStopped, RobotError):
+                    continue
+
+        loader = threading.Thread(target=load, daemon=True)
+        loader.start()
+        time.sleep(0.5)
+        channel = robot._channels[robot._core.stop_port]
+        latencies = []
+        for _ in range(stops):
+            begun = time.monotonic_ns()
+            channel.send_urgent(STOP_FRAME, 1.0)
+            latencies.append((sink.stamps.get() - begun) / 1e6)
+            time.sleep(seconds / stops)
+        ended.set()
+        robot._core.run.stopping = True
+        loader.join(5)
+    found = np.percentile(latencies, [50, 99, 100])
+    print(
+        f"stop, own connection        p50 {found[0]:.3f} ms, p99 {found[1]:.3f} ms, "
+        f"worst {found[2]:.3f} ms over {stops} (p99 <= 1 ms)"
+    )
+
+
+def frames_before_stop(rounds):
+    """Frames written between stop() and STOP on the standard port: at most the one begun."""
+    from rapidgen.client.address import Address
+    from rapidgen.client.channels import Channel
+    from rapidgen.protocol.spec import Port
+
+    worst = 0
+    for _ in range(rounds):
+        server = socket.create_server(("127.0.0.1", 0))
+        channel = Channel(Address("127.0.0.1", server.getsockname()[1]), Port.MOTION, 1)
+        peer, _ = server.accept()
+        stopping = threading.Event()
+        data = encode_trajectory(np.zeros((300_000, 6)), np.full(300_000, 0.1))
+        sender = threading.Thread(target=channel.send, args=(data, 5.0, stopping.is_set))
+        sender.start()
+        peer.recv(1000)
+        time.sleep(0.01)
+        # What the kernel has now was sent before.
+        before = _written(channel, peer)
+        stopping.set()
+        stop = threading.Thread(target=channel.send_urgent, args=(STOP_FRAME, 5.0))
+        stop.start()
+        received = bytearray()
+        while not received.endswith(STOP_FRAME):
+            received += peer.recv(1 << 20)
+        sender.join()
+        stop.join()
+        worst = max(worst, (len(received) - FRAME_BYTES - before) / FRAME_BYTES)
+        channel.close()
+        peer.close()
+        server.close()
+    print(f"stop, standard port         {worst:.2f} frames between stop() and STOP (<= 1)")
+
+
+def _written(channel, peer):
+    """Bytes in the kernel, of both ends, once the sender stands."""
+    import fcntl
+    import termios
+
+    def pending(sock, request):
+        return struct.unpack("i", fcntl.ioctl(sock, request, b"\0" * 4))[0]
+
+    while True:
+        first = pending(channel.socket, termios.TIOCOUTQ) + pending(peer, termios.FIONREAD)
+        time.sleep(0.02)
+        again = pending(channel.socket, termios.TIOCOUTQ) + pending(peer, termios.FIONREAD)
+        if first == again:
+            return first
+
+
+def serve_many(pipe, options, _):
+    """State ports of many robots, all told at the same rate, by one thread."""
+    servers = [socket.create_server(("127.0.0.1", 0)) for _ in range(options["robots"])]
+    pipe.send([server.getsockname()[1] for server in servers])
+    selector = selectors.DefaultSelector()
+    for server in servers:
+        selector.register(server, selectors.EVENT_READ)
+    clients = []
+    due = time.monotonic()
+    while True:
+        for key, _ in selector.select(max(0, due - time.monotonic())):
+            client, _ = key.fileobj.accept()
+            client.sendall(hello(1))
+            clients.append(client)
+        if time.monotonic() >= due:
+            for client in clients:
+                client.sendall(JOINT + STATUS + progress(1, 3))
+            due += options["period"]
+
+
+def watching(robots, seconds):
+    from rapidgen.client.address import Address
+
+    async def watch(ports):
+        watched = [AsyncRobot("127.0.0.1", watch=True) for _ in ports]
+        for robot, port in zip(watched, ports, strict=True):
+            robot.address = Address("127.0.0.1", port, port)
+            await robot.connect()
+        cpu, wall = time.process_time(), time.monotonic()
+        before = [robot.state.number for robot in watched]
+        await asyncio.sleep(seconds)
+        used = (time.process_time() - cpu) / (time.monotonic() - wall)
+        rate = sum(r.state.number - b for r, b in zip(watched, before, strict=True)) / seconds
+        for robot in watched:
+            await robot.close()
+        return used, rate / len(ports)
+
+    with Running(serve_many, robots=robots, period=0.02) as server:
+        used, rate = asyncio.run(watch(server.ports))
+    print(
+        f"{robots} robots watched         {rate:.1f} states/s each, {used:.0%} of a core (<= 60 %)"
+    )
+
+
+def memory(points):
+    """Resident memory while trajectories of 100,000 points are sent one after another."""
+    with Running(period=0.02) as sink, robot_at(sink) as robot:
+        trajectory = still(100_000)
+        marks = []
+        for _ in range(points // 100_000):
+            robot.execute(trajectory).result()
+            with open("/proc/self/statm") as file:
+                marks.append(int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 2**20)
+    third = len(marks) // 3
+    growth = statistics.median(marks[-third:]) - statistics.median(marks[third : 2 * third])
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    print(f"memory over {points:,} points  {growth:+.1f} MB in the last third, peak {peak:.0f} MB")
+
+
+def main():
+    quick = "--quick" in sys.argv
+    encoding(200_000)
+    decoding(100_000)
+    sending(100_000, 3 if quick else 10)
+    frames_before_stop(2 if quick else 10)
+    stopping(2 if quick else 10, 200 if quick else 1000)
+    watching(100, 2 if quick else 10)
+    memory(1_500_000 if quick else 10_000_000)
+
+
+if __name__ == "__main__":
+    main()
