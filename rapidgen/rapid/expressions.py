@@ -48,6 +48,9 @@ _LEVELS: Final = {
     "+": _SIGN_LEVEL, "-": _SIGN_LEVEL,
     "*": 6, "/": 6, "DIV": 6, "MOD": 6,
 }  # fmt: skip
+_BEHIND_NAMES: Final = frozenset(("(", "{", "."))
+"""What makes more of a name than a whole datum."""
+_BEHIND_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
 _NOT_LEVEL: Final = 1
 """NOT takes a whole chain of ANDs, and ends at OR or XOR."""
 _INNER_NOT_LEVEL: Final = 3
@@ -127,7 +130,7 @@ class ExpressionParser:
             node = NumberLiteral(i, i, self.numbers[text], text)
         elif kind is NAME:
             following = kinds[i + 1]
-            if following == "(" or following == "{" or following == ".":
+            if following in _BEHIND_NAMES:
                 node = self.named(i)
             else:
                 node = Name(i, i, self.texts[i])
@@ -146,7 +149,7 @@ class ExpressionParser:
         kind = self.kinds[i]
         if kind is NAME:
             following = self.kinds[i + 1]
-            if following == "(" or following == "{" or following == ".":
+            if following in _BEHIND_NAMES:
                 return self.named(i)
             return Name(i, i, self.texts[i])
         if kind is NUMBER:
@@ -295,22 +298,34 @@ class ExpressionParser:
         members: list[Expression] = []
         append = members.append
         at = i
+        # Positions are most of many files: numbers and rows of numbers go without a call.
         while True:
             at += 1
             kind = kinds[at]
-            if kind is NUMBER and kinds[at + 1] in ",]":
-                text = texts[at]
-                append(NumberLiteral(at, at, numbers[text], text))
-                at += 1
-            elif kind == "-" and kinds[at + 1] is NUMBER and kinds[at + 2] in ",]":
-                text = texts[at + 1]
-                number = NumberLiteral(at + 1, at + 1, numbers[text], text)
-                append(Unary(at, at + 1, "-", number))
-                at += 2
-            else:
-                value = self.expression(at)
-                append(value)
-                at = value.last + 1
+            if kind is NUMBER:
+                following = kinds[at + 1]
+                if following == "," or following == "]":
+                    text = texts[at]
+                    append(NumberLiteral(at, at, numbers[text], text))
+                    at += 1
+                    if following == ",":
+                        continue
+                    self.depth -= 1
+                    return Aggregate(i, at, members)
+            elif kind == "-" and kinds[at + 1] is NUMBER:
+                following = kinds[at + 2]
+                if following == "," or following == "]":
+                    text = texts[at + 1]
+                    number = NumberLiteral(at + 1, at + 1, numbers[text], text)
+                    append(Unary(at, at + 1, "-", number))
+                    at += 2
+                    if following == ",":
+                        continue
+                    self.depth -= 1
+                    return Aggregate(i, at, members)
+            value = self.expression(at)
+            append(value)
+            at = value.last + 1
             kind = kinds[at]
             if kind == ",":
                 continue
@@ -328,12 +343,19 @@ class ExpressionParser:
             self.after = i
             return found
         while True:
-            if kind == "\\":
+            if kind is NAME:
+                following = kinds[i + 1]
+                if following in _BEHIND_ARGUMENTS:
+                    argument = Argument(i, i, "required", None, Name(i, i, texts[i]))
+                elif following == ":=":
+                    value = self.expression(i + 2)
+                    argument = Argument(i, value.last, "required", texts[i], value)
+                else:
+                    value = self.expression(i)
+                    argument = Argument(i, value.last, "required", None, value)
+            elif kind == "\\":
                 argument = self._optional(i)
-            elif kind is NAME and kinds[i + 1] == ":=":
-                value = self.expression(i + 2)
-                argument = Argument(i, value.last, "required", texts[i], value)
-            elif kind == "*" and kinds[i + 1] in ",;\\)":
+            elif kind == "*" and kinds[i + 1] in _BEHIND_ARGUMENTS:
                 argument = Argument(i, i, "required", None, Star(i, i))
             else:
                 value = self.expression(i)

@@ -1,4 +1,4 @@
-"""Text to tokens: decoding, the %%% header, and one regular expression that tiles the file.
+"""Text to tokens: decoding, the %%% header, and what kind each token is.
 
 Sources: [K §2.1-2.10] for the lexical elements; hexadecimal, octal and binary numbers are
 younger than K and known from public code. Each distinct spelling is classified once.
@@ -6,9 +6,9 @@ younger than K and known from public code. Each distinct spelling is classified 
 
 import re
 from dataclasses import dataclass
-from itertools import accumulate, chain, islice
 from typing import Final
 
+from rapidgen.rapid.scan import HEADER, LEAD, TOKENS
 from rapidgen.rapid.source import Encoding, Source
 
 NAME: Final = "a name"
@@ -36,29 +36,6 @@ KEYWORDS: Final = frozenset(
 
 PUNCTUATION: Final = frozenset("{}()[],.=<>+-*/:;\\?%|") | {":=", "<>", "<=", ">="}
 
-_HOLDERS: Final = "TDN|DDN|RDN|PAR|ALT|DIM|SMT|VAR|EIT|CSE|EXP|ARG|ID"
-_TRIVIA: Final = r"(?:[ \t\r\n\f]+|![^\r\n]*)*"
-_HEADER: Final = re.compile(r"\s*%%%(?:.*?)%%%[^\r\n]*", re.DOTALL)
-_LEAD: Final = re.compile(_TRIVIA)
-_TOKEN: Final = re.compile(
-    r"""(
-        [^\W\d]\w*
-      | (?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])
-      | [,;()\[\]{}\\]
-      | :=
-      | "(?:[^"\r\n]|"")*"
-      | <(?i:"""
-    + _HOLDERS
-    + r""")>
-      | <> | <= | >=
-      | [0-9][\w.]*
-      | "[^\r\n]*
-      | [^\ \t\r\n\f]
-    )("""
-    + _TRIVIA
-    + ")",
-    re.VERBOSE,
-)
 _LETTERS: Final = r"A-Za-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u00ff"
 _PROPER_NAME: Final = re.compile(rf"[{_LETTERS}][{_LETTERS}0-9_]*")
 _RADIX: Final = re.compile(r"0(?:[xX][0-9A-Fa-f]+|[oO][0-7]+|[bB][01]+)")
@@ -77,31 +54,32 @@ class Kinds(dict[str, str]):
 def _classify(text: str) -> str:
     head = text[0]
     if head.isalpha() or head == "_":
-        upper = text.upper()
-        if upper in KEYWORDS and text.isascii():
-            return upper
+        if text.isascii():
+            upper = text.upper()
+            if upper in KEYWORDS:
+                return upper
+            return BAD_NAME if head == "_" else NAME
         return NAME if _PROPER_NAME.fullmatch(text) else BAD_NAME
+    if head in "0123456789" or (head == "." and len(text) > 1):
+        if _RADIX.fullmatch(text):
+            return BAD_RADIX
+        return NUMBER if _is_number(text) else BAD_NUMBER
     if head == '"':
         if len(text) == 1 or text[-1] != '"' or text.count('"') % 2:
             return UNTERMINATED
         return BAD_ESCAPE if "\\" in text and _BAD_ESCAPE.match(text[1:-1]) else STRING
-    if head.isdigit() or (head == "." and len(text) > 1):
-        if _RADIX.fullmatch(text):
-            return BAD_RADIX
-        plain = text.replace(".", "0").replace("e", "0").replace("E", "0")
-        proper = plain.replace("+", "0").replace("-", "0").isdigit() and text.isascii()
-        return NUMBER if proper and _is_number(text) else BAD_NUMBER
     if head == "<" and len(text) > 2:
         return HOLDER
     return text if text in PUNCTUATION else BAD_CHARACTER
 
 
 def _is_number(text: str) -> bool:
+    # Python takes more than RAPID does only where letters or underscores are in play.
     try:
         float(text)
     except ValueError:
         return False
-    return True
+    return "_" not in text
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,18 +106,14 @@ def decode(data: bytes) -> tuple[str, Encoding]:
 
 def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens:
     """All tokens of `text`. `radix` tells whether 0x, 0o and 0b numbers exist."""
-    header = _HEADER.match(text)
-    blank = _LEAD.match(text, header.end() if header else 0)
-    start = blank.end() if blank else 0
-    pairs = _TOKEN.findall(text, start)
+    header = HEADER.match(text)
+    lead = LEAD.match(text, header.end() if header else 0)
+    start = lead.end() if lead else 0
+    found: list[str] = TOKENS.findall(text, start)
+    while found and not found[-1]:
+        found.pop()
+    source = Source(text, path, encoding, text[:start], found)
     spellings = Kinds()
-    source = Source(text, path, encoding, text[:start])
-    if pairs:
-        tokens, gaps = zip(*pairs, strict=True)
-        source.tokens = list(tokens)
-        source.gaps = list(gaps)
-        ends = accumulate(map(len, chain.from_iterable(pairs)), initial=start)
-        source.starts = list(islice(ends, 0, 2 * len(pairs), 2))
     kinds = list(map(spellings.__getitem__, source.tokens))
     if radix and BAD_RADIX in spellings.values():
         kinds = [NUMBER if kind is BAD_RADIX else kind for kind in kinds]

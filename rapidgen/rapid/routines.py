@@ -110,7 +110,7 @@ class RoutineParser(StatementParser):
         kind = kinds[i]
         self.open.append((kind, i))
         self.forgiven.clear()
-        self.suspect = -1
+        self.suspect = (-1, -1)
         type_name: str | None = None
         name, name_token = "", i
         parameters: list[Parameter] = []

@@ -2,9 +2,11 @@
 
 from bisect import bisect_right
 from dataclasses import dataclass, field
+from itertools import accumulate, chain, islice
 from typing import Literal
 
 from rapidgen.diagnostics import Span
+from rapidgen.rapid.scan import TILES
 
 Encoding = Literal["utf-8", "utf-8-sig", "latin-1"]
 
@@ -15,7 +17,8 @@ class Source:
 
     `tokens[i]` is the text of token i and `starts[i]` its offset in `text` (code points);
     `gaps[i]` is what stands between token i and the next (blanks and comments); what stands
-    before the first token is `lead`. So lead + tokens and gaps in turn tile the text.
+    before the first token is `lead`. So lead + tokens and gaps in turn tile the text. Offsets
+    and gaps are worked out when they are first asked for: most parses need none.
     """
 
     text: str
@@ -23,9 +26,30 @@ class Source:
     encoding: Encoding
     lead: str = ""
     tokens: list[str] = field(default_factory=list)
-    gaps: list[str] = field(default_factory=list)
-    starts: list[int] = field(default_factory=list)
+    _gaps: list[str] = field(default_factory=list)
+    _starts: list[int] = field(default_factory=list)
     _lines: list[int] = field(default_factory=list)
+
+    @property
+    def starts(self) -> list[int]:
+        """Offset of each token."""
+        if not self._starts:
+            self._tile()
+        return self._starts
+
+    @property
+    def gaps(self) -> list[str]:
+        """Blanks and comments behind each token."""
+        if not self._starts:
+            self._tile()
+        return self._gaps
+
+    def _tile(self) -> None:
+        start = len(self.lead)
+        pairs = TILES.findall(self.text, start)
+        self._gaps = [gap for _, gap in pairs]
+        ends = accumulate(map(len, chain.from_iterable(pairs)), initial=start)
+        self._starts = list(islice(ends, 0, 2 * len(pairs), 2))
 
     def position(self, offset: int) -> tuple[int, int]:
         """Line and column (from 1, code points) of an offset. Ends of line: LF, CRLF or CR."""

@@ -79,8 +79,8 @@ class StatementParser(ExpressionParser):
     def __init__(self, tokens: Tokens) -> None:
         super().__init__(tokens)
         self.late_data = []
-        self.suspect = -1
-        """The last compact IF whose statement is on another line: a THEN may be missing."""
+        self.suspect = (-1, -1)
+        """The last compact IF, and its statement: if on another line, a THEN may be missing."""
         self.forgiven: list[str] = []
         """Ends that belong to a block whose start was reported as missing."""
         self.handlers: dict[str, Callable[[int], Statement]] = {
@@ -226,8 +226,11 @@ class StatementParser(ExpressionParser):
         return self.resume(i, i)
 
     def _stray(self, i: int, expected: str) -> None:
-        suspect = self.suspect if self.kinds[i] in ("ELSE", "ELSEIF", "ENDIF") else -1
-        self.suspect = -1
+        suspect, statement = self.suspect
+        self.suspect = (-1, -1)
+        wrong_word = self.kinds[i] not in ("ELSE", "ELSEIF", "ENDIF")
+        if suspect < 0 or wrong_word or not self._starts_line(statement):
+            suspect = -1
         self.report(faults.stray(self.source, self.kinds, i, expected, self.open, suspect))
 
     def _behind(self, i: int) -> int:
@@ -462,8 +465,7 @@ class StatementParser(ExpressionParser):
         handler = self.handlers.get(kind)
         if handler is None or kind in ("IF", "FOR", "WHILE", "TEST"):
             raise SyntaxFault(at, "THEN, an operator or a simple statement")
-        if self._starts_line(at):
-            self.suspect = i
+        self.suspect = (i, at)
         statement = handler(at)
         if isinstance(statement, Label):
             raise SyntaxFault(at, "THEN, an operator or a simple statement")

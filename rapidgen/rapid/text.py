@@ -10,8 +10,8 @@ from rapidgen.rapid.lexer import MAX_NAME, NAME, STRING, Tokens
 from rapidgen.rapid.source import Source
 
 MAX_BYTES: Final = 8_000_000
-_BINARY: Final = re.compile(rb"[\x00-\x08\x0e-\x1f]")
-_BINARY_TEXT: Final = re.compile(r"[\x00-\x08\x0e-\x1f]")
+_HEAD: Final = 4096
+_BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f]")
 _ENCODED: Final = b"\xfc\xfe"
 """First byte of encoded modules in public backups [code]."""
 _UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
@@ -35,8 +35,13 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
         return faults.error(
             "RG218", "the file is UTF-16 text", span, help="save it as UTF-8 or Latin-1"
         )
-    binary = _BINARY.search(source) if isinstance(source, bytes) else _BINARY_TEXT.search(source)
-    if binary is None:
+    # Binary files show it early, or have a zero byte somewhere; other control characters in
+    # the midst of a text are errors of their own places.
+    if isinstance(source, bytes):
+        binary = b"\0" in source or bool(_BINARY.search(source[:_HEAD].decode("latin-1")))
+    else:
+        binary = "\0" in source or bool(_BINARY.search(source[:_HEAD]))
+    if not binary:
         return None
     if isinstance(source, bytes) and source[0] in _ENCODED:
         return faults.error(

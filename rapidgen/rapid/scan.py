@@ -1,0 +1,33 @@
+"""The regular expressions that cut RAPID text into tokens [K §2.1-2.10].
+
+`TOKENS.findall` gives all tokens and nothing else, which is all that a parse needs; `TILES`
+gives each token with what stands behind it, so that the pieces tile the text. Both use the
+same token and the same blanks.
+"""
+
+import re
+from typing import Final
+
+_PLACEHOLDERS: Final = "TDN|DDN|RDN|PAR|ALT|DIM|SMT|VAR|EIT|CSE|EXP|ARG|ID"
+# Loops over single classes, unrolled: nested repeats cost twice the time.
+# Possessive: a comment is never given back to be read as tokens.
+_TRIVIA: Final = r"[ \t\r\n\f]*+(?:![^\r\n]*+[ \t\r\n\f]*+)*+"
+# The commonest first. What no alternative wants is a token of one character, so that any text
+# is cut up; the parser says what is wrong with it.
+_TOKEN: Final = (
+    r"([,;()\[\]{}\\]"
+    r"|[^\W\d]\w*"
+    r"|(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?(?![\w.])"
+    r"|:="
+    r'|"(?:[^"\r\n]|"")*"'
+    rf"|<(?i:{_PLACEHOLDERS})>"
+    r"|<>|<=|>="
+    r"|[0-9][\w.]*"
+    r'|"[^\r\n]*'
+    r"|[^ \t\r\n\f])"
+)
+TOKENS: Final = re.compile(rf"{_TRIVIA}(?:{_TOKEN}|\Z)")
+"""An empty token stands for what is behind the last one."""
+TILES: Final = re.compile(_TOKEN + "(" + _TRIVIA + ")")
+HEADER: Final = re.compile(r"\s*%%%(?:.*?)%%%[^\r\n]*", re.DOTALL)
+LEAD: Final = re.compile(_TRIVIA)
