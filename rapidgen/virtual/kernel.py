@@ -145,7 +145,12 @@ class Process:
         return self.b
 
     def give_way(self) -> None:
-        """Go to the end of the queue when others are ready."""
+        """Go to the end of the queue when others are ready; then `attend()`."""
+        self.switch()
+        self.attend()
+
+    def switch(self) -> None:
+        """Go to the end of the queue when others are ready, in the middle of a statement."""
         kernel = self.kernel
         if kernel.catch_up(self):
             kernel.suspend(self)
@@ -154,7 +159,6 @@ class Process:
             kernel.suspend(self)
         else:
             kernel.grant(self)
-        self.attend()
 
     def charge(self, cost: int) -> None:
         """Spend `cost` nanoseconds of CPU."""
@@ -408,6 +412,10 @@ class Kernel:
         if self.running is process:  # the body returned while charged for
             self._now = self.deadline - process.b
             self.running = None
+
+    def tosses(self) -> bool:
+        """Whether a random schedule switches at this point."""
+        return self.schedule == "random" and bool(self.ready) and self._order.random() < 0.5
 
     def _slice(self) -> int:
         if self.schedule == "random":

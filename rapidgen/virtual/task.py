@@ -153,6 +153,12 @@ class Task(Recovery):
 
     # -- called by compiled code -----------------------------------------------------------------
 
+    def touch(self, value: Any) -> Any:  # noqa: ANN401 - what was read
+        """A PERS was read or written: other tasks may come next (schedule `pers`)."""
+        if self.kernel.tosses():
+            self.switch()
+        return value
+
     def polls(self, b: int, costs: tuple[int, ...]) -> int:
         """A block was paid and the budget did not last: pay statement by statement."""
         b += sum(costs)

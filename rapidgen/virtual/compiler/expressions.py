@@ -167,7 +167,7 @@ class Expressions(CompilerBase):
         if data.storage in ("box", "ref", "cell"):
             code = f"{code}.v"
         if data.storage == "cell" and self.options.switching:
-            code = f"R.touch({data.code}).v"
+            code = f"R.touch({data.code}.v)"
             effect = CALLS
         return E(
             code,
