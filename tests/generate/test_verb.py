@@ -1,0 +1,55 @@
+"""`rapidgen build`: what it prints, writes and returns."""
+
+import os
+
+import pytest
+
+from rapidgen.cli.app import main
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def test_build_writes_to_rapid_out(here, capsys):
+    assert main(["build", "irb120"]) == 0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "rapid_out/irb120: 11 files, build " in err
+    assert sorted(os.listdir(here / "rapid_out/irb120")) == [
+        "EIO.cfg",
+        "HOME",
+        "README.md",
+        "SYS.cfg",
+        "manifest.json",
+    ]
+
+
+def test_list_writes_nothing(here, capsys):
+    assert main(["build", "irb120", "--list", "-o", "x"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[-1] == "manifest.json"
+    assert "HOME/ROS/ROS_motion.mod" in lines
+    assert os.listdir(here) == []
+
+
+def test_check_and_diff(here, capsys):
+    assert main(["build", "irb120", "-o", "x"]) == 0
+    assert main(["build", "irb120", "-o", "x", "--check"]) == 0
+    assert main(["build", "irb120", "-o", "x", "--diff"]) == 0
+    assert capsys.readouterr().out == ""
+    changed = ["build", "irb120", "-o", "x", "--set", "trajectory.capacity=5000"]
+    assert main([*changed, "--diff"]) == 1
+    out = capsys.readouterr().out
+    assert "-    LOCAL CONST num CAPACITY := 1000;\n+    LOCAL CONST num CAPACITY := 5000;" in out
+    assert main([*changed, "--check"]) == 1
+    assert "RG104" in capsys.readouterr().err
+    assert main(["build", "irb120", "-o", "x", "--check"]) == 0
+
+
+def test_a_wrong_key_is_bad_input(here, capsys):
+    assert main(["build", "irb120", "--set", "trajectory.capasity=5"]) == 2
+    assert "capacity" in capsys.readouterr().err
+    assert os.listdir(here) == []
