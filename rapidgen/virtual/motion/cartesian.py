@@ -14,7 +14,7 @@ from rapidgen.virtual.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.virtual.motion.moves import CartesianMove, Measure, Posture, largest, nominal_time
 from rapidgen.virtual.motion.pieces import AxisLimits, Curve, Piece
 from rapidgen.virtual.motion.sampling import interval_limits, largest_step, spaced
-from rapidgen.virtual.motion.timed import timed
+from rapidgen.virtual.motion.timed import SHORTEST, timed
 
 _STEP = 0.12
 """rad or m of one axis that an interval of the sampling should not exceed."""
@@ -52,7 +52,7 @@ class CartesianWay:
         self.target = self._nodes[-1]
         fastest, acceleration = self._bounds()
         if move.time is None:
-            self.duration = max(nominal_time(self.measure, move.speed), 1e-4)
+            self.duration = max(nominal_time(self.measure, move.speed), SHORTEST)
         else:
             ramps = (from_rest + move.zone.fine) / 2
             self.duration = timed(move.time, fastest, acceleration, ramps)
@@ -159,7 +159,7 @@ class CartesianWay:
     def _bounds(self) -> tuple[float, float]:
         """Nominal time at full axis speed, and the way's acceleration in shares per s^2."""
         spacing = 1.0 / (len(self._nodes) - 1)
-        fastest, acceleration = 1e-4, float("inf")
+        fastest, acceleration = SHORTEST, float("inf")
         for a, b in pairwise(self._nodes):
             for x, y, v, acc in zip(
                 a, b, self.limits.speeds, self.limits.accelerations, strict=True

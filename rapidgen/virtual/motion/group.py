@@ -373,8 +373,8 @@ class MotionGroup:
             f"the way ends in configuration {list(reached)}, programmed is {list(move.wanted)}",
         )
 
-    def measure(self, origin: Posture, move: JointMove) -> Measure:
-        """How far a joint move goes."""
+    def measure(self, origin: Posture, move: JointMove) -> tuple[Measure, float]:
+        """How far a joint move goes, and the TCP's largest way per share of it."""
         if self.kinematics is None:
             return lever_measure(self.config, origin, move.target, self.settings.lever)
         return joint_measure(self.kinematics, move.carrier, origin, move.target)

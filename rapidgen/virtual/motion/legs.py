@@ -1,6 +1,7 @@
 """Legs: one move instruction each, placed on the path; joint ways."""
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import inf
 from typing import Protocol
 
@@ -17,7 +18,7 @@ from rapidgen.virtual.motion.moves import (
     nominal_time,
 )
 from rapidgen.virtual.motion.pieces import AxisLimits, JointLine, Piece
-from rapidgen.virtual.motion.timed import timed
+from rapidgen.virtual.motion.timed import SHORTEST, timed
 
 _CHORDS = 4
 """Straight parts that stand for the TCP's way in a joint move."""
@@ -77,27 +78,27 @@ class Leg:
 class JointWay:
     """All axes together on a straight line in joint space."""
 
-    __slots__ = ("duration", "limits", "measure", "origin", "rates", "target")
+    __slots__ = ("_peak", "duration", "limits", "measure", "origin", "rates", "target")
 
     def __init__(
         self,
         origin: Posture,
         target: Posture,
         duration: float,
-        measure: Measure,
+        measure: tuple[Measure, float],
         limits: AxisLimits,
     ) -> None:
         self.origin = origin
         self.target = target
         self.duration = duration
-        self.measure = measure
+        self.measure, self._peak = measure
         self.limits = limits
         self.rates = tuple([(b - a) / duration for a, b in zip(origin, target, strict=True)])
 
     @property
     def tcp(self) -> float:
         """m that the TCP goes in a nominal s."""
-        return self.measure.tcp / self.duration
+        return self._peak / self.duration
 
     def posture(self, time: float) -> Posture:
         """Axis values at a nominal time of the way."""
@@ -111,7 +112,7 @@ class JointWay:
 def joint_way(
     origin: Posture,
     move: JointMove,
-    measure: Measure,
+    measure: tuple[Measure, float],
     limits: AxisLimits,
     *,
     from_rest: bool,
@@ -120,7 +121,7 @@ def joint_way(
     deltas = [b - a for a, b in zip(origin, move.target, strict=True)]
     fastest = max(abs(d) / v for d, v in zip(deltas, limits.speeds, strict=True))
     if move.time is None:
-        duration = max(fastest, nominal_time(measure, move.speed))
+        duration = max(fastest, nominal_time(measure[0], move.speed), SHORTEST)
     else:
         ramp = min(
             (a / abs(d) for d, a in zip(deltas, limits.accelerations, strict=True) if d),
@@ -130,8 +131,10 @@ def joint_way(
     return JointWay(origin, move.target, duration, measure, limits)
 
 
-def lever_measure(group: MotionGroup, origin: Posture, target: Posture, lever: float) -> Measure:
-    """How far a joint move goes when the robot has no geometry.
+def lever_measure(
+    group: MotionGroup, origin: Posture, target: Posture, lever: float
+) -> tuple[Measure, float]:
+    """How far a joint move goes when the robot has no geometry, twice: evenly on the way.
 
     Each robot axis swings the TCP on an arm of `lever` m; the largest swing counts.
     """
@@ -145,25 +148,31 @@ def lever_measure(group: MotionGroup, origin: Posture, target: Posture, lever: f
             rotary.append(b - a)
         else:
             linear.append(b - a)
-    return Measure(largest(robot), largest(turns), largest(linear), largest(rotary))
+    way = largest(robot)
+    return Measure(way, largest(turns), largest(linear), largest(rotary)), way
 
 
 def joint_measure(
     kinematics: Kinematics, carrier: Carrier, origin: Posture, target: Posture
-) -> Measure:
-    """How far a joint move goes: the TCP's way by chords, external axes exactly."""
-    way = turn = 0.0
-    last = None
+) -> tuple[Measure, float]:
+    """How far a joint move goes, and the largest way of the TCP per share of the move.
+
+    The TCP's way is that of its chords, extrapolated from halves to quarters (its error falls
+    with the fourth power of their length).
+    """
+    poses = []
     for k in range(_CHORDS + 1):
         share = k / _CHORDS
         posture = tuple([a + (b - a) * share for a, b in zip(origin, target, strict=True)])
-        pose = carrier.pose(kinematics.forward(posture))
-        if last is not None:
-            way += frames.distance(last[0], pose[0])
-            turn += frames.angle_between(last[1], pose[1])
-        last = pose
+        poses.append(carrier.pose(kinematics.forward(posture)))
+    chords = [frames.distance(a[0], b[0]) for a, b in pairwise(poses)]
+    coarse = sum(frames.distance(a[0], b[0]) for a, b in pairwise(poses[::2]))
+    fine = sum(chords)
+    way = fine + (fine - coarse) / 3
+    turn = sum(frames.angle_between(a[1], b[1]) for a, b in pairwise(poses))
     linear, rotary = [0.0], [0.0]
     for joint, a, b in zip(kinematics.group.joints, origin, target, strict=True):
         if joint.axis.startswith("eax"):
             (rotary if joint.kind == "revolute" else linear).append(b - a)
-    return Measure(way, turn, largest(linear), largest(rotary))
+    peak = max(chords) * _CHORDS * way / fine if fine > 0 else 0.0
+    return Measure(way, turn, largest(linear), largest(rotary)), peak

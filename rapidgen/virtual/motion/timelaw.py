@@ -71,7 +71,7 @@ class TimeLaw:
 
     def state(self, time: float) -> tuple[float, float]:
         """Place and speed at a time (the first state for times before 0)."""
-        if time >= self.duration:
+        if time >= self.duration or not self._times:
             return self.place, 0.0
         i = max(0, bisect_right(self._times, time) - 1)
         t = max(0.0, time - self._times[i])

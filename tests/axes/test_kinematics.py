@@ -1,0 +1,225 @@
+"""Kinematics of the shipped robots against other implementations and known poses."""
+
+import math
+import random
+from io import BytesIO
+
+import numpy as np
+import py_opw_kinematics as opw
+import pytest
+import yourdfpy
+
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics, quarter
+from rapidgen.axes.wrist import BRANCHES
+from rapidgen.config import load_config, shipped_names
+
+GROUPS = [(name, group) for name in shipped_names() for group in load_config(name).groups]
+MODELS = [pytest.param(g, id=f"{name}-{g.name}") for name, g in GROUPS if g.chain]
+WRIST_ARMS = [
+    pytest.param(g, id=f"{name}-{g.name}")
+    for name, g in GROUPS
+    if g.chain and Kinematics.of(g).is_closed_form
+]
+
+
+def kinematics(name):
+    return Kinematics.of(load_config(name).groups[0])
+
+
+def postures(group, count, seed=1):
+    rng = random.Random(seed)
+    return [
+        tuple(rng.uniform(joint.lower, joint.upper) for joint in group.joints) for _ in range(count)
+    ]
+
+
+def difference(a, b):
+    return max(frames.distance(a[0], b[0]), frames.angle_between(a[1], b[1]))
+
+
+def as_urdf(group):
+    """The chain as a URDF; a passive step becomes a joint of its own."""
+    links, joints = ["<link name='l0'/>"], []
+    kinds = {joint.name: joint.kind for joint in group.joints}
+    for i, step in enumerate(group.chain):
+        kind = kinds.get(step.joint, "revolute" if step.follows else "fixed")
+        links.append(f"<link name='l{i + 1}'/>")
+        xyz, rpy, axis = (" ".join(map(repr, v)) for v in (step.xyz, step.rpy, step.axis))
+        joints.append(
+            f"<joint name='{step.joint or f'step{i}'}' type='{kind}'>"
+            f"<parent link='l{i}'/><child link='l{i + 1}'/>"
+            f"<origin xyz='{xyz}' rpy='{rpy}'/><axis xyz='{axis}'/>"
+            "<limit lower='-20' upper='20' velocity='1' effort='1'/></joint>"
+        )
+    return f"<robot name='r'>{''.join(links + joints)}</robot>", f"l{len(group.chain)}"
+
+
+@pytest.mark.parametrize("group", MODELS)
+def test_forward_agrees_with_yourdfpy(group):
+    text, tip = as_urdf(group)
+    urdf = yourdfpy.URDF.load(BytesIO(text.encode()), load_meshes=False, build_scene_graph=True)
+    own = Kinematics.of(group)
+    for posture in postures(group, 5):
+        values = dict(zip(own.map.names, own.map.to_urdf(posture), strict=True))
+        for i, step in enumerate(group.chain):
+            if step.follows:
+                values[f"step{i}"] = sum(values[name] * k for name, k in step.follows)
+        urdf.update_cfg({name: values[name] for name in urdf.actuated_joint_names})
+        matrix = urdf.get_transform(tip, "l0")
+        position, q = own.forward(posture)
+        assert position == pytest.approx(matrix[:3, 3], abs=1e-9)
+        assert np.array(frames.to_matrix(q)) == pytest.approx(matrix[:3, :3], abs=1e-9)
+
+
+@pytest.mark.parametrize("group", MODELS)
+def test_inverse_undoes_forward(group):
+    own = Kinematics.of(group)
+    for posture in postures(group, 40 if own.is_closed_form else 6):
+        pose = own.forward(posture)
+        assert own.follow(pose, posture) == pytest.approx(posture, abs=1e-5)
+        found = own.solutions(pose, posture)
+        assert found[0] == pytest.approx(posture, abs=1e-5)
+        for other in found:
+            assert difference(own.forward(other), pose) < 1e-6
+
+
+def opw_robot(arm):
+    """The arm in the package's own parameters, whose zero has the forearm upright."""
+    shoulder, (length, rise) = arm.shoulder, arm.fore
+    model = opw.KinematicModel(
+        a1=shoulder[0], a2=-length * math.sin(rise), b=arm.lateral, c1=shoulder[1],
+        c2=arm.upper[0], c3=length * math.cos(rise), c4=frames.norm(arm.flange),
+        offsets=(0, 0, -math.pi / 2, 0, 0, 0), flip_axes=(False,) * 6,
+    )  # fmt: skip
+    return opw.Robot(model, degrees=False)
+
+
+def wrapped(angles):
+    return tuple(math.remainder(a, 2 * math.pi) for a in angles)
+
+
+@pytest.mark.parametrize("group", WRIST_ARMS)
+def test_an_independent_package_finds_the_same_postures(group):
+    own = Kinematics.of(group)
+    arm = own._arm[0]
+    robot = opw_robot(arm)
+    for posture in postures(group, 25):
+        angles = own._robot_angles(own.map.to_urdf(posture))
+        theirs = robot.forward(angles)
+        pose = arm.forward(angles)
+        assert theirs.translation == pytest.approx(pose[0], abs=1e-9)
+        assert theirs.rotation.as_matrix() == pytest.approx(
+            np.array(frames.to_matrix(pose[1])), abs=1e-9
+        )
+        mine = [arm.solve(pose, branch, angles[3]) for branch in BRANCHES]
+        mine = sorted(wrapped(a) for a in mine if a is not None)
+        found = [
+            wrapped(a) for a in robot.reach(theirs).joints.reshape(-1, 6) if not np.isnan(a).any()
+        ]
+        for solution in mine:
+            gap = min(max(abs(math.remainder(a - b, 2 * math.pi)) for a, b in
+                          zip(solution, other, strict=True)) for other in found)  # fmt: skip
+            assert gap < 1e-6
+        assert len(mine) == len(found)
+
+
+# ABB's product data: flange at zero. IRB 120: 374 mm out, 630 mm up (ROB0149EN, the drawing
+# of the working range); the others: the lengths that the ROS-Industrial models quote from ABB.
+KNOWN = {
+    "irb120": (374.0, 0.0, 630.0),
+    "irb1600": (815.0, 0.0, 961.5),
+    "irb2400": (940.0, 0.0, 1455.0),
+    "irb6640": (1912.0, 0.0, 2055.0),
+    "irb6700": (1662.5, 0.0, 2105.0),
+}
+
+
+@pytest.mark.parametrize("name", KNOWN)
+def test_zero_pose(name):
+    (x, y, z), q = kinematics(name).forward((0.0,) * 6)
+    assert (x * 1000, y * 1000, z * 1000) == pytest.approx(KNOWN[name], abs=1e-6)
+    half = math.sqrt(0.5)
+    assert q == pytest.approx((half, 0.0, half, 0.0), abs=1e-12)  # z of the flange forward
+
+
+def test_coupling_holds_the_forearm_when_axis_2_moves():
+    # IRB 2400: rax_3 counts from the horizontal, so axis 2 alone only shifts the wrist.
+    own = kinematics("irb2400")
+    before, after = own.forward((0.0,) * 6), own.forward((0.0, 0.5, 0.0, 0.0, 0.0, 0.0))
+    assert frames.angle_between(before[1], after[1]) < 1e-9
+    assert frames.distance(before[0], after[0]) > 0.3
+
+
+def test_a_palletiser_keeps_its_tool_upright():
+    own = kinematics("irb460")
+    for posture in postures(own.group, 10):
+        _, q = own.forward(posture)
+        assert frames.rotate(q, (0.0, 0.0, 1.0)) == pytest.approx((0, 0, -1), abs=1e-9)
+
+
+def test_a_track_moves_the_base():
+    own = kinematics("irb120_track")
+    home = (0.0,) * len(own.group.joints)
+    place = [j.axis for j in own.group.joints].index("eax_a")
+    moved = tuple(0.5 if i == place else v for i, v in enumerate(home))
+    here, there = own.forward(home), own.forward(moved)
+    assert frames.distance(here[0], there[0]) == pytest.approx(0.5)
+    assert own.follow(there, moved) == pytest.approx(moved, abs=1e-9)
+
+
+def test_the_singular_wrist_keeps_axis_4():
+    own = kinematics("irb120")
+    posture = (0.1, 0.2, 0.3, 0.7, 0.0, -0.4)
+    assert own.follow(own.forward(posture), posture) == pytest.approx(posture, abs=1e-6)
+
+
+def test_out_of_reach_is_nothing():
+    own = kinematics("irb120")
+    far = ((2.0, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
+    assert own.follow(far, (0.0,) * 6) is None
+    assert own.solutions(far, (0.0,) * 6) == []
+    assert not own.reaches(far, (0.0,) * 6)
+
+
+def test_axis_6_appears_with_every_turn_of_its_range():
+    own = kinematics("irb120")
+    posture = (0.1, 0.2, 0.3, 0.7, 0.5, 0.4)
+    same = [
+        p for p in own.solutions(own.forward(posture), posture)
+        if p[:5] == pytest.approx(posture[:5], abs=1e-6)
+    ]  # fmt: skip
+    turns = sorted(round(math.degrees(p[5] - posture[5])) for p in same)
+    assert turns == [-360, 0, 360]  # range +-400 degrees
+
+
+@pytest.mark.parametrize(
+    ("degrees", "cf"),
+    [(0, 0), (89.9, 0), (90, 1), (-0.1, -1), (-89.9, -1), (-90, -2), (200, 2), (-200, -3)],
+)
+def test_quarter_turns(degrees, cf):
+    # S4 datasys 1-confdata: trunc(a / 90), for negative angles trunc(a / 90 - 1)
+    assert quarter(math.radians(degrees)) == cf
+
+
+def test_metres_of_a_linear_axis():
+    assert [quarter(v, linear=True) for v in (0.5, 1.5, -0.5)] == [0, 1, -1]
+
+
+def test_cfx_tells_the_eight_branches_apart():
+    # [mem] +4 behind axis 1, +2 behind the lower arm, +1 axis 5 negative
+    own = kinematics("irb120")
+    posture = (0.1, 0.2, 0.3, 0.7, 0.5, 0.4)
+    found = {own.configuration(p)[3] for p in own.solutions(own.forward(posture), posture)}
+    assert own.configuration(posture)[3] == 0
+    assert own.configuration((0.1, 0.2, 0.3, 0.7, -0.5, 0.4))[3] == 1
+    assert found >= {0, 1}
+    assert own.configuration((0.1, -1.5, -1.5, 0.7, 0.5, 0.4))[3] & 4
+
+
+def test_45_degrees_beside_the_quarter_are_accepted():
+    # S4 datasys 1-confdata: cf4 = 0 accepts -45 to 135 degrees
+    own = kinematics("irb120")
+    for angle, accepted in ((-44, True), (-46, False), (134, True), (136, False)):
+        posture = (0.1, 0.0, 0.0, math.radians(angle), 0.5, 0.1)
+        assert own.matches(posture, (0, 0, 0, 0)) is accepted

@@ -1,0 +1,123 @@
+"""Speed profiles by property."""
+
+from dataclasses import dataclass
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rapidgen.virtual.motion.timelaw import TimeLaw, brake, plan
+
+
+@dataclass(frozen=True)
+class Stretch:
+    end: float
+    speed: float
+    acceleration: float
+    tcp: float = 0.0
+    stop: bool = False
+
+
+@st.composite
+def paths(draw):
+    end, spans = 0.0, []
+    for _ in range(draw(st.integers(1, 8))):
+        end += draw(st.floats(1e-3, 2.0))
+        speed, acceleration = draw(st.floats(0.02, 1.0)), draw(st.floats(0.1, 50.0))
+        spans.append(Stretch(end, speed, acceleration, draw(st.floats(0, 2)), draw(st.booleans())))
+    return spans
+
+
+def span_at(spans, place):
+    return next((s for s in spans if place <= s.end), spans[-1])
+
+
+def check(law, spans, start, ceiling=1.0):
+    """Continuity, limits and standstill by looking closely."""
+    count = 400
+    step = law.duration / count
+    before = law.state(0.0)
+    assert before[0] == pytest.approx(start)
+    for k in range(1, count + 1):
+        place, speed = law.state(k * step)
+        assert place >= before[0] - 1e-9
+        way = place - before[0]
+        assert abs(way - (speed + before[1]) / 2 * step) <= 60 * step * step + 1e-9
+        hardest = max(s.acceleration for s in spans)
+        assert abs(speed - before[1]) <= hardest * step + 1e-6
+        span = span_at(spans, place)
+        if place < span.end - 1e-6 and place > start + 1e-6:
+            assert speed <= min(span.speed, ceiling) * (1 + 1e-6) + 1e-9
+        before = place, speed
+    assert law.state(law.duration)[1] == 0.0
+    assert law.state(law.duration + 1) == (law.place, 0.0)
+
+
+@settings(max_examples=150, deadline=None)
+@given(paths(), st.floats(0.05, 1.0))
+def test_a_plan_keeps_the_limits_and_ends_at_the_end(spans, cap):
+    law = plan(spans, 0.0, 0.0, cap)
+    assert law is not None
+    check(law, spans, 0.0, cap)
+    assert law.place == spans[-1].end
+
+
+@settings(max_examples=150, deadline=None)
+@given(paths(), st.floats(0, 1), st.floats(0.05, 1.0))
+def test_replanning_under_way_is_always_possible_and_keeps_the_end(spans, share, cap):
+    first = plan(spans, 0.0, 0.0)
+    place, speed = first.state(share * first.duration)
+    left = [s for s in spans if s.end > place]
+    if left:
+        again = plan(left, place, speed, 1.0)
+        assert again is not None
+        assert again.duration == pytest.approx((1 - share) * first.duration, abs=1e-6)
+        slower = plan(left, place, speed, cap)
+        assert slower.place == spans[-1].end
+        assert slower.duration >= again.duration - 1e-6
+
+
+@settings(max_examples=150, deadline=None)
+@given(paths(), st.floats(0, 1))
+def test_braking_ends_on_the_path_and_sooner_than_the_plan(spans, share):
+    law = plan(spans, 0.0, 0.0)
+    place, speed = law.state(share * law.duration)
+    left = [s for s in spans if s.end > place] or [spans[-1]]
+    halt = brake(left, place, speed)
+    assert place - 1e-12 <= halt.place <= spans[-1].end + 1e-9
+    assert halt.duration <= (1 - share) * law.duration + 1e-6
+    quick = brake(left, place, speed, 2.0)
+    assert quick.place <= halt.place + 1e-12
+
+
+@settings(max_examples=150, deadline=None)
+@given(paths(), st.floats(0, 1))
+def test_time_at_is_the_inverse_of_state(spans, share):
+    law = plan(spans, 0.0, 0.0)
+    place = share * law.place
+    assert law.state(law.time_at(place))[0] == pytest.approx(place, abs=1e-9)
+
+
+def test_a_trapezoid_in_closed_form():
+    law = plan([Stretch(2.0, 1.0, 4.0)], 0.0, 0.0)
+    assert law.duration == pytest.approx(2.0 + 1.0 / 4.0)
+    assert law.last_braking() == pytest.approx(law.duration - 0.25)
+    assert law.state(1.0) == pytest.approx((0.875, 1.0))
+
+
+def test_the_tcp_limit_acts_where_the_tcp_moves():
+    law = plan([Stretch(1.0, 1.0, 100.0, tcp=0.5)], 0.0, 0.0, 1.0, tcp_limit=0.25)
+    assert law.state(law.duration / 2)[1] == pytest.approx(0.5)
+
+
+def test_too_fast_for_what_comes_is_no_plan():
+    assert plan([Stretch(0.1, 1.0, 1.0), Stretch(1.0, 0.1, 1.0)], 0.0, 1.0) is None
+
+
+def test_one_law_after_the_other():
+    first, second = TimeLaw(0.0), TimeLaw(1.0)
+    first.add(0.0, 1.0, 0.0, 1.0)
+    second.add(1.0, 0.5, 0.0, 2.0)
+    chain = first.then(second)
+    assert chain.duration == pytest.approx(3.0)
+    assert chain.state(2.0) == pytest.approx((1.5, 0.5))
