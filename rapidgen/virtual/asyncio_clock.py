@@ -116,6 +116,8 @@ class VirtualLoop(asyncio.BaseEventLoop):
             raise _os_error(fault) from fault
         protocol = protocol_factory()
         transport = MemoryTransport(self, network, endpoint, protocol)
+        # As every event loop promises: `connection_made` has been called.
+        await asyncio.sleep(0)
         return transport, protocol
 
     async def _connected(self, network: Network, endpoint: Endpoint) -> None:
@@ -160,6 +162,7 @@ class MemoryTransport(asyncio.Transport):
         self._ended = False
         self._paused = False
         self._woken = False
+        self._high_water, self._low_water = HIGH_WATER, HIGH_WATER // 4
         endpoint.changed.add(self._wake)
         loop.call_soon(protocol.connection_made, self)
         self._wake()
@@ -188,7 +191,7 @@ class MemoryTransport(asyncio.Transport):
             if not taken:
                 break
             del self._buffer[:taken]
-        if self._paused and len(self._buffer) <= HIGH_WATER // 4:
+        if self._paused and len(self._buffer) <= self._low_water:
             self._paused = False
             self._protocol.resume_writing()
 
@@ -224,7 +227,7 @@ class MemoryTransport(asyncio.Transport):
         except NetworkFault as fault:
             self._lose(_os_error(fault))
             return
-        if len(self._buffer) > HIGH_WATER and not self._paused:
+        if len(self._buffer) > self._high_water and not self._paused:
             self._paused = True
             self._protocol.pause_writing()
 
@@ -260,6 +263,11 @@ class MemoryTransport(asyncio.Transport):
     def get_write_buffer_size(self) -> int:
         """Bytes that are not sent yet."""
         return len(self._buffer)
+
+    def set_write_buffer_limits(self, high: int | None = None, low: int | None = None) -> None:
+        """When the writer is asked to pause, and when to go on."""
+        self._high_water = HIGH_WATER if high is None else high
+        self._low_water = self._high_water // 4 if low is None else low
 
     def can_write_eof(self) -> bool:
         """The network closes both directions at once."""

@@ -1,0 +1,247 @@
+"""AsyncRobot against our own driver, both on the virtual clock: nothing waits in real time."""
+
+import asyncio
+
+import numpy as np
+import pytest
+
+from rapidgen.client import (
+    AsyncCell,
+    AsyncRobot,
+    ConnectionFailed,
+    ConnectionLost,
+    MotionFailed,
+    MotionStopped,
+    NotReady,
+    RobotError,
+    Trajectory,
+    TrajectoryRefused,
+)
+from rapidgen.client.address import Address
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.protocol.spec import Reason, TrajectoryState, TriState
+from rapidgen.virtual.asyncio_clock import run
+from rapidgen.virtual.controller import VirtualController
+
+_SYSTEMS = {}
+
+
+def booted(name="irb120", **options):
+    if name not in _SYSTEMS:
+        config = load_config(name)
+        _SYSTEMS[name] = config, make_system(config, build(config))
+    config, system = _SYSTEMS[name]
+    controller = VirtualController(system, config.groups, **options)
+    controller.run_for(2.0)
+    return controller, config
+
+
+def robot_of(config, group=None, **options):
+    chosen = group or config.groups[0]
+    address = Address("controller", chosen.ports.motion, chosen.ports.state)
+    return AsyncRobot(config, address=address, group=chosen.name, **options)
+
+
+PATH = Trajectory.from_points([[0.0] * 6, [0.2] * 6, [0.1, 0, 0, 0, 0, 0.3]], seconds=1.0)
+
+
+def test_executes_in_simulated_time():
+    controller, config = booted()
+
+    async def main():
+        async with robot_of(config) as robot:
+            with robot.recording() as recording:
+                result = await (await robot.execute(PATH)).result()
+            return result, recording
+
+    with controller:
+        result, recording = run(controller, main())
+    assert result.deviation < 1e-4
+    assert 1.9 < result.seconds < 3.5
+    # 10 Hz, on the dot: the state server keeps its schedule
+    assert np.diff(recording.times) == pytest.approx(0.1, abs=0.02)
+
+
+def test_same_seed_same_story():
+    def story(seed):
+        controller, config = booted(seed=seed)
+
+        async def main():
+            async with robot_of(config) as robot:
+                await (await robot.execute(PATH)).result()
+                return robot.messages
+
+        with controller:
+            return run(controller, main())
+
+    assert story(3) == story(3)
+
+
+@pytest.mark.parametrize("after", [0.001, 0.05, 0.3, 0.9, 1.5, 1.99])
+def test_stopped_at_any_moment_it_stands_on_the_path(after):
+    controller, config = booted()
+
+    async def main():
+        async with robot_of(config) as robot:
+            execution = await robot.execute(PATH)
+            await asyncio.sleep(after)
+            state = await robot.stop()
+            assert state.status.in_motion is not TriState.TRUE
+            with pytest.raises(MotionStopped):
+                await execution.result()
+            stood = (await robot.next_state()).joints
+            await asyncio.sleep(1)
+            assert robot.state.joints == stood
+            return stood
+
+    with controller:
+        stood = np.array(run(controller, main()))
+    # all joints go alike on the first segment
+    if after < 0.9:
+        assert np.ptp(stood) < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("event", "reason"),
+    [
+        (lambda c: c.set_e_stop(True), Reason.EMERGENCY_STOP),
+        (lambda c: c.set_motors(False), Reason.MOTORS_OFF),
+    ],
+)
+def test_ended_by_the_controller(event, reason):
+    controller, config = booted()
+
+    async def main():
+        async with robot_of(config) as robot:
+            execution = await robot.execute(PATH)
+            await asyncio.sleep(0.5)
+            event(controller)
+            with pytest.raises(MotionFailed) as error:
+                await execution.result()
+            assert error.value.reason is reason
+            assert execution.progress.state is TrajectoryState.FAILED
+            with pytest.raises(NotReady):
+                await robot.execute(PATH)
+
+    with controller:
+        run(controller, main())
+
+
+def test_nobody_listens():
+    controller, config = booted()
+
+    async def main():
+        with pytest.raises(ConnectionFailed):
+            await AsyncRobot(config, address=Address("controller", 5, 6)).connect()
+
+    with controller:
+        run(controller, main())
+
+
+def test_two_arms_start_together():
+    controller, config = booted("irb14000")
+
+    async def main():
+        robots = {g.name: robot_of(config, g) for g in config.groups}
+        async with AsyncCell(robots) as cell:
+            paths = {}
+            for name, robot in robots.items():
+                here = np.array(robot.state.joints)
+                paths[name] = Trajectory.from_points([here, here + 0.05], seconds=1.0)
+            results = await (await cell.execute(paths)).result()
+            ends = [result.state.time for result in results.values()]
+            assert abs(ends[0] - ends[1]) < 0.3
+
+    with controller:
+        run(controller, main())
+
+
+class Story:
+    """Random calls of a client against the controller; what must hold whatever came before."""
+
+    def __init__(self, seed):
+        self.random = np.random.default_rng(seed)
+        self.controller, self.config = booted(seed=seed)
+        self.log = []
+
+    async def tell(self, steps):
+        robot = robot_of(self.config, reconnect=5)
+        await robot.connect()
+        execution = None
+        try:
+            for _ in range(steps):
+                name = self.random.choice(["execute", "bad", "stop", "wait", "drop", "result"])
+                self.log.append(str(name))
+                execution = await getattr(self, name)(robot, execution)
+                await self.invariants(robot, execution)
+        finally:
+            await robot.close()
+
+    def path(self, robot):
+        here = np.array(robot.state.joints)
+        goal = np.clip(here + self.random.uniform(-0.2, 0.2, 6), -0.5, 0.5)
+        return Trajectory.from_points([here, (here + goal) / 2, goal], seconds=0.4)
+
+    async def execute(self, robot, execution):
+        under_way = execution is not None and not execution.is_over
+        try:
+            return await robot.execute(self.path(robot))
+        except NotReady:
+            assert under_way
+        except TrajectoryRefused as error:
+            # only while an earlier motion is being dropped after a lost connection
+            assert error.reason in (Reason.NOT_EXECUTING, Reason.START_TOO_FAR, Reason.MOVING)
+        return execution
+
+    async def bad(self, robot, execution):
+        before = robot.state.joints
+        with pytest.raises(RobotError):
+            await robot.execute(Trajectory([0, 1], [before, [9.0] * 6]))
+        return execution
+
+    async def stop(self, robot, execution):
+        state = await robot.stop()
+        await asyncio.sleep(0.5)
+        assert robot.state.joints == pytest.approx(state.joints, abs=2e-3)
+        if execution is not None:
+            assert execution.is_over
+        return execution
+
+    async def wait(self, robot, execution):
+        await asyncio.sleep(float(self.random.uniform(0, 0.6)))
+        return execution
+
+    async def drop(self, robot, execution):
+        for link in list(robot._links.values()):
+            link.transport.abort()
+        await asyncio.sleep(1.0)
+        if execution is not None:
+            assert execution.is_over
+        await robot.next_state()
+        return execution
+
+    async def result(self, robot, execution):
+        if execution is None:
+            return None
+        try:
+            result = await execution.result()
+            assert result.deviation < 1e-3
+        except (MotionStopped, ConnectionLost):
+            assert execution.is_over
+        return execution
+
+    async def invariants(self, robot, execution):
+        state = await robot.next_state()
+        assert max(abs(v) for v in state.joints) < 0.55
+        assert not [e for e in self.controller.log if e.number == 40_000]
+        if execution is None or execution.is_over:
+            return
+        assert execution.progress.state in (TrajectoryState.MOVING, TrajectoryState.DONE)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_random_stories(seed):
+    story = Story(seed)
+    with story.controller:
+        run(story.controller, story.tell(25))
