@@ -26,7 +26,14 @@ from rapidgen.deploy.transport import (
 
 _ANSWER_LINES = 500
 _LISTING_BYTES = 4 * 1024 * 1024
-_SPACE_WORDS = ("no space", "disk full", "quota exceeded", "disk quota", "insufficient", "not enough")
+_SPACE_WORDS = (
+    "no space",
+    "disk full",
+    "quota exceeded",
+    "disk quota",
+    "insufficient",
+    "not enough",
+)
 
 
 class FtpTransport:

@@ -237,7 +237,8 @@ def server(request, monkeypatch) -> Iterator[Server]:
     """The server that the test's parameter names (indirect)."""
     kind = request.param
     monkeypatch.setenv("RAPIDGEN_PASSWORD", PASSWORD)
-    with tempfile.TemporaryDirectory() as name:
+    # (A server may take away its pid file at the same time.)
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
         folder = Path(name)
         folder.chmod(0o755)
         home = folder / "HOME"

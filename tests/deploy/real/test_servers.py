@@ -115,8 +115,10 @@ def test_a_read_only_home_is_refused_before_anything_changes(kit, server):
     else:
         server.home.chmod(0o555)
     before = sorted(p.name for p in server.home.iterdir())
+    transport = server.connect()
     with pytest.raises(DiagnosticError) as caught:
-        kit.deploy(server.connect(), kit.driver(OLD))
+        kit.deploy(transport, kit.driver(OLD))
+    transport.close()
     assert caught.value.diagnostics[0].code == "RG506"
     assert sorted(p.name for p in server.home.iterdir()) == before
     server.home.chmod(0o755)

@@ -1,0 +1,278 @@
+"""What stands between a driver and a controller: looked at from outside, nothing changed."""
+
+import re
+import socket
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal
+
+from rapidgen.deploy.cfg import keyed
+from rapidgen.deploy.driverset import DriverSet
+from rapidgen.deploy.plan import Plan, make_plan
+from rapidgen.deploy.secrets import Credentials, Secret
+from rapidgen.deploy.target import Access, Target, connect, credentials
+from rapidgen.deploy.transport import Transport, TransportFault
+from rapidgen.diagnostics import DiagnosticError
+
+Verdict = Literal["ok", "warn", "fail", "unknown"]
+
+Hello = Callable[[str, int], str | None]
+"""BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
+
+_MODULE = re.compile(rb"^\s*MODULE\s+([A-Za-z]\w*)", re.I | re.M)
+_MAIN = re.compile(rb"^\s*PROC\s+main\s*\(", re.I | re.M)
+_FEATURES = ("623-1 Multitasking", "616-1 PC Interface")
+
+
+@dataclass(frozen=True, slots=True)
+class Check:
+    """One thing that was looked at, and the mend where it is not ok."""
+
+    area: str
+    verdict: Verdict
+    found: str
+    mend: str = ""
+
+
+def examine(
+    target: Target,
+    access: Access,
+    wanted: DriverSet,
+    *,
+    hello: Hello,
+    robot_host: str = "",
+    timeout: float = 2.0,
+) -> tuple[Check, ...]:
+    """All checks of one controller. `robot_host` is where its ports are, if not the URL's host."""
+    host = robot_host or target.host
+    checks = [*_running(host, wanted, hello, timeout)]
+    try:
+        transport = connect(target, access)
+    except DiagnosticError as error:
+        found = error.diagnostics[0]
+        return (Check("reach", "fail", found.message, found.help), *checks)
+    try:
+        checks.insert(0, Check("reach", "ok", f"{target.shown}: logged in"))
+        checks += _default_login(target, access)
+        checks += _contents(transport, wanted)
+    finally:
+        transport.close()
+    return tuple(checks)
+
+
+def _running(host: str, wanted: DriverSet, hello: Hello, timeout: float) -> Iterator[Check]:
+    groups: Mapping[str, Any] = wanted.generated.get("groups") or {}
+    if not host:
+        yield Check("ports", "unknown", "a folder has no ports", "name the robot with --host")
+        return
+    for name, group in groups.items():
+        for role, port in (group.get("ports") or {}).items():
+            where = f"{name} {role} {host}:{port}"
+            if role == "state":
+                yield _state_port(where, host, port, wanted.build_id, hello)
+                continue
+            try:
+                socket.create_connection((host, port), timeout).close()
+                yield Check("ports", "ok", f"{where}: something listens")
+            except OSError as error:
+                yield Check(
+                    "ports",
+                    "unknown",
+                    f"{where}: {error.strerror or 'no answer'}",
+                    "nothing listens before the driver runs; afterwards look at the firewall",
+                )
+
+
+def _state_port(where: str, host: str, port: int, build: str, hello: Hello) -> Check:
+    try:
+        running = hello(host, port)
+    except OSError as error:
+        return Check(
+            "driver",
+            "unknown",
+            f"{where}: {error.strerror or 'no answer'}",
+            "nothing runs yet, or a firewall is between (option 616-1 PC Interface is needed)",
+        )
+    if running is None:
+        return Check(
+            "driver",
+            "warn",
+            f"{where}: something answers, but no driver of rapidgen",
+            "another program or abb_driver has the port: change `ports` or take it off",
+        )
+    if running != build:
+        return Check(
+            "driver",
+            "warn",
+            f"{where}: build {running} runs, the configuration gives {build}",
+            "`rapidgen plan` shows the difference; after `deploy` the controller restarts",
+        )
+    return Check("driver", "ok", f"{where}: build {running} runs")
+
+
+def _default_login(target: Target, access: Access) -> Iterator[Check]:
+    if target.scheme == "dir":
+        return
+    used = credentials(target, access)
+    if used.is_default:
+        yield _open_door(used)
+        return
+    known = Credentials("Default User", Secret("robotics"), known_hosts=used.known_hosts)
+    attempt = replace(target, user=known.user)
+    try:
+        _login(attempt, known, access.timeout)
+    except DiagnosticError:
+        yield Check("passwords", "ok", "the delivered password is not accepted")
+        return
+    yield _open_door(known)
+
+
+def _login(target: Target, login: Credentials, timeout: float) -> None:
+    if target.scheme == "ftp":
+        from rapidgen.deploy.ftp import FtpTransport
+
+        FtpTransport(target.host, target.port, target.path, login, timeout=timeout).close()
+        return
+    from rapidgen.deploy.sftp import SftpTransport
+
+    SftpTransport(target.host, target.port, target.path, login, timeout=timeout).close()
+
+
+def _open_door(login: Credentials) -> Check:
+    return Check(
+        "passwords",
+        "warn",
+        f"'{login.user}' logs in with the password that controllers are delivered with",
+        "change it (RobotStudio: Controller > Authenticate > Edit user accounts)",
+    )
+
+
+def _contents(transport: Transport, wanted: DriverSet) -> Iterator[Check]:
+    try:
+        plan = make_plan(transport, wanted)
+    except DiagnosticError as error:
+        first = error.diagnostics[0]
+        area = "RobotWare" if first.code == "RG525" else "HOME"
+        yield Check(area, "fail", first.message, first.help)
+        return
+    yield Check("HOME", "ok", "its files can be read; whether it can be written is not tried")
+    if plan.interrupted:
+        yield Check("deployment", "warn", plan.interrupted, "`rapidgen deploy` or `rollback`")
+    elif plan.had is None:
+        yield Check("deployment", "unknown", "none yet", "`rapidgen plan`, then `rapidgen deploy`")
+    elif plan.is_empty:
+        yield Check("deployment", "ok", f"build {plan.had.build_id}, as configured")
+    else:
+        yield Check(
+            "deployment",
+            "warn",
+            f"build {plan.had.build_id} lies there, the configuration gives {wanted.build_id}",
+            "`rapidgen plan` shows the difference",
+        )
+    for change in plan.conflicts:
+        what = "edited by hand" if change.conflict == "edited" else "a stranger's file"
+        yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` says more")
+    yield from _clashes(transport, plan, wanted)
+    yield from _configuration(plan, wanted)
+    yield _space(transport, wanted)
+
+
+def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Check]:
+    """Modules beside ours with a name of ours, or with a main routine."""
+    home = plan.layout.home
+    ours = {c.where for c in plan.changes}
+    names = {m[1].lower() for f in wanted.files if (m := _MODULE.search(f.data))}
+    has_main = any(_MAIN.search(f.data) for f in wanted.files)
+    found = False
+    folders = {"", *(c.path.rpartition("/")[0] for c in plan.changes if c.kind == "module")}
+    for folder in sorted(folders):
+        try:
+            entries = transport.entries((home + folder).rstrip("/"))
+        except TransportFault as fault:
+            if fault.kind != "missing":
+                raise
+            continue
+        for entry in entries:
+            where = f"{home}{folder}/{entry.name}" if folder else home + entry.name
+            suffix = entry.name.rpartition(".")[2].lower()
+            if where in ours or entry.folder or suffix not in ("mod", "sys", "modx", "sysx", "prg"):
+                continue
+            data = transport.read(where)
+            module = _MODULE.search(data)
+            if module and module[1].lower() in names:
+                found = True
+                yield Check(
+                    "names",
+                    "fail",
+                    f"{where} holds a module {module[1].decode()} too",
+                    "two modules of one name do not load: rename it, or keep it out of the tasks",
+                )
+            elif has_main and _MAIN.search(data):
+                found = True
+                yield Check(
+                    "main",
+                    "warn",
+                    f"{where} has a main routine too",
+                    "a task has one main: keep this module out of the driver's tasks, or set "
+                    "`call_main: false` and call ROS_main from it",
+                )
+    if not found:
+        yield Check("names", "ok", "no module in HOME has a name of the driver's")
+
+
+def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
+    ware = f"{wanted.robotware[0]}.{wanted.robotware[1]:02d}"
+    if not plan.cfg_present:
+        yield Check(
+            "RobotWare",
+            "unknown",
+            f"whether it is {ware} is not seen over {plan.target.partition(':')[0]}",
+            "pendant: ABB menu > System Info",
+        )
+        yield Check(
+            "configuration",
+            "unknown",
+            "loaded tasks and signals are not seen",
+            "after loading the cfg files: Control Panel > Configuration",
+        )
+        yield Check(
+            "options",
+            "unknown",
+            f"needed: {', '.join(_FEATURES)}",
+            "pendant: ABB menu > System Info > Options",
+        )
+        return
+    yield Check("RobotWare", "ok", f"main version {wanted.robotware[0]}")
+    present, mine = keyed(plan.cfg_present), keyed(wanted.cfg)
+    before = plan.cfg_before
+    for key, instance in mine.items():
+        other = present.get(key)
+        if other is None or " ".join(key) in before or other == instance:
+            continue
+        if key[1] == "EIO_SIGNAL" and other.text("SignalType") != instance.text("SignalType"):
+            yield Check(
+                "signals",
+                "fail",
+                f"{key[2]} is a {other.text('SignalType')} there, the driver needs a "
+                f"{instance.text('SignalType')}",
+                "rename the signal on the controller",
+            )
+        elif key[1] == "CAB_TASKS" and other.text("Entry", "main") != instance.text(
+            "Entry", "main"
+        ):
+            yield Check(
+                "tasks",
+                "warn",
+                f"{key[2]} starts with {other.text('Entry', 'main')} there",
+                "its entry routine will be replaced: `rapidgen plan` shows it",
+            )
+
+
+def _space(transport: Transport, wanted: DriverSet) -> Check:
+    needed = 3 * sum(len(f.data) for f in wanted.files)
+    free = transport.free()
+    if free is None:
+        return Check("disk", "unknown", f"{needed // 1000} kB needed, free space is not told")
+    if free < needed:
+        return Check("disk", "fail", f"{free} bytes free, {needed} needed", "delete old backups")
+    return Check("disk", "ok", f"{free // 1_000_000} MB free")
