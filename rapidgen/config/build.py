@@ -136,6 +136,9 @@ def _group(
     joints = _joints(keys, draft, path, report)
     names = {joint.name for joint in draft.joints}
     for number, step in enumerate(draft.chain):
+        if step.axis == (0.0, 0.0, 0.0):
+            where = (*path, "chain", number, "axis")
+            report.error("RG014", f"chain step {number + 1} has an axis of length 0", where)
         for name in (step.joint, *(joint for joint, _ in step.follows)):
             if name and name not in names:
                 report.error(
@@ -185,6 +188,7 @@ def _joints(
             where,
             help="a message of simple_message holds 10 joint values: make two groups",
         )
+    _check_radians(draft, where, report)
     seen: dict[str, str] = {}
     joints = []
     for joint in draft.joints:
@@ -211,6 +215,22 @@ def _joints(
         if made:
             joints.append(made)
     return tuple(joints)
+
+
+def _check_radians(draft: GroupDraft, path: KeyPath, report: Report) -> None:
+    """Four and more turning axes that all stay within 7: radians, not degrees."""
+    turning = [joint for joint in draft.joints if joint.unit != "mm"]
+    ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
+    if len(turning) >= 4 and len(ends) == 2 * len(turning) and max(map(abs, ends)) <= 7:
+        report.add(
+            "RG037",
+            Severity.WARNING,
+            f"no axis of group '{draft.name}' turns more than {max(map(abs, ends)):g} degrees",
+            path,
+            "radians?",
+            "a configuration has degrees, as ABB's data sheets",
+            key=True,
+        )
 
 
 def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Report) -> model.Joint | None:

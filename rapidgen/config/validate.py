@@ -57,14 +57,13 @@ def validate(root: Mapping) -> Validated:
 
 def _real_path(data: Any, loc: tuple[str | int, ...]) -> tuple[Path, bool]:
     """The part of `loc` that leads through the data (unions and keys add parts of their own)."""
-    node, path = data, []
+    node: Any = data
+    path: list[str | int] = []
     for part in loc:
-        if isinstance(node, dict) and part in node:
-            node = node[part]
-        elif isinstance(node, list) and isinstance(part, int) and part < len(node):
-            node = node[part]
-        else:
+        in_list = isinstance(node, list) and isinstance(part, int) and part < len(node)
+        if not in_list and not (isinstance(node, dict) and part in node):
             break
+        node = node[part]
         path.append(part)
     return tuple(path), loc[-1] == "[key]"
 

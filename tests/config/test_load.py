@@ -280,3 +280,19 @@ def test_an_unknown_model_suggests_one(tmp_path):
     (fault,) = faults(tmp_path, "model: irb1201\n")
     assert fault.code == "RG009"
     assert "did you mean" in fault.help
+
+
+def test_radians_in_the_configuration_look_odd(tmp_path):
+    lines = "".join(
+        f"  j{n}: {{axis: rax_{n}, lower: -2.88, upper: 2.88, speed: 250}}\n" for n in range(1, 5)
+    )
+    config = load(tmp_path, "joints:\n" + lines)
+    assert [(d.code, d.severity) for d in config.diagnostics] == [("RG037", Severity.WARNING)]
+
+
+def test_an_axis_of_length_0_turns_nothing(tmp_path):
+    text = (
+        "joints: {j: {axis: rax_1, lower: -90, upper: 90, speed: 9}}\n"
+        "chain: [{joint: j, axis: [0, 0, 0]}, {joint: k}]\n"
+    )
+    assert places(faults(tmp_path, text)) == [("RG014", 2, 20), ("RG014", 2, 46)]

@@ -249,6 +249,11 @@ def test_11_strokes_that_are_none(check, lower, upper, severity):
     assert found["RG041"].severity is severity
 
 
+def test_11_a_unit_that_contradicts_the_joint(check):
+    _, found = check(scara(-0.18, 0), SCARA.replace("unit: mm", "unit: deg"))
+    assert errors(found) == ["RG041"]
+
+
 def mimicking(of="joint_3", kind="continuous"):
     more = f'<mimic joint="{of}" multiplier="-1"/>'
     lever = joint("joint_lever", "link_2", "lever", kind, limit=False, more=more)

@@ -25,7 +25,11 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
     span = joint.span or place
     found: list[Diagnostic] = []
     linear = joint.kind == "prismatic"
-    draft.unit = "mm" if linear else "deg"
+    unit = "mm" if linear else "deg"
+    if draft.unit not in ("", unit):
+        text = f"joint '{joint.name}' is {joint.kind}, yet its unit is {draft.unit}"
+        return [error("RG041", text, span, "", f"set joints.{joint.name}.unit: {unit}")]
+    draft.unit = unit
     needs_range = draft.lower is None or draft.upper is None
     if joint.kind == "continuous" and needs_range:
         found.append(_continuous(draft, span))
@@ -82,7 +86,7 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagn
                 f"joint '{name}' has no limits",
                 span,
                 "",
-                f"add\njoints:\n  {name}: {{axis: {draft.axis or 'rax_1'}, lower: ..., upper: ...}}",
+                f"add\njoints:\n  {name}: {{axis: {draft.axis}, lower: ..., upper: ...}}",
             )
         ]
     if lower > upper:

@@ -181,14 +181,16 @@ def _is_gripper(graph: Graph, joint: UrdfJoint) -> bool:
 
 
 def _outside(graph: Graph, joints: Sequence[UrdfJoint]) -> list[UrdfJoint]:
-    """Joints beside a run of six numbered ones: ancestors, or another branch."""
-    six = [j for j in joints if (p := number_of(j.name)) and 1 <= p[1] <= 6 and _turns(j)]
-    if len({number_of(j.name)[1] for j in six}) != 6 or len(six) != 6:  # type: ignore[index]
+    """Joints that are not among six turning ones, numbered 1 to 6 along one chain."""
+    numbers = {j.name: parts[1] if (parts := number_of(j.name)) else 0 for j in joints}
+    six = [j for j in joints if 1 <= numbers[j.name] <= 6 and _turns(j)]
+    if sorted(numbers[j.name] for j in six) != [1, 2, 3, 4, 5, 6]:
         return []
-    arm = {a.name for a in (*graph.ancestors(six[-1]), six[-1])}
-    if not all(j.name in arm or j is six[-1] for j in six):
+    last = max(six, key=lambda j: len(graph.ancestors(j)))
+    arm = {a.name for a in (*graph.ancestors(last), last)}
+    if not all(j.name in arm for j in six):
         return []
-    return [j for j in joints if j not in six and not (number_of(j.name) or ("", 0, ""))[1] == 7]
+    return [j for j in joints if j not in six and numbers[j.name] != 7]
 
 
 def _turns(joint: UrdfJoint) -> bool:

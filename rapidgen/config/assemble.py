@@ -1,0 +1,161 @@
+"""The layers of one configuration become one tree: shipped model, the user's file, overrides."""
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from rapidgen._data import data_folder
+from rapidgen.config.layers import (
+    Overrides,
+    canonical,
+    group_names,
+    merge,
+    override_tree,
+)
+from rapidgen.config.registry import find_shipped, is_path
+from rapidgen.config.tree import (
+    Mapping,
+    Node,
+    Scalar,
+    decode,
+    error,
+    parse,
+    read_bytes,
+    to_python,
+)
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+
+Figures = dict[tuple[str, str], float]
+_IDENTITY = ("task", "mechanical_unit", "ports")
+
+
+@dataclass(frozen=True, slots=True)
+class Basis:
+    """The shipped model under a group; `known` are its figures by (axis, figure)."""
+
+    model: str
+    known: Figures
+
+
+@dataclass(slots=True)
+class Assembly:
+    """One canonical tree, what it was read from, and what each group rests on."""
+
+    path: Path
+    root: Mapping
+    bases: dict[str, Basis] = field(default_factory=dict)
+    inputs: list[tuple[str, bytes]] = field(default_factory=list)
+    found: list[Diagnostic] = field(default_factory=list)
+
+
+def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
+    """Read a file or a shipped model with everything that it rests on."""
+    text = str(path_or_name)
+    shipped = not isinstance(path_or_name, Path) and not is_path(text)
+    path = find_shipped(text) if shipped else Path(text)
+    made = Assembly(path, Mapping({}, Span(text, 1, 1)))
+    user = _read(path, made)
+    over, over_inputs = override_tree(overrides)
+    base_name = _text(over, "model") or _text(user, "model")
+    if base_name:
+        made.root = _shipped(base_name, made)
+        _rest_on(made, base_name, made.root)
+    elif shipped or path.parent == data_folder("robots"):
+        _rest_on(made, path.stem, canonical(user, ()).root)
+    for layer in (user, over):
+        moved = canonical(layer, group_names(made.root))
+        made.found += moved.found
+        made.root = merge(made.root, moved.root)
+    _group_models(made)
+    made.inputs += over_inputs
+    return made
+
+
+def _rest_on(made: Assembly, model: str, root: Mapping) -> None:
+    for name in group_names(root):
+        made.bases[name] = Basis(model, _figures(_group(root, name)))
+
+
+def _group(root: Mapping, name: str) -> Mapping:
+    groups = root.entries["groups"][1]
+    assert isinstance(groups, Mapping)
+    group = groups.entries[name][1]
+    assert isinstance(group, Mapping)
+    return group
+
+
+def _figures(group: Mapping) -> Figures:
+    data: Any = to_python(group)
+    return {
+        (joint["axis"], figure): joint[figure]
+        for joint in data["joints"].values()
+        for figure in ("lower", "upper", "speed")
+    }
+
+
+def shown_path(path: Path) -> str:
+    """The path as messages show it: relative to the working folder where it lies inside."""
+    try:
+        return str(path.absolute().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def _read(path: Path, made: Assembly) -> Mapping:
+    shown = shown_path(path)
+    data = read_bytes(path, shown)
+    made.inputs.append((path.name, data))
+    root, faults = parse(decode(data, shown), shown)
+    made.found += faults
+    if isinstance(root, Scalar) and root.value is None:
+        return Mapping({}, root.span)
+    if not isinstance(root, Mapping):
+        raise DiagnosticError(
+            error("RG006", "a configuration is a mapping of keys", root.span, "not a mapping")
+        )
+    return root
+
+
+def _text(root: Mapping, key: str) -> str:
+    """A text at the top of a raw tree, where there is one."""
+    entry = root.entries.get(key)
+    if entry and isinstance(entry[1], Scalar) and isinstance(entry[1].value, str):
+        return entry[1].value
+    return ""
+
+
+def _shipped(name: str, made: Assembly, span: Span | None = None) -> Mapping:
+    return canonical(_read(find_shipped(name, span), made), ()).root
+
+
+def _group_models(made: Assembly) -> None:
+    """Groups with a `model:` of their own are laid over that model's group."""
+    entry = made.root.entries.get("groups")
+    if not entry or not isinstance(entry[1], Mapping):
+        return
+    groups: dict[str, tuple[Span, Node]] = {}
+    for name, (place, group) in entry[1].entries.items():
+        model = _text(group, "model") if isinstance(group, Mapping) else ""
+        if model and isinstance(group, Mapping):
+            below = _shipped(model, made, group.entries["model"][1].span)
+            choices = group_names(below)
+            chosen = name if name in choices else choices[0] if len(choices) == 1 else ""
+            if chosen:
+                base = _group(below, chosen)
+                made.bases[name] = Basis(model, _figures(base))
+                # What belongs to a place on a controller is not the model's to say.
+                kept = {k: v for k, v in base.entries.items() if k not in _IDENTITY}
+                group = merge(Mapping(kept, base.span), group, ("groups", name))
+            else:
+                made.found.append(
+                    error(
+                        "RG010",
+                        f"model '{model}' has the groups {', '.join(choices)}, none is '{name}'",
+                        place,
+                        "which of them?",
+                        f"name the group {' or '.join(choices)}, or put `model:` at the top",
+                    )
+                )
+        groups[name] = (place, group)
+    whole = Mapping(groups, entry[1].span)
+    made.root = Mapping({**made.root.entries, "groups": (entry[0], whole)}, made.root.span)
