@@ -393,6 +393,14 @@ class Kernel:
         if end > self._now:
             self._now = end
 
+    def _fire_before(self, end: int) -> None:
+        """Events that come before a process reaches `end`; those at `end` itself come after
+        what it does there, however the time was cut into pieces."""
+        if self._heap and self._heap[0][0] < end:
+            self._fire(end - 1)
+        if end > self._now:
+            self._now = end
+
     def _dispatch(self) -> None:
         process = self._front
         if process is not None:
@@ -443,20 +451,21 @@ class Kernel:
         """Account for what `process` spent; True when it must give way now."""
         end = self.deadline - process.b
         self.running = None
-        self._fire(end)
+        self._fire_before(end)
         if self._posted:
             self._run_posted()
-        until = self._until
-        if self._stopping or (until is not None and end >= until):
-            self._front = process
-            return True
-        if end < process.slice_end:
-            return False
-        if self.ready:
+        over = end > process.slice_end
+        if over and self.ready:
             self.ready.append(process)
             return True
-        process.slice_end = end + self._slice()
-        if self.clock == "real" or (self._stop is not None and self._stop()):
+        if over:
+            process.slice_end = end + self._slice()
+        until, stop = self._until, self._stop
+        if (
+            self._stopping
+            or (until is not None and end >= until)
+            or (over and (self.clock == "real" or (stop is not None and stop())))
+        ):
             self._front = process
             return True
         return False
@@ -466,7 +475,6 @@ class Kernel:
         if self.running is process:
             end = self.deadline - process.b
             self.running = None
-            if end > self._now:
-                self._fire(end)
+            self._fire_before(end)
         assert self._hub is not None
         self._hub.switch()

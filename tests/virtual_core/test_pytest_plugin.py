@@ -46,4 +46,5 @@ def test_fixture_and_seeds(pytester) -> None:
     assert outcomes["passed"] + outcomes["failed"] == 13
     seed = re.search(r"FAILED .*\[seed(\d+)\]", result.stdout.str())[1]
     again = pytester.runpytest_inprocess(*plugins, "-q", f"--virtual-seed={seed}", "-k", "race")
-    assert again.parseoutcomes() == {"failed": 1}
+    assert again.parseoutcomes()["failed"] == 1
+    assert "passed" not in again.parseoutcomes()
