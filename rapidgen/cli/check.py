@@ -1,6 +1,5 @@
 """`rapidgen check`: configurations, RAPID files, folders, generated folders and backups."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,7 +10,7 @@ from rapidgen.diagnostics import Format
 if TYPE_CHECKING:
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.rapid import Dialect
-    from rapidgen.rapid.nodes import Module
+    from rapidgen.rapid.nodes import Declaration, Module
 
 _CONFIG_SUFFIXES = (".yaml", ".yml")
 _TASK_FOLDERS = ("PROGMOD", "SYSMOD")
@@ -136,30 +135,54 @@ def _files(paths: list[Path], dialect: "Dialect | None") -> "list[Diagnostic]":
 
 
 def _folder(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
-    """A generated folder, a backup, or a folder with modules somewhere in it."""
+    """A generated folder, a backup, or a folder with modules or such folders in it."""
     from rapidgen.rapid import check as check_rapid
-    from rapidgen.system import is_backup, is_generated, read_backup, read_folder
+    from rapidgen.system import is_backup, is_generated
 
-    notes: list[Diagnostic] = []
-    if is_generated(path):
-        return check_rapid(read_folder(path), dialect=dialect)
-    if is_backup(path):
-        system = read_backup(path, notes=notes)
-        return [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
-    found: list[Diagnostic] = []
-    groups = list(_groups(path))
-    if not groups:
+    if is_generated(path) or is_backup(path):
+        return _system(path, dialect)
+    groups: list[tuple[list[Path], bool]] = []
+    systems: list[Path] = []
+    _search(path, groups, systems)
+    if not groups and not systems:
         raise _nothing(str(path))
-    for modules, whole in groups:
-        gaps = path.name.upper() in _TASK_FOLDERS
+    found: list[Diagnostic] = []
+    for system in systems:
+        found += _system(system, dialect)
+    parsed = [(_parsed(files, dialect), whole) for files, whole in groups]
+    declared = [
+        {_name(d).lower() for m in modules for d in m.declarations} for modules, _ in parsed
+    ]
+    for k, (modules, whole) in enumerate(parsed):
+        elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
         found += check_rapid(
-            _parsed(modules, dialect), dialect=dialect, whole_task=whole, gaps=gaps
+            modules,
+            dialect=dialect,
+            whole_task=whole,
+            gaps=path.name.upper() in _TASK_FOLDERS,
+            elsewhere=elsewhere,
         )
     return found
 
 
-def _groups(folder: Path) -> Iterator[tuple[list[Path], bool]]:
-    """Module files that belong together, and whether they are all of a task."""
+def _name(declaration: "Declaration") -> str:
+    return getattr(declaration, "name", "")
+
+
+def _system(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
+    from rapidgen.rapid import check as check_rapid
+    from rapidgen.system import is_generated, read_backup, read_folder
+
+    if is_generated(path):
+        return check_rapid(read_folder(path), dialect=dialect)
+    notes: list[Diagnostic] = []
+    system = read_backup(path, notes=notes)
+    return [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
+
+
+def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[Path]) -> None:
+    """Groups of modules that belong together (and whether they are whole tasks), and systems."""
+    from rapidgen.system import is_backup, is_generated
     from rapidgen.system.paths import module_files
 
     subfolders = [f for f in sorted(folder.iterdir()) if f.is_dir() and not f.is_symlink()]
@@ -168,10 +191,12 @@ def _groups(folder: Path) -> Iterator[tuple[list[Path], bool]]:
     for subfolder in together:
         modules += module_files(subfolder)
     if modules:
-        yield modules, bool(together)
+        groups.append((modules, bool(together)))
     for subfolder in subfolders:
-        if subfolder not in together:
-            yield from _groups(subfolder)
+        if is_generated(subfolder) or is_backup(subfolder):
+            systems.append(subfolder)
+        elif subfolder not in together:
+            _search(subfolder, groups, systems)
 
 
 def _nothing(given: str) -> Exception:

@@ -220,6 +220,9 @@ class StatementParser(ExpressionParser):
         if kind in _DIVIDERS:
             self._stray(i, expected)
             self.forgiven.append(_DIVIDERS[kind])
+            mark = {"CASE": ":", "DEFAULT": ":", "ELSEIF": "THEN"}.get(kind)
+            if mark and self._reaches(i + 1, mark):
+                return self.kinds.index(mark, i) + 1
             return i + 1
         help = "a statement has no ';' before it" if kind == ";" else ""
         self.fault(SyntaxFault(i, expected, help))

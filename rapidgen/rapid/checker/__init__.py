@@ -4,7 +4,7 @@
 by what was given: see `given.Extent`.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 
 from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.rapid.checker.declarations import ModuleChecker
@@ -35,6 +35,7 @@ def check(
     path: str | None = None,
     whole_task: bool = False,
     gaps: bool = False,
+    elsewhere: Collection[str] = frozenset(),
 ) -> list[Diagnostic]:
     """Everything wrong with a text, a module, modules that belong together, or a system.
 
@@ -42,8 +43,9 @@ def check(
     An iterable of modules is a folder; where it has an entry routine `main`, routines and types
     must be in it. With `whole_task` they are all modules of one task (or of several), and only
     what the configuration installs may be unknown. `gaps` says that something is missing that
-    a name could come from. A system's own RobotWare decides unless `dialect` is given.
-    Findings of the parser are included. Sorted by place.
+    a name could come from; `elsewhere` are lower-case names that are declared in modules which
+    were given too, but do not belong to these. A system's own RobotWare decides unless
+    `dialect` is given. Findings of the parser are included. Sorted by place.
     """
     if isinstance(given, System):
         return _check_system(given, dialect or Dialect(given.robotware), gaps)
@@ -56,7 +58,7 @@ def check(
     extent = Extent.TASK if whole_task else Extent.FOLDER
     if not whole_task and not any(r.name.lower() == "main" for m in modules for r in m.routines):
         gaps = True
-    return _check_modules(modules, Given(dialect, extent, gaps), World())
+    return _check_modules(modules, Given(dialect, extent, gaps), World(elsewhere=elsewhere))
 
 
 def _check_modules(modules: Sequence[Module], given: Given, world: World) -> list[Diagnostic]:

@@ -91,7 +91,7 @@ class Reporter:
         """
         code, kinds = _ROLES[role]
         key = (role, name.lower())
-        if name == "<ID>" or key in self._unknown:
+        if name == "<ID>" or key in self._unknown or key[1] in self.scope.world.elsewhere:
             return
         self._unknown.add(key)
         likely = closest(name, self._candidates(kinds))

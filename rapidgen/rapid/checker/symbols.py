@@ -4,7 +4,7 @@ A type is a text: the lower-case name behind aliases, with `{*}`, `{*,*}` or `{*
 for arrays. None means "not known", and nothing that depends on it is judged.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Final, Literal
 
@@ -108,6 +108,8 @@ class World:
 
     installed: Mapping[str, Symbol] = field(default_factory=dict)
     """Signals, mechanical units and task identities, by lower-case name."""
+    elsewhere: Collection[str] = ()
+    """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
     _builtin: dict[str, Symbol | None] = field(default_factory=dict)
     _records: dict[object, dict[str, str | None]] = field(default_factory=dict)
     _busy: set[object] = field(default_factory=set)

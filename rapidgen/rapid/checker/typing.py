@@ -199,6 +199,8 @@ class TypeChecker(Reporter):
         help = ""
         if symbol.kind == "FUNC":
             help = f"a function is called with parentheses: {symbol.name}()"
+        # A module that is not here may declare a datum that hides the built-in routine.
+        hidden = symbol.signature is not None and self.given.extent < Extent.TASK
         self.report(
             "RG306",
             f"'{symbol.name}' is no datum",
@@ -206,6 +208,7 @@ class TypeChecker(Reporter):
             label=f"a {symbol.kind}",
             help=help,
             related=self.declared(symbol),
+            severity=Severity.WARNING if hidden else Severity.ERROR,
         )
 
     def _indexed(self, node: Index) -> str | None:

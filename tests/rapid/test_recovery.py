@@ -1,0 +1,164 @@
+"""Several errors in one text: each is reported at its place, and one does not bring ten."""
+
+import pytest
+
+from rapidgen.diagnostics import Severity
+from rapidgen.rapid import parse
+from rapidgen.rapid.walk import walk
+
+
+def places(text):
+    return [(d.span.line, d.code) for d in parse(text).diagnostics]
+
+
+def routine(body):
+    return f"MODULE m\nPROC p()\n{body}\nENDPROC\nENDMODULE\n"
+
+
+def test_five_errors_are_five_diagnostics_at_their_lines():
+    body = """a := 1
+b := (2;
+c := 3 + ;
+IF a = 1 THEN
+    d := ;
+ENDIF
+Foo 1 2;
+g := 7;"""
+    found = parse(routine(body)).diagnostics
+    assert [(d.span.line, d.code) for d in found] == [
+        (4, "RG201"),  # the ';' missing before b
+        (4, "RG201"),
+        (5, "RG201"),
+        (7, "RG201"),
+        (9, "RG201"),
+    ]
+
+
+def test_message_says_what_was_met_expected_and_what_is_open():
+    found = parse(routine("FOR i FROM 1 TO 3 DO\n    a := ;\nENDFOR")).diagnostics
+    assert len(found) == 1
+    assert found[0].message == "met ';', expected an expression"
+    assert "FOR (line 3), PROC (line 2), MODULE (line 1)" in found[0].notes[0]
+    assert found[0].related[0].span.line == 3
+
+
+@pytest.mark.parametrize(
+    ("body", "expected"),
+    [
+        ("a := 1\nb := 2;", [(4, "RG201")]),
+        ("Foo();", [(3, "RG201")]),
+        ("IF a = 1 THEN\n    b := 1;", [(5, "RG202")]),
+        ("FOR i FROM 1 TO 2 DO\n    IF a = 1 THEN\n        b := 1;\nENDFOR", [(6, "RG202")]),
+        ("IF a = 1 THEN\nENDWHILE\nb := 1;", [(4, "RG201")]),
+        ("WHILE a = 1 DO\nENDIF\nENDWHILE", [(4, "RG203")]),
+        ("ENDIF", [(3, "RG203")]),
+        ("IF a = 1\n    b := 1;\nELSE\n    b := 2;\nENDIF", [(5, "RG203")]),
+        ("IF a b THEN\n    c := 1;\nELSE\n    c := 2;\nENDIF", [(3, "RG201")]),
+        ("IF a = THEN\n    c := 1;\nENDIF", [(3, "RG201")]),
+        ("WHILE a = 1\n    b := 1;\nENDWHILE", [(4, "RG201")]),
+        ("FOR i FROM 1 TO DO\n    b := 1;\nENDFOR", [(3, "RG201")]),
+        ("FOR i 1 TO 3 DO\n    b := 1;\nENDFOR", [(3, "RG201")]),
+        ("TEST a\nCASE 1\n    b := 1;\nENDTEST", [(5, "RG201")]),
+        ("TEST a b\nCASE 1:\n    b := 1;\nENDTEST", [(3, "RG201")]),
+        ("CASE 1:\n    b := 1;\nENDTEST", [(3, "RG203")]),
+        ('a := "abc;\nb := 1;', [(3, "RG207")]),
+        ("a := 12ab;\nb := 1;", [(3, "RG205")]),
+        ("a := default + 1;\nb := 1;", [(3, "RG201")]),
+        ("VAR num for;\nb := 1;", [(3, "RG201")]),
+        (";\nb := 1;", [(3, "RG201")]),
+        ("a := b[1];\nb := 1;", [(3, "RG201")]),
+        ("MoveL p1 v100, z10, tool0;\nb := 1;", [(3, "RG201")]),
+        ("IF a = 1 THEN\n    b := 1;\nELSEIF THEN\n    b := 2;\nENDIF", [(5, "RG201")]),
+        ("RETURN 1 2;\nb := 1;", [(3, "RG201")]),
+        ("GOTO 1;\nb := 1;", [(3, "RG201")]),
+        ("CONNECT i t;\nb := 1;", [(3, "RG201")]),
+    ],
+)
+def test_one_mistake_is_one_error(body, expected):
+    assert places(routine(body)) == expected
+
+
+def test_a_routine_without_its_end_does_not_spoil_the_next():
+    text = "MODULE m\nPROC a()\n    x := 1;\nPROC b()\n    y := ;\nENDPROC\nENDMODULE\n"
+    assert places(text) == [(4, "RG202"), (5, "RG201")]
+    assert [r.name for r in parse(text).routines] == ["a", "b"]
+
+
+def test_wrong_header_keeps_the_body():
+    text = "MODULE m\nPROC a(num x num y)\n    x := 1;\nENDPROC\nPROC b()\nENDPROC\nENDMODULE\n"
+    assert places(text) == [(2, "RG201")]
+    assert [(r.name, len(r.body)) for r in parse(text).routines] == [("a", 1), ("b", 0)]
+
+
+def test_junk_among_declarations_is_one_error():
+    text = "MODULE m\nVAR num a;\nthis is no declaration at all;\nVAR num b;\nENDMODULE\n"
+    assert places(text) == [(3, "RG201")]
+    assert [d.name for d in parse(text).data] == ["a", "b"]
+
+
+def test_statements_around_an_error_stay_in_the_tree():
+    module = parse(routine("a := 1;\nb := ;\nc := 3;"))
+    assert [s.target.name for s in module.routines[0].body] == ["a", "c"]
+
+
+def test_after_a_hundred_errors_the_rest_is_left():
+    module = parse(routine("a := ;\n" * 500))
+    assert len(module.diagnostics) == 101
+    assert module.diagnostics[-1].code == "RG214"
+
+
+ENDLESS = {
+    "empty": b"",
+    "blank": b" \r\n\t ",
+    "comments": b"! nothing here\n! at all\n",
+    "zero bytes": b"\0\1\2MODULE",
+    "encoded": b"\xfc\x30\x1d\xe1\x0a\x01\x80\x02\x0e\x39\xc0\xd3",
+    "utf-16": "MODULE a\nENDMODULE\n".encode("utf-16"),
+    "too large": b"x" * 9_000_000,
+    "brackets": b"MODULE m PROC p() a := " + b"[" * 10_000,
+    "parentheses": b"MODULE m PROC p() a := " + b"(" * 10_000,
+    "braces": b"MODULE m PROC p() a := " + b"a{" * 10_000,
+    "calls": b"MODULE m PROC p() a := " + b"f(" * 10_000,
+    "signs": b"MODULE m PROC p() a := " + b"-" * 10_000,
+    "sum": b"MODULE m PROC p() a := " + b"1 + " * 10_000,
+    "components": b"MODULE m PROC p() a := a" + b".b" * 10_000,
+    "ifs": b"MODULE m PROC p() " + b"IF a THEN " * 10_000,
+    "loops": b"MODULE m PROC p() " + b"FOR i FROM 1 TO 2 DO " * 10_000,
+    "module": b"MODULE",
+    "module name": b"MODULE m",
+    "attributes": b"MODULE m(",
+    "declaration": b"MODULE m VAR",
+    "datum": b"MODULE m VAR num a",
+    "dimensions": b"MODULE m VAR num a{",
+    "aggregate": b"MODULE m VAR pos a := [1, 2",
+    "string": b'MODULE m CONST string a := "abc',
+    "record": b"MODULE m RECORD r num a;",
+    "routine": b"MODULE m PROC",
+    "parameters": b"MODULE m PROC p(num a",
+    "body": b"MODULE m PROC p() a := 1;",
+    "statement": b"MODULE m PROC p() a :=",
+    "if": b"MODULE m PROC p() IF a THEN",
+    "test": b"MODULE m PROC p() TEST a CASE 1:",
+    "handler": b"MODULE m PROC p() ERROR",
+    "header": b"%%%\n VERSION:1\n",
+}
+
+
+@pytest.mark.parametrize("name", ENDLESS)
+def test_bad_input_gives_one_diagnostic(name):
+    module = parse(ENDLESS[name], path="bad.mod")
+    assert len(module.diagnostics) == 1, module.diagnostics
+    assert module.diagnostics[0].span.path == "bad.mod"
+
+
+def test_depth_limits_are_reached_without_harm():
+    deep = "IF a THEN " * 100 + "x := " + "f(1+" * 99 + "1" + ")" * 99 + ";" + "ENDIF " * 100
+    module = parse(routine(deep))
+    assert module.diagnostics == []
+    assert sum(1 for _ in walk(module)) > 500
+    assert parse(routine("x := " + "(1+" * 199 + "1" + ")" * 199 + ";")).diagnostics == []
+
+
+def test_an_encoded_module_is_a_warning():
+    found = parse(ENDLESS["encoded"]).diagnostics
+    assert [(d.code, d.severity) for d in found] == [("RG219", Severity.WARNING)]
