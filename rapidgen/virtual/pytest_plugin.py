@@ -22,7 +22,9 @@ if TYPE_CHECKING:
     from rapidgen.system.model import System
     from rapidgen.virtual.controller import VirtualController
 
-Target: TypeAlias = "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]"
+Target: TypeAlias = (
+    "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]"
+)
 MARK = "virtual_seeds"
 
 
