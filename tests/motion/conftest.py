@@ -129,7 +129,7 @@ class Program:
     """A RAPID program on a whole controller."""
 
     def __init__(self, path, text: str, robot: str, **options: Any) -> None:
-        file = path / "Test.mod"
+        file = path / "Probe.mod"
         file.write_text(text, encoding="latin-1")
         groups = load_config(robot).groups
         self.controller = VirtualController.from_files(
@@ -148,7 +148,7 @@ def rapid(tmp_path) -> Callable[..., Program]:
     """A program from the text between PROC main() and ENDPROC, and module declarations."""
 
     def make(body: str, declarations: str = "", robot: str = "irb120", **options: Any) -> Program:
-        text = f"MODULE Test\n{declarations}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n"
+        text = f"MODULE Probe\n{declarations}\nPROC main()\n{body}\nENDPROC\nENDMODULE\n"
         return Program(tmp_path, text, robot, **options)
 
     return make

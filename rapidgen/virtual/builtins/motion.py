@@ -4,6 +4,8 @@ Sources: 3HAC050917 (RobotWare 6) for arguments; S4 datasys 2-MoveAbsJ, 2-MoveL,
 2-MoveLDO and 2-MoveLSync for behaviour.
 """
 
+from dataclasses import replace
+from math import inf
 from typing import Any, TypeAlias
 
 from rapidgen.virtual.compiler.symbols import Routine
@@ -77,7 +79,7 @@ def move_ext_j(
     zone: Data,
     stop: Data,
 ) -> None:
-    """Robot axes stay where the path ends."""
+    """Robot axes stay where the path ends, and only the speeds of external axes count."""
     group = moving_group(task)
     modal = group.modal
     ends = group.path_target
@@ -90,7 +92,7 @@ def move_ext_j(
         task,
         JointMove(
             target=target,
-            speed=speed_of(speed, None, modal),
+            speed=replace(speed_of(speed, None, modal), tcp=inf, orientation=inf),
             zone=zone_of(zone, None, stop),
             time=time_of(time, modal),
             concurrent=bool(concurrent),

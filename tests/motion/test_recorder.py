@@ -1,0 +1,46 @@
+"""Recordings."""
+
+import csv
+
+import numpy as np
+import pytest
+
+BODY = """
+    MoveAbsJ [[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, z10, tool0;
+    MoveAbsJ [[20,10,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
+"""
+
+
+def test_arrays_and_csv(rapid, tmp_path):
+    program = rapid(BODY)
+    recorder = program.controller.motion.record()["rob1"]
+    program.run(2.0)
+    recorder.stop()
+    program.run(1.0)
+    recording = recorder.recording()
+    assert np.diff(recording.time) == pytest.approx(0.004)
+    assert recording.time[-1] == pytest.approx(2.0, abs=0.004)
+    assert recording.commanded.shape == (len(recording.time), 6)
+    assert np.degrees(recording.commanded[-1]) == pytest.approx([20, 10, 0, 0, 30, 0], abs=1e-5)
+    assert (recording.actual == recording.commanded).all()
+    flange = program.group.kinematics.forward(tuple(recording.commanded[100]))
+    assert recording.tcp[100] == pytest.approx([*flange[0], *flange[1]])
+    lines = [name.rpartition("/")[2] for name in recording.motion_pointer]
+    assert [line for i, line in enumerate(lines) if line and line not in lines[:i]] == ["5", "6"]
+    ahead = recording.program_pointer.index("Probe/main/6")
+    assert recording.motion_pointer[ahead] == "Probe/main/5"  # the program runs ahead
+
+    recording.write_csv(tmp_path / "r.csv")
+    with (tmp_path / "r.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(recording.time)
+    assert float(rows[-1]["joint_1"]) == pytest.approx(recording.commanded[-1][0], abs=1e-8)
+    assert rows[-1]["motion_pointer"] == "Probe/main/6"
+
+
+def test_any_period_gives_the_same_motion(rapid):
+    program = rapid(BODY)
+    recorder = program.controller.motion.record()["rob1"]
+    program.run(2.0)
+    fine, coarse = recorder.recording(0.001), recorder.recording(0.01)
+    assert fine.commanded[::10] == pytest.approx(coarse.commanded, abs=0)
