@@ -261,8 +261,7 @@ class AsyncRobot:
     async def _send(self, link: _Link, transport: asyncio.Transport, effect: Send) -> None:
         data = effect.data
         for count, at in enumerate(range(0, len(data), FRAME_BYTES), 1):
-            run = self._core.run
-            if run is not None and run.stopping:
+            if effect.is_stopped:
                 raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
             if self._links.get(link.port) is not link:
                 raise self._core.disconnected()

@@ -10,14 +10,11 @@ from rapidgen.client import flows
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core import Core
 from rapidgen.client.errors import InvalidTrajectory, RobotError
-from rapidgen.client.flows import Flow, Send
 from rapidgen.client.run import Result, Run
 from rapidgen.client.state import State
 from rapidgen.client.sync import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
-from rapidgen.protocol.bulk import FRAME_BYTES
-from rapidgen.protocol.spec import Port
 
 T = TypeVar("T")
 
@@ -39,10 +36,6 @@ def _prepare_all(
     if found:
         raise InvalidTrajectory(found)
     return {name: flows.prepare(cores[name], what) for name, what in trajectories.items()}
-
-
-def _send_points(core: Core, data: bytes) -> Flow[None]:
-    yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send)
 
 
 def _give_up(runs: Iterable[tuple[Run, bytes]], error: RobotError) -> None:
@@ -94,9 +87,9 @@ class Cell:
         runs = _prepare_all(cores, trajectories)
         try:
             for name, robot in moving.items():
-                robot._run(_send_points(robot._core, runs[name][1]))
+                robot._run(flows.send_points(robot._core, *runs[name]))
             pending = {
-                name: robot._run(flows.send_end(robot._core, runs[name][1]))
+                name: robot._run(flows.send_end(robot._core, *runs[name]))
                 for name, robot in moving.items()
             }
             for name, robot in moving.items():
@@ -199,9 +192,9 @@ class AsyncCell:
         runs = _prepare_all(cores, trajectories)
         try:
             for name, robot in moving.items():
-                await robot._run(_send_points(robot._core, runs[name][1]))
+                await robot._run(flows.send_points(robot._core, *runs[name]))
             pending = {
-                name: await robot._run(flows.send_end(robot._core, runs[name][1]))
+                name: await robot._run(flows.send_end(robot._core, *runs[name]))
                 for name, robot in moving.items()
             }
             for name, robot in moving.items():

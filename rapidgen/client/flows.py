@@ -56,12 +56,21 @@ class Connect:
 
 @dataclass(frozen=True, slots=True)
 class Send:
-    """Send bytes: `urgent` ones at the next frame boundary, ahead of whatever is being sent."""
+    """Send bytes: `urgent` ones at the next frame boundary, ahead of whatever is being sent.
+
+    Points of a `run` are cut short, by MotionStopped, once somebody asked it to stop.
+    """
 
     port: Port
     data: bytes
     timeout: float
     urgent: bool = False
+    run: Run | None = None
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether these points must not be sent any more."""
+        return self.run is not None and self.run.stopping
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +165,7 @@ def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
     yield from ready(core)
     run, data = prepare(core, trajectory)
     try:
-        yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send)
+        yield from send_points(core, run, data)
         yield from finish(core, run, data)
     except _INTERRUPTIONS:
         yield from _stop_and_leave(core)
@@ -183,16 +192,21 @@ def prepare(core: Core, trajectory: Trajectory) -> tuple[Run, bytes]:
     return core.begin(plan), data
 
 
+def send_points(core: Core, run: Run, data: bytes) -> Flow[None]:
+    """Send all but the end frame: nothing moves yet."""
+    yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send, run=run)
+
+
 def finish(core: Core, run: Run, data: bytes) -> Flow[None]:
     """Send the end frame and wait for the controller's word."""
-    pending = yield from send_end(core, data)
+    pending = yield from send_end(core, run, data)
     yield from accepted(core, run, pending)
 
 
-def send_end(core: Core, data: bytes) -> Flow[Pending]:
+def send_end(core: Core, run: Run, data: bytes) -> Flow[Pending]:
     """Send the end frame: the controller may begin to move."""
     pending = core.talks[Port.MOTION].request(JOINT_TRAJ_PT.number)
-    yield Send(Port.MOTION, data[-FRAME_BYTES:], core.timeouts.send)
+    yield Send(Port.MOTION, data[-FRAME_BYTES:], core.timeouts.send, run=run)
     return pending
 
 

@@ -216,13 +216,9 @@ class Robot:
             raise self._core.disconnected()
         if effect.urgent:
             channel.send_urgent(effect.data, effect.timeout)
-        elif not channel.send(effect.data, effect.timeout, self._is_stopping):
+        elif not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
             raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
         return True
-
-    def _is_stopping(self) -> bool:
-        run = self._core.run
-        return run is not None and run.stopping
 
     def _wait(self, effect: Wait) -> bool:
         deadline = time.monotonic() + effect.timeout

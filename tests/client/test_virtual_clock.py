@@ -9,13 +9,10 @@ from rapidgen.client import (
     AsyncCell,
     AsyncRobot,
     ConnectionFailed,
-    ConnectionLost,
     MotionFailed,
     MotionStopped,
     NotReady,
-    RobotError,
     Trajectory,
-    TrajectoryRefused,
 )
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
@@ -155,93 +152,3 @@ def test_two_arms_start_together():
 
     with controller:
         run(controller, main())
-
-
-class Story:
-    """Random calls of a client against the controller; what must hold whatever came before."""
-
-    def __init__(self, seed):
-        self.random = np.random.default_rng(seed)
-        self.controller, self.config = booted(seed=seed)
-        self.log = []
-
-    async def tell(self, steps):
-        robot = robot_of(self.config, reconnect=5)
-        await robot.connect()
-        execution = None
-        try:
-            for _ in range(steps):
-                name = self.random.choice(["execute", "bad", "stop", "wait", "drop", "result"])
-                self.log.append(str(name))
-                execution = await getattr(self, name)(robot, execution)
-                await self.invariants(robot, execution)
-        finally:
-            await robot.close()
-
-    def path(self, robot):
-        here = np.array(robot.state.joints)
-        goal = np.clip(here + self.random.uniform(-0.2, 0.2, 6), -0.5, 0.5)
-        return Trajectory.from_points([here, (here + goal) / 2, goal], seconds=0.4)
-
-    async def execute(self, robot, execution):
-        under_way = execution is not None and not execution.is_over
-        try:
-            return await robot.execute(self.path(robot))
-        except NotReady:
-            assert under_way
-        except TrajectoryRefused as error:
-            # only while an earlier motion is being dropped after a lost connection
-            assert error.reason in (Reason.NOT_EXECUTING, Reason.START_TOO_FAR, Reason.MOVING)
-        return execution
-
-    async def bad(self, robot, execution):
-        before = robot.state.joints
-        with pytest.raises(RobotError):
-            await robot.execute(Trajectory([0, 1], [before, [9.0] * 6]))
-        return execution
-
-    async def stop(self, robot, execution):
-        state = await robot.stop()
-        await asyncio.sleep(0.5)
-        assert robot.state.joints == pytest.approx(state.joints, abs=2e-3)
-        if execution is not None:
-            assert execution.is_over
-        return execution
-
-    async def wait(self, robot, execution):
-        await asyncio.sleep(float(self.random.uniform(0, 0.6)))
-        return execution
-
-    async def drop(self, robot, execution):
-        for link in list(robot._links.values()):
-            link.transport.abort()
-        await asyncio.sleep(1.0)
-        if execution is not None:
-            assert execution.is_over
-        await robot.next_state()
-        return execution
-
-    async def result(self, robot, execution):
-        if execution is None:
-            return None
-        try:
-            result = await execution.result()
-            assert result.deviation < 1e-3
-        except (MotionStopped, ConnectionLost):
-            assert execution.is_over
-        return execution
-
-    async def invariants(self, robot, execution):
-        state = await robot.next_state()
-        assert max(abs(v) for v in state.joints) < 0.55
-        assert not [e for e in self.controller.log if e.number == 40_000]
-        if execution is None or execution.is_over:
-            return
-        assert execution.progress.state in (TrajectoryState.MOVING, TrajectoryState.DONE)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_random_stories(seed):
-    story = Story(seed)
-    with story.controller:
-        run(story.controller, story.tell(25))
