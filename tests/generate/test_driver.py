@@ -627,6 +627,19 @@ def test_a_dead_link_gives_way_to_the_newest_client(bench):
     move_well(b)
 
 
+def test_a_dead_link_gives_way_while_the_ring_is_fed(bench):
+    b = bench()
+    old = b.client()
+    send_all(old, trajectory(LONG, [10.0] + [0.1] * 299))
+    assert reply_of(old)[0] == 1
+    b.vc.network.silence(old.endpoint)
+    b.vc.run_for(1)
+    new = b.client()
+    b.vc.run_for(2)
+    assert b.group.is_standing
+    move_well(b, new)
+
+
 def test_an_idle_client_is_never_timed_out(bench):
     b = bench()
     client = b.client()

@@ -10,10 +10,12 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "da33ad1c1030";
+    CONST string ROS_BUILD_MOTION_SERVER := "93c721101017";
 
     LOCAL CONST num PORT := 11000;
     LOCAL CONST num CAPACITY := 1000;
+    ! s between two looks for bytes while the ring is being fed
+    LOCAL CONST num LOOK_PERIOD := 0.008;
     ! s: longest duration of a point
     LOCAL CONST num LONGEST := 3600;
     ! s: shortest duration that the path planner follows through a corner
@@ -116,6 +118,7 @@ MODULE ROS_motionServer
     ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`.
     LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
         VAR num received;
+        VAR num quiet := 0;
 
         IF NOT taken_over THEN
             WHILE NOT welcome(client, WAIT_MAX) DO
@@ -129,11 +132,18 @@ MODULE ROS_motionServer
             IF fed < size THEN
                 feed;
                 received := short_look(client);
+                quiet := quiet + LOOK_PERIOD;
             ELSE
                 received := ROS_receive(client, chunk, 1);
+                quiet := 1;
+            ENDIF
+            IF received <> 0 THEN
+                quiet := 0;
+            ELSEIF quiet >= 1 THEN
+                quiet := 0;
                 ! Silent for a second: a newer client, if there is one, is served instead. It
                 ! may be the same one, whose old link is dead without a word.
-                IF received = 0 taken_over := welcome(newcomer, 0.001);
+                taken_over := welcome(newcomer, 0.001);
             ENDIF
             IF received > 0 THEN
                 take_chunk client, received;
@@ -144,7 +154,7 @@ MODULE ROS_motionServer
         SocketClose client;
     ERROR
         ! Nothing that a client sends may end this task.
-        SkipWarn;
+        ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
         SocketClose client;
         RETURN;
     ENDPROC
@@ -174,7 +184,7 @@ MODULE ROS_motionServer
 
         waiting := ROS_peek(client);
         IF waiting > 0 RETURN ROS_receive(client, chunk, 1);
-        IF waiting = 0 WaitTime 0.008;
+        IF waiting = 0 WaitTime LOOK_PERIOD;
         RETURN waiting;
     ENDFUNC
 

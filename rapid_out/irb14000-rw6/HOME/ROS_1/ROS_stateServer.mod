@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "a77d9d0fbb78";
+    CONST string ROS_BUILD_STATE := "89068e5e9491";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;
