@@ -20,13 +20,16 @@ def new(
     arg: Annotated[
         list[str] | None, typer.Option("--arg", help="xacro argument NAME=VALUE.")
     ] = None,
+    macro_arg: Annotated[
+        list[str] | None, typer.Option("--macro-arg", help="Argument of the macro, NAME=VALUE.")
+    ] = None,
     tip: Annotated[
         str | None, typer.Option("--tip", help="Last link of the robot, where several fit.")
     ] = None,
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
     """Write a commented configuration that checks and builds."""
-    from rapidgen.config.scaffold import from_shipped, from_urdf, write_new
+    from rapidgen.config.scaffold import assignments, from_shipped, from_urdf, write_new
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, render
 
     if (robot is None) == (urdf is None):
@@ -42,13 +45,13 @@ def new(
         text = from_shipped(robot)
     else:
         assert urdf is not None
-        arguments = dict(word.partition("=")[::2] for word in arg or ())
         text = from_urdf(
             urdf,
             folder=file.parent,
             package_paths=package_path or (),
             macro=macro,
-            arguments=arguments,
+            arguments=assignments(arg or ()),
+            macro_arguments=assignments(macro_arg or ()),
             tip=tip,
         )
     for notes in write_new(file, text, package_paths=package_path or (), force=force):

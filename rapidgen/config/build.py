@@ -193,24 +193,15 @@ def _joints(
     joints = []
     for joint in draft.joints:
         here: KeyPath = (*where, joint.name)
-        if not joint.axis:
-            if not report.is_faulty((*here, "axis")):
-                report.error(
-                    "RG007",
-                    f"joint '{joint.name}' lacks 'axis'",
-                    here,
-                    "which controller axis?",
-                    "add `axis: rax_1` (to rax_6) or `axis: eax_a` (to eax_f)",
-                    key=True,
-                )
-        elif joint.axis in seen:
+        if joint.axis in seen:
             report.error(
                 "RG013",
                 f"joints '{seen[joint.axis]}' and '{joint.name}' both drive {joint.axis}",
                 (*here, "axis"),
                 "second time",
             )
-        seen.setdefault(joint.axis, joint.name)
+        if joint.axis:
+            seen.setdefault(joint.axis, joint.name)
         made = _joint(joint, keys.acceleration_time, here, report)
         if made:
             joints.append(made)
@@ -234,15 +225,25 @@ def _check_radians(draft: GroupDraft, path: KeyPath, report: Report) -> None:
 
 
 def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Report) -> model.Joint | None:
-    missing = [name for name in ("lower", "upper", "speed") if getattr(draft, name) is None]
-    for name in missing:
+    missing = [
+        name
+        for name in ("axis", "lower", "upper", "speed")
+        if getattr(draft, name) in (None, "") and not report.is_faulty((*path, name))
+    ]
+    if missing:
+        unit = "mm" if draft.unit == "mm" else "deg"
+        hints = {
+            "axis": "`axis:` is rax_1 to rax_6 or eax_a to eax_f",
+            "lower": f"limits are in {unit}",
+            "upper": f"limits are in {unit}",
+            "speed": f"`speed:` is in {unit}/s",
+        }
         report.error(
             "RG007",
-            f"joint '{draft.name}' lacks '{name}'",
-            (*path, name),
+            f"joint '{draft.name}' lacks {', '.join(missing)}",
+            path,
             "here",
-            f"add `{name}:` in {'mm' if draft.unit == 'mm' else 'deg'}"
-            f"{'/s' if name == 'speed' else ''}, from the robot's data sheet",
+            "; ".join(dict.fromkeys(hints[name] for name in missing)),
             key=True,
         )
     if draft.lower is None or draft.upper is None or draft.speed is None:

@@ -12,7 +12,7 @@ from rapidgen.config.draft import GroupDraft, JointDraft, Report
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import Link, RobotConfig
 from rapidgen.config.validate import validate
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
 
 
 def load_config(
@@ -35,6 +35,7 @@ def load_config(
     report.found = assembly.found + valid.found
     groups = valid.configuration.groups
     drafts = [_draft(name, keys, assembly.bases.get(name)) for name, keys in groups.items()]
+    _report_unknown(drafts, groups, report)
     _report_wider(drafts, report)
     for draft in drafts:
         given = groups[draft.name].urdf
@@ -106,6 +107,30 @@ def _link(step: schema.ChainStep) -> Link:
     norm = math.sqrt(sum(v * v for v in step.axis)) or 1.0
     a, b, c = (v / norm for v in step.axis)
     return Link(step.joint, (x, y, z), (roll, pitch, yaw), (a, b, c), tuple(step.follows.items()))
+
+
+def _report_unknown(
+    drafts: list[GroupDraft], groups: dict[str, schema.GroupKeys], report: Report
+) -> None:
+    """A joint that the model does not have needs an axis of its own; else it is misspelt."""
+    for draft in drafts:
+        if not draft.known or groups[draft.name].urdf:
+            continue
+        names = [joint.name for joint in draft.joints if joint.axis]
+        for joint in draft.joints:
+            path = ("groups", draft.name, "joints", joint.name)
+            if not joint.axis and not report.is_faulty((*path, "axis")):
+                report.error(
+                    "RG015",
+                    f"{draft.model} has no joint '{joint.name}'",
+                    path,
+                    "not one of the model's",
+                    suggest(joint.name, names)
+                    or f"it has {', '.join(names)}; a further joint "
+                    "needs `axis:`, limits and `speed:`",
+                    key=True,
+                )
+                report.mute(path)
 
 
 def _report_wider(drafts: list[GroupDraft], report: Report) -> None:

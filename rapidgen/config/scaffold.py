@@ -4,6 +4,7 @@ import json
 import math
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.config import schema
@@ -80,6 +81,7 @@ def from_urdf(
     package_paths: Sequence[Path] = (),
     macro: str | None = None,
     arguments: Mapping[str, str] | None = None,
+    macro_arguments: Mapping[str, str] | None = None,
     tip: str | None = None,
 ) -> str:
     """Configuration text for a robot description; `folder` is where the file will lie.
@@ -88,7 +90,11 @@ def from_urdf(
     coupling; whatever else cannot be known raises DiagnosticError with the lines to paste.
     """
     given = schema.Urdf(
-        file=_relative(urdf, folder), macro=macro, args=dict(arguments or {}), tip=tip
+        file=_relative(urdf, folder),
+        macro=macro,
+        macro_args=dict(macro_arguments or {}),
+        args=dict(arguments or {}),
+        tip=tip,
     )
     text, _ = read_xml(urdf)
     coupling: float | None = None
@@ -100,9 +106,7 @@ def from_urdf(
         codes = {d.code for d in errors}
         defined = macros(text)
         if codes == {"RG031"} and len(defined) == 1 and not given.macro:
-            given = schema.Urdf(
-                file=given.file, macro=defined[0].name, args=given.args, tip=given.tip
-            )
+            given = replace(given, macro=defined[0].name)
         elif codes == {"RG047"} and coupling is None:
             coupling = 1.0
         elif errors:
@@ -131,6 +135,7 @@ def _urdf_text(given: schema.Urdf, draft: GroupDraft, packages: Mapping[str, str
         f"  file: {quoted(given.file)}",
     ]
     lines += [f"  macro: {given.macro}"] if given.macro else []
+    lines += [f"  macro_args: {quoted(given.macro_args)}"] if given.macro_args else []
     lines += [f"  tip: {quoted(given.tip)}"] if given.tip else []
     lines += [f"  args: {quoted(given.args)}"] if given.args else []
     lines += [f"  packages: {quoted(packages)}"] if packages else []
@@ -151,6 +156,19 @@ def _joint_line(joint: JointDraft) -> str:
         f"{name}: {{axis: {joint.axis}{unit}}}   "
         f"# {lower:g}..{upper:g} {of}, {joint.speed or 0:.4g} {of}/s"
     )
+
+
+def assignments(words: Sequence[str]) -> dict[str, str]:
+    """NAME=VALUE words; anything else raises DiagnosticError (RG020)."""
+    made = {}
+    for word in words:
+        name, equals, value = word.partition("=")
+        if not name or not equals:
+            raise DiagnosticError(
+                Diagnostic("RG020", Severity.ERROR, f"'{word}' is not NAME=VALUE")
+            )
+        made[name] = value
+    return made
 
 
 def write_new(

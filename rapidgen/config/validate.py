@@ -12,6 +12,7 @@ from typing import Any
 
 from pydantic_core import SchemaValidator, ValidationError
 
+from rapidgen.config.layers import group_names
 from rapidgen.config.rules import core
 from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
 from rapidgen.config.tree import Mapping, error, place_of, to_python
@@ -82,8 +83,10 @@ def _remove(data: Any, path: Path) -> None:
         data.clear()
 
 
-def shown(path: Path) -> str:
-    """A path as a user writes it."""
+def shown(root: Mapping, path: Path) -> str:
+    """A path as a user may write it: the only group's keys stand at the top."""
+    if len(path) > 2 and path[0] == "groups" and len(group_names(root)) == 1:
+        path = path[2:]
     return ".".join(str(part) for part in path)
 
 
@@ -91,7 +94,7 @@ def _missing(root: Mapping, loc: Path) -> Diagnostic:
     key, _ = place_of(root, loc[:-1])
     return error(
         "RG007",
-        f"'{shown(loc[:-1])}' lacks '{loc[-1]}'",
+        f"'{shown(root, loc[:-1])}' lacks '{loc[-1]}'",
         key,
         "here",
         f"add `{loc[-1]}:`",
@@ -103,7 +106,7 @@ def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) ->
     if item["type"] == "unexpected_keyword_argument":
         known = keys_at(path[:-1])
         meant = suggest(str(path[-1]), known)
-        where = f" in '{shown(path[:-1])}'" if len(path) > 1 else ""
+        where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
             "RG005",
             f"unknown key '{path[-1]}'{where}",
@@ -112,7 +115,10 @@ def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) ->
             meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
         )
     return error(
-        "RG006", f"'{shown(path)}': {_reason(item, is_key)}", key if is_key else value, _input(item)
+        "RG006",
+        f"'{shown(root, path)}': {_reason(item, is_key)}",
+        key if is_key else value,
+        _input(item),
     )
 
 

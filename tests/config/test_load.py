@@ -85,7 +85,7 @@ def test_yaml_1_2_reads_yes_as_a_text_and_9e9_as_a_number(tmp_path):
     found = faults(tmp_path, "model: irb120\ncommissioning: yes\ntcp_speed_limit: 9E9\n")
     assert [d.message for d in found] == [
         "'commissioning': must be true or false (YAML 1.2: `yes` and `on` are texts), not 'yes'",
-        "'groups.rob1.tcp_speed_limit': must be at most 10000, not 9000000000.0",
+        "'tcp_speed_limit': must be at most 10000, not 9000000000.0",
     ]
 
 
@@ -280,6 +280,17 @@ def test_an_unknown_model_suggests_one(tmp_path):
     (fault,) = faults(tmp_path, "model: irb1201\n")
     assert fault.code == "RG009"
     assert "did you mean" in fault.help
+
+
+def test_a_misspelt_joint_is_one_finding(tmp_path):
+    found = faults(tmp_path, "model: irb120\njoints: {joint_22: {upper: 90}}")
+    assert places(found) == [("RG015", 2, 10)]
+    assert "did you mean 'joint_2'?" in found[0].help
+
+
+def test_a_joint_of_ones_own_lacks_everything_in_one_finding(tmp_path):
+    (found,) = faults(tmp_path, "joints: {swing: {upper: 90}}")
+    assert (found.code, found.message) == ("RG007", "joint 'swing' lacks axis, lower, speed")
 
 
 def test_radians_in_the_configuration_look_odd(tmp_path):

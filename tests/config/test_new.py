@@ -91,6 +91,18 @@ def test_arguments_and_tip(tmp_path):
     assert load_config(path).groups[0].joints[0].name == "a_joint_1"
 
 
+def test_arguments_of_a_macro(tmp_path):
+    (tmp_path / "r.xacro").write_text(
+        f'<robot {XACRO}><xacro:macro name="arm" params="side">{chain("${side}")}'
+        "</xacro:macro></robot>"
+    )
+    path = tmp_path / "cell.yaml"
+    assert codes(path, urdf=tmp_path / "r.xacro") == (["RG056"], 2)
+    new(path, urdf=tmp_path / "r.xacro", macro_arg=["side=left_"])
+    assert load_config(path).groups[0].joints[0].name == "left_joint_1"
+    assert codes(path, urdf=tmp_path / "r.xacro", macro_arg=["side"]) == (["RG020"], 2)
+
+
 def test_what_cannot_be_known_is_said_and_nothing_is_written(tmp_path):
     (tmp_path / "r.urdf").write_text(
         f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
