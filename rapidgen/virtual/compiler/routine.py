@@ -141,7 +141,11 @@ class RoutineCompiler(Loops):
         w.lines[globals_at].text = f"global {names}" if names else ""
         text, tokens, refunds, synced = w.render()
         name = self.program.code_name(self.routine)
-        code = compile(text, name, "exec", dont_inherit=True)
+        try:
+            code = compile(text, name, "exec", dont_inherit=True)
+        except (SyntaxError, RecursionError) as error:
+            # CPython nests 20 loops and 100 levels of indentation, not more.
+            self.fault(f"statements are nested too deeply ({error.args[0]})", node)
         return code, Compiled(self.routine, self.module, text, tokens, refunds, synced)
 
     def _after_absent(self, index: int) -> bool:
