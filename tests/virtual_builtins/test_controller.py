@@ -108,6 +108,33 @@ def test_pp_to_main_closes_sockets_and_files(cell):
     assert 5000 in cell.network.listeners
 
 
+def test_dynamic_modules_go_at_pp_to_main(cell):
+    """[S4 Load]: \\Dynamic modules vanish, static ones stay."""
+    text = """MODULE work
+        VAR num there := 0;
+        PROC main()
+            IF ModExist("static") there := there + 1;
+            IF ModExist("dynamic") there := there + 10;
+            IF there = 0 THEN
+                Load "HOME:/static.mod";
+                Load \\Dynamic, "HOME:/dynamic.mod";
+            ENDIF
+            WaitTime 100;
+        ENDPROC
+    ENDMODULE"""
+    with make(text.replace("\\\\", "\\"), autostart=False) as c:
+        for name in ("static", "dynamic"):
+            (c.files.folder / "HOME" / f"{name}.mod").write_text(f"MODULE {name}\nENDMODULE\n")
+        c.start_program()
+        c.run_for(1)
+        assert c.task("T_ROB1")["work:there"] == 0
+        c.pp_to_main()
+        c.run_for(0.1)
+        c.start_program()
+        c.run_for(1)
+        assert c.task("T_ROB1")["work:there"] == 1
+
+
 def test_a_plan_acts_at_its_time_and_at_its_statement():
     plan = FaultPlan(
         controller=(
@@ -177,6 +204,7 @@ def test_variables_as_rapid_text(do, cell):
         ({"do": "set-signal", "name": "diStart", "value": 2}, "does not fit"),
         ({"do": "set-signal", "name": "diStart", "value": True}, "no number"),
         ({"do": "override", "value": 101}, "0 to 100"),
+        ({"do": "override", "value": -1}, "0 to 100"),
         ({"do": "override", "value": 50, "group": "rob9"}, "no group"),
         ({"do": "mode", "value": "sleepy"}, "one of auto"),
         ({"do": "log", "since": "x"}, "sequence number"),

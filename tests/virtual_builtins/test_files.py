@@ -209,6 +209,15 @@ def test_a_full_disk(bench, monkeypatch):
     assert caught.value.name == "ERR_FILEACC"
 
 
+def test_opening_again_closes_what_was_open(bench):
+    """A device that is opened 70 times in a row holds one file, not 70."""
+    device = IODevice()
+    for i in range(70):
+        bench("Open", f"f{i}", device)
+    bench("Write", device, "x")
+    assert bench("FileSize", "f69") == 2
+
+
 def test_too_many_open_files(bench):
     devices = [IODevice() for _ in range(65)]
     for i, device in enumerate(devices[:64]):

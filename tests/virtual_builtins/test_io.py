@@ -209,7 +209,11 @@ def test_wait_analogue_and_group(plant):
         with pytest.raises(RapidError):
             bench.call(task, "WaitAI", io["ai1"], 5, LT=True, MaxTime=1, ValueAtTimeout=at_end)
         bench.call(task, "WaitGI", io["gi1"], 0, NOTEQ=True)
-        return round(above, 3), at_end.get(), round(bench.now, 3)
+        changed = round(bench.now, 3)
+        bench.call(task, "WaitGO", io["go1"], 3)
+        bench.call(task, "WaitGO", io["go1"], 4, LT=True)
+        bench.call(task, "WaitAO", io["ao1"], 1)
+        return round(above, 3), at_end.get(), changed, round(bench.now, 3)
 
     def ramp(task):
         for i in range(1, 7):
@@ -217,8 +221,12 @@ def test_wait_analogue_and_group(plant):
             io.set(io["ai1"], i)
         task.sleep(2)
         io.set(io["gi1"], 3)
+        task.sleep(1)
+        io.set(io["go1"], 3)
+        task.sleep(1)
+        io.set(io["ao1"], 1)
 
-    assert bench.run(body, ramp)[0] == (6, 6, 8)
+    assert bench.run(body, ramp)[0] == (6, 6, 8, 10)
 
 
 # -- the configuration ----------------------------------------------------------------------

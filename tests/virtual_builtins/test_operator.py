@@ -137,12 +137,17 @@ def test_breaks_in_time(waiting):
 
 def test_message_boxes(make_bench):
     bench = make_bench(answers=[Answer("Yes"), Answer("2"), Answer("cancel"), Answer("OK")])
+    every = ((0, "OK", 1), (1, "Abort", 2), (1, "Retry", 3), (1, "Ignore", 4), (3, "Retry", 3),
+             (5, "No", 7), (5, "Cancel", 5))  # fmt: skip
     assert bench("UIMessageBox", Message="sure?", Buttons=4) == 6
     assert bench("UIMessageBox", BtnArray={1: "left", 2: "right"}) == 2
     result = bench.box(0)
     bench("UIMsgBox", "line", Buttons=2, Result=result)
     assert result.get() == 5
     bench("UIMsgBox", "line")
+    for buttons, label, number in every:
+        other = make_bench(answers=[Answer(label)])
+        assert other("UIMessageBox", Buttons=buttons) == number
 
 
 def test_default_button_of_a_box_that_is_broken_off(waiting):
@@ -157,6 +162,9 @@ def test_number_and_text_entry(make_bench):
     assert bench("UINumEntry", MinValue=1, MaxValue=10) == 2.5
     assert bench("UIDnumEntry", MinValue=1, MaxValue=10, AsInteger=True) == 8
     assert bench("UIAlphaEntry", Message="who?") == "name"
+    flag = bench.box(0)
+    assert bench("UIAlphaEntry", InitString="x", MaxTime=1, BreakFlag=flag) == "x"
+    assert flag.get() == errnum("ERR_TP_MAXTIME")
 
 
 @pytest.mark.parametrize(

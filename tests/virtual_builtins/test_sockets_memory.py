@@ -286,6 +286,37 @@ def test_closing_a_task_closes_its_sockets_only(bench):
     assert (mine.status, others.status) == (SocketStatus.CLOSED, SocketStatus.CREATED)
 
 
+def test_a_crowd_waits_until_there_is_room_in_the_backlog(bench):
+    """16 clients wait to be accepted; the 17th asks again, as TCP does, and is served."""
+    network = bench.controller.network
+    server = SocketDevice()
+    accepted = [SocketDevice() for _ in range(20)]
+
+    def body(task):
+        serve(bench, task, server, accepted[0])
+        task.sleep(0.5)
+        for client in accepted[1:]:
+            bench.call(task, "SocketAccept", server, client, Time=3)
+        return round(bench.now)
+
+    def crowd(task):
+        task.sleep(0.1)
+        endpoints = [network.connect("127.0.0.1", PORT) for _ in range(20)]
+        task.sleep(0.4)
+        early = sum(endpoint.connected for endpoint in endpoints)
+        task.sleep(3)
+        return early, sum(endpoint.connected for endpoint in endpoints)
+
+    assert bench.run(body, crowd)[1] == (17, 20)
+
+
+def test_a_closed_endpoint_gives_its_port_back(bench):
+    network = bench.controller.network
+    first = network.bind("127.0.0.1", 0)
+    network.close(first)
+    assert network.bind("127.0.0.1", 0).local == first.local
+
+
 def test_datagrams(bench):
     one, two = SocketDevice(), SocketDevice()
     text, address, port = bench.box(""), bench.box(""), bench.box(0)

@@ -5,7 +5,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.text import NotALiteral, number_text, parse_value, value_text
+from rapidgen.virtual.text import (
+    NotALiteral,
+    literal_text,
+    number_text,
+    parse_value,
+    value_text,
+)
 from rapidgen.virtual.values import (
     BOOL,
     DNUM,
@@ -29,6 +35,8 @@ from rapidgen.virtual.values import (
         (4.999998, "5"),  # a fraction above 0.999995 makes it whole
         (7.000004, "7"),  # so does one below 0.000005
         (-0.25, "-0.25"),
+        (0.000004, "0"),
+        (0.00001, "1E-05"),  # [mem]
         (-0.0, "0"),
         (100000, "100000"),
         (9e9, "9E+09"),  # [mem]
@@ -151,6 +159,16 @@ def test_text_of_a_string_reads_back(text):
     assert parse_value(value_text(text), STRING) == text
 
 
+@given(st.floats(width=32, allow_nan=False, allow_infinity=False))
+def test_a_saved_num_is_exactly_the_same_num(value):
+    assert parse_value(literal_text(single(value), NUM), NUM) == single(value)
+
+
+@given(st.floats(allow_nan=False, allow_infinity=False))
+def test_a_saved_dnum_is_exactly_the_same_dnum(value):
+    assert parse_value(literal_text(value, DNUM), DNUM) == value
+
+
 @given(st.text(max_size=40))
 def test_no_text_breaks_the_reader(text):
     for type_ in (NUM, BOOL, STRING, Pos.rapid_type):
@@ -180,6 +198,9 @@ def test_str_find_and_match(bench):
     """Nothing found is length + 1; a position outside is an error [S4 StrFind, StrMatch]."""
     assert bench("StrFind", "Robotics", 1, "aeiou") == 2
     assert bench("StrFind", "Robotics", 1, "aeiou", NotInSet=True) == 1
+    assert bench("StrFind", "Robotics", 2, "aeiou") == 2
+    assert bench("StrFind", "Robotics", 8, "s") == 8
+    assert bench("StrMatch", "Robotics", 3, "bo") == 3
     assert bench("StrFind", "Robotics", 3, "xyz") == 9
     assert bench("StrMatch", "Robotics", 1, "bo") == 3
     assert bench("StrMatch", "Robotics", 1, "BO") == 9

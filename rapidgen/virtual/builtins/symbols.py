@@ -224,7 +224,8 @@ def get_sys_data(
     value = default.get() if active is None else active
     target.set(copy_value(value))
     if name is not None:
-        name.set(_name_of(owner, kind, value) or _ACTIVE[kind])
+        known = "" if active is None else _name_of(owner, kind, value)
+        name.set(known or _ACTIVE[kind])
 
 
 def _name_of(task: Task, kind: str, value: object) -> str:

@@ -9,11 +9,18 @@ MODULE symbols
     ! expect: ERR_SYM_ACCESS
     ! expect: ERR_SYMBOL_TYPE
     ! expect: hidden 3
+    ! expect: 11 11 3 1
+    ! expect: tool0
+    ! expect: gripper 5
+    ! expect: gripper
     VAR num my_a := 7;
     PERS num my_b := 8;
     CONST num my_c := 1;
     LOCAL VAR num hidden := 3;
     VAR num list{3} := [4,5,6];
+    PERS tooldata gripper := [TRUE,[[0,0,5],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
+
+    PERS tooldata tool := [TRUE,[[0,0,0],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];
 
     PROC main()
         VAR num n;
@@ -21,6 +28,7 @@ MODULE symbols
         VAR string name;
         VAR string names := "";
         VAR datapos block;
+        VAR num same := 11;
         GetDataVal "my_a", n;
         TPWrite ValToStr(n);
         SetDataVal "my_b", 9;
@@ -43,6 +51,16 @@ MODULE symbols
             GetDataVal name \Block:=block, n;
             TPWrite name + " " + ValToStr(n);
         ENDIF
+        SetAllDataVal "num" \Object:="my_.*", same;
+        TPWrite ValToStr(my_a) + " " + ValToStr(my_b) + " " + ValToStr(hidden) + " " + ValToStr(my_c);
+        GetSysData tool \ObjectName:=name;
+        TPWrite name;
+        SetSysData gripper;
+        GetSysData tool \ObjectName:=name;
+        TPWrite name + " " + ValToStr(tool.tframe.trans.z);
+        SetSysData tool \ObjectName:="gripper";
+        GetSysData tool \ObjectName:=name;
+        TPWrite name;
     ERROR
         IF ERRNO = ERR_SYM_ACCESS TPWrite "ERR_SYM_ACCESS";
         IF ERRNO = ERR_SYMBOL_TYPE TPWrite "ERR_SYMBOL_TYPE";
