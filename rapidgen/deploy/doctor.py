@@ -13,6 +13,7 @@ from rapidgen.deploy.secrets import Credentials, Secret
 from rapidgen.deploy.target import Access, Target, connect, credentials
 from rapidgen.deploy.transport import Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system import Instance
 
 Verdict = Literal["ok", "warn", "fail", "unknown"]
 
@@ -266,6 +267,10 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
                 f"{key[2]} starts with {other.text('Entry', 'main')} there",
                 "its entry routine will be replaced: `rapidgen plan` shows it",
             )
+
+
+def _entry(task: Instance) -> str:
+    return task.text("Entry") or "main"
 
 
 def _space(transport: Transport, wanted: DriverSet) -> Check:

@@ -54,8 +54,7 @@ def strangers(plan: Plan) -> list[tuple[Record, bytes]]:
     count = len(plan.origin)
     found: list[tuple[Record, bytes]] = []
     for change in plan.changes:
-        foreign = change.foreign or (change.kind == "syspar" and change.action == "change")
-        if foreign and change.before is not None and change.path not in plan.origin:
+        if change.foreign and change.before is not None and change.path not in plan.origin:
             record = Record(
                 change.path,
                 digest(change.before),

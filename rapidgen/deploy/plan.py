@@ -157,9 +157,16 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
         action: Action = "add" if change.before is None else "change"
         if change.after is None:
             action = "remove"
-        path = change.path
         changes.append(
-            Change(path, path, action, "syspar", before=change.before, after=change.after)
+            Change(
+                change.path,
+                change.path,
+                action,
+                "syspar",
+                before=change.before,
+                after=change.after,
+                foreign=change.foreign,
+            )
         )
     touched = any(c.action != "same" for c in changes)
     steps = steps_of(

@@ -24,6 +24,8 @@ class SysparChange:
     path: str
     before: bytes | None
     after: bytes | None
+    foreign: bool
+    """Whether no deployment has touched the file before."""
 
 
 def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
@@ -78,7 +80,9 @@ def syspar_changes(
         original = read_or_none(transport, copy) if copy else None
         if original is not None and _plain(parse_cfg(original)) == _plain(new):
             after = original
-        changes.append(SysparChange(text.path, file.data if file else None, after))
+        touched = any(name.startswith(f"{domain} ") for name in before)
+        data = file.data if file else None
+        changes.append(SysparChange(text.path, data, after, data is not None and not touched))
     return changes
 
 

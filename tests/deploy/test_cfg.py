@@ -1,0 +1,94 @@
+"""cfg instances beside HOME: seen, merged, and taken back."""
+
+import pytest
+
+from rapidgen.deploy import make_plan
+from rapidgen.deploy.folder import FolderTransport
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system import parse_cfg
+
+OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
+SYS = """SYS:CFG_1.0:6:0::\r
+#\r
+CAB_TASKS:\r
+\r
+      -Name "T_ROB1" -Type "NORMAL" -Entry "their_main" -MotionTask\r
+\r
+      -Name "T_THEIRS" -Type "STATIC"\r
+#\r
+MMC_REAL10:\r
+\r
+      -Name "theirs"\r
+"""
+
+
+@pytest.fixture
+def controller(tmp_path):
+    """A system folder: HOME and SYSPAR, as a backup has them. No EIO.cfg yet."""
+    (tmp_path / "c/HOME").mkdir(parents=True)
+    (tmp_path / "c/SYSPAR").mkdir()
+    (tmp_path / "c/SYSPAR/SYS.cfg").write_text(SYS, newline="")
+    return tmp_path / "c"
+
+
+def actions(plan):
+    return {c.key: c.action for c in plan.cfg}
+
+
+def test_instances_are_added_changed_and_given_back_byte_for_byte(kit, controller):
+    transport = FolderTransport(controller)
+    plan = kit.deploy(transport, kit.driver(OLD))
+    assert actions(plan)["CAB_TASKS T_ROB1"] == "change"
+    assert actions(plan)["CAB_TASKS T_ROS_state"] == "add"
+    assert not any("load HOME:" in step.what for step in plan.steps)
+    assert kit.verdict(controller / "HOME", kit.driver(OLD)) == "set 0"
+    merged = parse_cfg((controller / "SYSPAR/SYS.cfg").read_bytes())
+    names = [i.text("Name") for i in merged.instances("CAB_TASKS")]
+    assert names == ["T_ROB1", "T_THEIRS", "T_ROS_server", "T_ROS_state"]
+    assert [i.text("Name") for i in merged.instances("MMC_REAL10")] == ["theirs"]
+    assert b"\r\n" in (controller / "SYSPAR/SYS.cfg").read_bytes()
+    assert make_plan(transport, kit.driver(OLD)).is_empty
+    plan = kit.deploy(transport, kit.driver(NEW, signals=("signalOther",)))
+    assert actions(plan)["EIO_SIGNAL signalOther"] == "add"
+    assert actions(plan)["EIO_SIGNAL signalMotorOn"] == "remove"
+    kit.deploy(transport, None, verb="uninstall")
+    assert (controller / "SYSPAR/SYS.cfg").read_text() == SYS.replace("\r\n", "\n")
+    assert (controller / "SYSPAR/SYS.cfg").read_bytes() == SYS.encode()
+    assert not (controller / "SYSPAR/EIO.cfg").exists()
+    assert list((controller / "HOME").iterdir()) == []
+
+
+def test_what_others_changed_meanwhile_stays(kit, controller):
+    transport = FolderTransport(controller)
+    kit.deploy(transport, kit.driver(OLD))
+    path = controller / "SYSPAR/SYS.cfg"
+    text = path.read_bytes().decode()
+    path.write_text(text.replace('"T_THEIRS"', '"T_RENAMED"'), newline="")
+    assert make_plan(transport, kit.driver(OLD)).is_empty
+    kit.deploy(transport, None, verb="uninstall")
+    left = parse_cfg(path.read_bytes())
+    assert [i.text("Name") for i in left.instances("CAB_TASKS")] == ["T_ROB1", "T_RENAMED"]
+    assert next(left.instances("CAB_TASKS")).text("Entry") == "their_main"
+
+
+def test_the_wrong_robotware_is_refused_before_anything_changes(kit, controller):
+    with pytest.raises(DiagnosticError) as caught:
+        kit.deploy(FolderTransport(controller), kit.driver(OLD, robotware=(7, 13)))
+    assert caught.value.diagnostics[0].code == "RG525"
+    assert list((controller / "HOME").iterdir()) == []
+
+
+def test_without_syspar_loading_is_a_step_at_the_pendant(kit, home):
+    transport = FolderTransport(home)
+    plan = kit.deploy(transport, kit.driver(OLD))
+    steps = [s.what for s in plan.steps]
+    assert any(
+        s.startswith("load HOME:/rapidgen_deploy/SYS.cfg (9 instances to add") for s in steps
+    )
+    assert any("T_ROB1 (NORMAL) reads ROS_common.sys, ROS_motion.mod" in s for s in steps)
+    assert [s.stops_motion for s in plan.steps if "Restart" in s.what] == [True] * 3
+    again = kit.deploy(transport, kit.driver(NEW, signals=("signalOther",)))
+    steps = [s.what for s in again.steps]
+    assert any("load HOME:/rapidgen_deploy/EIO.cfg (1 instances to add" in s for s in steps)
+    assert not any("SYS.cfg" in s for s in steps)
+    assert any("loading removes nothing" in s and "signalMotorOn" in s for s in steps)

@@ -1,0 +1,190 @@
+"""plan, deploy, rollback, uninstall and doctor as commands."""
+
+import json
+
+import pytest
+import typer
+
+from rapidgen.cli.deploy import deploy
+from rapidgen.cli.doctor import doctor
+from rapidgen.cli.plan import plan
+from rapidgen.cli.rollback import rollback
+from rapidgen.cli.uninstall import uninstall
+from rapidgen.deploy import parse_target
+from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
+from rapidgen.diagnostics import DiagnosticError, render
+
+OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
+VERBS = (plan, deploy, rollback, uninstall, doctor)
+
+
+@pytest.fixture
+def run(capsys):
+    """Run a verb: exit code, stdout, stderr with diagnostics as the command shows them."""
+    app = typer.Typer(pretty_exceptions_enable=False)
+    for verb in VERBS:
+        app.command(verb.__name__)(verb)
+    command = typer.main.get_command(app)
+
+    def run_(*words):
+        shown = ""
+        try:
+            code = command.main(args=[str(w) for w in words], standalone_mode=False)
+        except DiagnosticError as error:
+            code, shown = error.exit_code, render(error.diagnostics)
+        said = capsys.readouterr()
+        return code or 0, said.out, said.err + shown
+
+    return run_
+
+
+@pytest.fixture
+def built(kit, tmp_path):
+    """Generated folders of two builds."""
+
+    def write(build, **options):
+        folder = tmp_path / f"out-{build}"
+        for path, data in kit.driver_files(build, **options).items():
+            (folder / path).parent.mkdir(parents=True, exist_ok=True)
+            (folder / path).write_bytes(data)
+        return folder
+
+    return write
+
+
+def test_plan_then_exactly_that_plan(run, built, home, tmp_path, kit):
+    url, file = f"dir://{home}", tmp_path / "plan.json"
+    code, out, _ = run("plan", built(OLD), "--to", url, "--detailed-exitcode", "--out", file)
+    assert code == 2
+    assert "  + HOME:/rapidgen/ROS_common.sys " in out
+    assert "Plan: 6 to add, 0 to change, 0 to remove." in out
+    assert run("plan", built(OLD), "--to", url)[0] == 0
+    assert json.loads(file.read_text())["plans"][0]["name"] == "cell1"
+    code, _, err = run("deploy", built(NEW), "--to", url, "--plan", file, "--yes")
+    assert (code, "RG523" in err) == (1, True)
+    code, out, _ = run("deploy", built(OLD), "--to", url, "--plan", file, "--yes")
+    assert (code, out) == (0, f"{url}  done      6 files, build {OLD}\n")
+    assert kit.verdict(home, kit.driver(OLD)) == "set 0"
+    assert run("plan", built(OLD), "--to", url, "--detailed-exitcode")[0] == 0
+    code, _, err = run("deploy", built(OLD), "--to", url, "--plan", file, "--yes")
+    assert (code, "RG522" in err) == (1, True)
+    code, _, err = run("plan", built(OLD), "--to", "dir:///nowhere", "--detailed-exitcode")
+    assert (code, "RG506" in err) == (1, True)
+
+
+def test_nobody_there_to_answer(run, built, home, monkeypatch):
+    class NoTerminal:
+        def isatty(self):
+            return False
+
+    monkeypatch.setattr("sys.stdin", NoTerminal())
+    code, _, err = run("deploy", built(OLD), "--to", f"dir://{home}")
+    assert (code, "RG533" in err) == (1, True)
+    assert list(home.iterdir()) == []
+
+
+def test_rollback_lists_and_restores_and_uninstall_saves_edits(
+    run, built, home, kit, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    url = f"dir://{home}"
+    run("deploy", built(OLD), "--to", url, "--yes")
+    code, _, err = run("rollback", built(OLD), "--to", url, "--yes")
+    assert (code, "RG528" in err) == (1, True)
+    run("deploy", built(NEW), "--to", url, "--yes")
+    code, out, _ = run("rollback", built(NEW), "--to", url, "--list")
+    assert code == 0
+    assert out.startswith(f"{url}  2  20")
+    assert out.endswith(f"build {OLD}\n")
+    assert run("rollback", built(NEW), "--to", url, "--yes")[0] == 0
+    assert kit.verdict(home, kit.driver(OLD)) == "set 0"
+    assert run("rollback", built(NEW), "99", "--to", url, "--yes")[0] == 1
+    (home / "rapidgen/ROS_motion.mod").write_text("mine")
+    code, _, err = run("uninstall", built(NEW), "--to", url, "--yes")
+    assert (code, "RG520" in err) == (1, True)
+    code, _, err = run("uninstall", built(NEW), "--to", url, "--yes", "--overwrite")
+    assert code == 0
+    assert list(home.iterdir()) == []
+    (kept,) = (tmp_path / ".rapidgen").rglob("ROS_motion.mod")
+    assert kept.read_text() == "mine"
+
+
+def test_several_controllers_stop_at_the_first_failure(run, built, tmp_path, kit):
+    homes = [tmp_path / f"h{n}" for n in range(4)]
+    for home in homes:
+        home.mkdir()
+    listed = tmp_path / "list.txt"
+    listed.write_text("# cells\n" + "".join(f"dir://{home}\n" for home in homes))
+    (homes[1] / "rapidgen_deploy").write_text("in the way")
+    code, out, err = run("deploy", built(OLD), "--to", f"@{listed}", "--yes", "--parallel", "1")
+    assert code == 1
+    assert "RG506" in err
+    assert [line.split()[1] for line in out.splitlines()] == ["done", "failed", "not", "not"]
+    assert [list(h.iterdir()) for h in homes[2:]] == [[], []]
+    (homes[1] / "rapidgen_deploy").unlink()
+    code, out, _ = run("deploy", built(OLD), "--to", f"@{listed}", "--yes")
+    assert code == 0
+    assert [line.split()[1] for line in out.splitlines()] == ["same", "done", "done", "done"]
+    code, _, err = run("deploy", built(NEW), "--to", "dir:///nowhere", "--to", f"@{listed}", "-y")
+    assert (code, "RG506" in err) == (1, True)  # found while planning: nothing is changed anywhere
+    assert [kit.verdict(h, kit.driver(OLD)) for h in homes] == ["set 0"] * 4
+
+
+def test_doctor(run, built, home):
+    (home / "theirs.mod").write_text("MODULE ROS_motion\n  PROC main()\n  ENDPROC\nENDMODULE\n")
+    code, out, _ = run("doctor", built(OLD), "--to", f"dir://{home}", "--json")
+    checks = {c["area"]: c for c in json.loads(out)}
+    assert code == 1
+    assert checks["names"]["verdict"] == "fail"
+    assert "theirs.mod holds a module ROS_motion too" in checks["names"]["found"]
+    assert checks["reach"]["verdict"] == "ok"
+    assert checks["RobotWare"]["verdict"] == "unknown"
+    assert list(p.name for p in home.iterdir()) == ["theirs.mod"]
+
+
+@pytest.mark.parametrize(
+    ("url", "code"),
+    [
+        ("192.168.125.1", "RG509"),
+        ("ftpp://x/", "RG509"),
+        ("rws://x/", "RG509"),
+        ("ftp:///HOME", "RG509"),
+        ("ftp://h:99999/", "RG509"),
+        ("ftp://h/a/../../b", "RG509"),
+        ("ftp://h/a%0d%0aDELE%20x", "RG509"),
+        ("ftp://h/?x=1", "RG509"),
+        ("ftp://user:s3cret@h/", "RG510"),
+    ],
+)
+def test_bad_urls(url, code):
+    with pytest.raises(DiagnosticError) as caught:
+        parse_target(url)
+    (found,) = caught.value.diagnostics
+    assert found.code == code
+    assert "s3cret" not in str(found)
+
+
+def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp_path, monkeypatch):
+    file = tmp_path / "secrets.toml"
+    file.write_text(
+        '["10.0.0.1"]\nuser = "u"\npassword = "s3cret"\n[default]\npassword = "other"\n'
+    )
+    file.chmod(0o644)
+    with pytest.raises(DiagnosticError) as caught:
+        find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
+    assert caught.value.diagnostics[0].code == "RG511"
+    file.chmod(0o600)
+    login = find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
+    assert (login.user, login.password.get()) == ("u", "s3cret")
+    assert "s3cret" not in f"{login!r} {login.password} {login.password!r}"
+    assert redact("530 no such pass s3cret", login) == "530 no such pass ***"
+    other = find_password(Credentials("x"), "10.0.0.2", 21, secrets=file, ask=False)
+    assert (other.user, other.password.get()) == ("x", "other")
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "from env")
+    login = find_password(Credentials("x"), "h", 21, secrets=None, ask=False)
+    assert login.password.get() == "from env"
+    assert Credentials("Default User", Secret("robotics")).is_default
+    file.write_text('password = "s3cret\n')
+    with pytest.raises(DiagnosticError) as caught:
+        find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
+    assert "s3cret" not in render(caught.value.diagnostics)
