@@ -1,7 +1,7 @@
 """Programs in RAPID that say what they expect: see tests/virtual_core/test_conformance.py.
 
 `! source:`, `! expect:` (one TPWrite, in order), `! fault: NUMBER LINE`, `! signal: NAME TYPE`,
-`! task: NAME ENTRY`.
+`! task: NAME ENTRY`, `! robot: SHIPPED NAME`.
 """
 
 import re
@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from rapidgen.config import load_config
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 from rapidgen.virtual.controller import VirtualController
+from rapidgen.virtual.mechanics import groups_for
 
 HERE = Path(__file__).parent / "conformance"
 FILES = sorted(HERE.glob("*.mod"))
@@ -29,9 +31,9 @@ def _execute(path):
         name, entry = line.split()
         tasks.append(TaskSpec(name, "NORMAL", "SysFail", entry, False, "", modules))
     printed = []
-    with VirtualController(
-        System(path.stem, tuple(tasks), signals), cycle="once", autostart=False
-    ) as controller:
+    system = System(path.stem, tuple(tasks), signals)
+    robots = [g for name in _marks(text, "robot") for g in groups_for(system, load_config(name))]
+    with VirtualController(system, robots, cycle="once", autostart=False) as controller:
         controller.operator.subscribe(lambda _, line: printed.append(line))
         controller.start_program()
         assert controller.run(max_time=100) == "finished", controller.where()

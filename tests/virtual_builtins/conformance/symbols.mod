@@ -1,5 +1,6 @@
 MODULE symbols
     ! source: 3HAC16581-1 GetDataVal, SetDataVal, SetDataSearch, GetNextSym [manual]; error pairing [mem]
+    ! robot: irb120
     ! expect: 7
     ! expect: 9
     ! expect: 4
