@@ -52,8 +52,15 @@ class JointMap:
             for joint in self.joints
         )
 
+    @cached_property
+    def _plain(self) -> bool:
+        """Whether URDF and controller values are the same, as they are for most robots."""
+        return not self.coupling and all(j.sign == 1 and j.offset == 0 for j in self.joints)
+
     def to_controller(self, urdf: Sequence[float]) -> tuple[float, ...]:
         """Controller axis values of URDF joint values."""
+        if self._plain and len(urdf) == len(self.joints):
+            return tuple(urdf)
         values = [j.sign * v + j.offset for j, v in zip(self.joints, urdf, strict=True)]
         if self._coupled is not None:
             second, third = self._coupled
@@ -62,6 +69,8 @@ class JointMap:
 
     def to_urdf(self, controller: Sequence[float]) -> tuple[float, ...]:
         """URDF joint values of controller axis values."""
+        if self._plain and len(controller) == len(self.joints):
+            return tuple(controller)
         values = list(controller)
         if self._coupled is not None:
             second, third = self._coupled

@@ -264,6 +264,28 @@ def test_a_line_through_the_wrist_singularity(make_cell, zones):
     cell.run(program)
 
 
+def test_with_sing_area_wrist_the_line_goes_through_the_singularity(make_cell, zones):
+    """S4 datasys 2-SingArea: wrist axes straight in joint space, TCP on the line."""
+    cell = make_cell()
+    group = cell.group
+    group.jump((0.3, 0.0, 0.0, 0.4, 0.4, 0.0))
+    own = group.kinematics
+    start, end = (own.forward((0.3, 0.0, 0.0, 0.4, a5, 0.0)) for a5 in (0.4, -0.4))
+    move = CartesianMove(
+        target=end, external=group.positions(), speed=Speed(0.1), zone=zones(0), wrist=True
+    )
+    cell.run(lambda task: group.move(task, move))
+    places = np.array([own.forward(tuple(q))[0] for q in cell.path]) - np.array(start[0])
+    line = np.array(end[0]) - np.array(start[0])
+    off = places - np.outer(places @ line / (line @ line), line)
+    assert np.abs(off).max() < 1e-7
+    assert places[-1] == pytest.approx(line, abs=1e-7)
+    assert frames.angle_between(own.forward(group.positions())[1], end[1]) < 1e-6
+    wrist = cell.path[:, 4]
+    assert (np.diff(wrist) <= 1e-12).all()
+    assert cell.shares()[1] < 1.1
+
+
 def test_a_line_that_ends_in_another_configuration(robot, linear):
     def program(task):
         with pytest.raises(FatalError) as error:

@@ -10,7 +10,8 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.virtual.builtins.positions import carrier_for
-from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.access import group_of
 from rapidgen.virtual.motion.arguments import frame
 from rapidgen.virtual.motion.group import MotionGroup
@@ -78,10 +79,13 @@ def conf_j(task: Task, _on: bool | None, off: bool | None) -> None:
 
 @builtin("SingArea")
 def sing_area(task: Task, wrist: bool | None, lock_axis_4: bool | None, _off: bool | None) -> None:
-    """\\Wrist: wrist axes go straight in joint space on linear and circular moves."""
-    modal = group_of(task).modal
-    modal.wrist = bool(wrist)
-    modal.extra["LockAxis4"] = bool(lock_axis_4)
+    """\\Wrist: wrist axes go straight in joint space on linear and circular moves.
+
+    FatalError: \\LockAxis4 is not simulated.
+    """
+    if lock_axis_4:
+        raise FatalError(events.NOT_SIMULATED, "SingArea \\LockAxis4 is not simulated")
+    group_of(task).modal.wrist = bool(wrist)
 
 
 # -- displacement and offsets -------------------------------------------------------------------

@@ -11,9 +11,17 @@ from rapidgen.axes.limits import outside
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
-from rapidgen.virtual.motion.moves import CartesianMove, Measure, Posture, largest, nominal_time
+from rapidgen.virtual.motion.moves import (
+    NO_TURN,
+    CartesianMove,
+    Measure,
+    Posture,
+    largest,
+    nominal_time,
+)
 from rapidgen.virtual.motion.pieces import AxisLimits, Curve, Piece
 from rapidgen.virtual.motion.sampling import interval_limits, largest_step, spaced
+from rapidgen.virtual.motion.singular import put_tcp, wrist_end, wrist_places
 from rapidgen.virtual.motion.timed import SHORTEST, timed
 
 _STEP = 0.12
@@ -27,9 +35,20 @@ class CartesianWay:
     """The way of a CartesianMove over its nominal time."""
 
     __slots__ = (
-        "_external", "_kinematics", "_nodes", "_shares", "carrier", "duration", "limits",
-        "measure", "shape", "target",
-    )  # fmt: skip
+        "_external",
+        "_kinematics",
+        "_nodes",
+        "_places",
+        "_shares",
+        "_turns",
+        "_wrist",
+        "carrier",
+        "duration",
+        "limits",
+        "measure",
+        "shape",
+        "target",
+    )
 
     def __init__(
         self,
@@ -43,11 +62,16 @@ class CartesianWay:
         self._kinematics = kinematics
         self.carrier = move.carrier
         self.limits = limits
+        self._places = external_places(kinematics)
         self.shape = _shape(move.carrier.pose(kinematics.forward(origin)), move)
         self._external = (origin, move.external)
         self.measure = Measure(
             self.shape.length, self.shape.angle, *_external_measure(kinematics, origin, move)
         )
+        self._wrist: tuple[Posture, Posture] | None = None
+        if move.wrist:
+            self._wrist = origin, wrist_end(kinematics, move, origin)
+        self._turns = self.measure.angle > NO_TURN
         self._shares, self._nodes = self._sample(origin)
         self.target = self._nodes[-1]
         fastest, acceleration = self._bounds()
@@ -69,8 +93,12 @@ class CartesianWay:
 
     def pose(self, time: float) -> Pose:
         """TCP in the object. Times may lie outside the way."""
-        share = time / self.duration
-        return self.shape.position(share), self.shape.orientation(share)
+        return self._pose(time / self.duration)
+
+    @property
+    def orientation(self) -> frames.Quaternion | None:
+        """The orientation when it is the same all along."""
+        return None if self._turns else self.shape.start[1]
 
     def velocity(self, time: float) -> frames.Vector:
         """TCP in the object, m per nominal s."""
@@ -129,19 +157,40 @@ class CartesianWay:
                 raise RapidError("ERR_ROBLIMIT", str(faults[0]))
         return shares, nodes
 
-    def _solve(self, share: float, near: Posture) -> Posture:
-        pose = self.shape.position(share), self.shape.orientation(share)
-        linear = self._linear(share)
-        start = tuple(
-            external if joint.axis.startswith("eax") else robot
-            for joint, robot, external in zip(
-                self._kinematics.group.joints, near, linear, strict=True
-            )
+    def _pose(self, share: float) -> Pose:
+        shape = self.shape
+        return (
+            shape.position(share),
+            shape.orientation(share) if self._turns else shape.start[1],
         )
-        found = self._kinematics.follow(self.carrier.flange(pose), start)
+
+    def _solve(self, share: float, near: Posture) -> Posture:
+        pose = self._pose(share)
+        if self._places:
+            near = with_external(near, self._linear(share), self._places)
+        if self._wrist is not None:
+            return self._solve_wrist(share, near)
+        found = self._kinematics.follow(self.carrier.flange(pose), near)
         if found is None:
             raise RapidError("ERR_OUTSIDE_REACH", f"{tuple(round(v, 4) for v in pose[0])} m")
         return found
+
+    def _solve_wrist(self, share: float, near: Posture) -> Posture:
+        """Wrist axes on their straight way, the main axes put the TCP on its own."""
+        assert self._wrist is not None
+        wrist, (first, last) = wrist_places(self._kinematics), self._wrist
+        values = list(near)
+        for i in wrist:
+            values[i] = first[i] + (last[i] - first[i]) * share
+        found = put_tcp(self._kinematics, self.carrier, self.shape.position(share), tuple(values))
+        if found is None:
+            raise RapidError("ERR_OUTSIDE_REACH", "with SingArea \\Wrist")
+        return found
+
+    @property
+    def joins_poses(self) -> bool:
+        """Whether a corner may be made from poses: the orientation is that of the shape."""
+        return self._wrist is None
 
     def _linear(self, share: float) -> Posture:
         first, last = self._external
@@ -169,6 +218,20 @@ class CartesianWay:
                     fastest = max(fastest, rate / v)
                     acceleration = min(acceleration, acc / rate)
         return fastest, acceleration
+
+
+def external_places(kinematics: Kinematics) -> tuple[int, ...]:
+    """Where the external axes are in wire order."""
+    joints = kinematics.group.joints
+    return tuple(i for i, joint in enumerate(joints) if joint.axis.startswith("eax"))
+
+
+def with_external(posture: Posture, external: Posture, places: tuple[int, ...]) -> Posture:
+    """A posture with the external axes of another one."""
+    values = list(posture)
+    for place in places:
+        values[place] = external[place]
+    return tuple(values)
 
 
 def _shape(start: Pose, move: CartesianMove) -> Line | Arc:

@@ -12,9 +12,10 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Quaternion, Vector
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.motion.cartesian import CartesianWay
+from rapidgen.virtual.motion.cartesian import CartesianWay, external_places, with_external
 from rapidgen.virtual.motion.legs import Geometry, JointWay, Leg
 from rapidgen.virtual.motion.moves import (
+    NO_TURN,
     NO_WAY,
     Posture,
     Zone,
@@ -55,7 +56,8 @@ def corner(
     if isinstance(way, CartesianWay) and isinstance(after, CartesianWay):
         if (way.measure.tcp > NO_WAY) != (after.measure.tcp > NO_WAY):
             return None  # TCP motion next to pure reorientation (S4 overview p.5-17)
-        if way.carrier == after.carrier and kinematics is not None:
+        poses = way.joins_poses and after.joins_poses and way.carrier == after.carrier
+        if poses and kinematics is not None:
             wide = _extended(zone, way, after, size, (inside, outside))
             return _cartesian(before, way, after, (inside, outside), wide, limits, kinematics)
     return _mixed(before, way, after, (inside, outside), limits)
@@ -65,6 +67,9 @@ def _extended(
     zone: Zone, way: Geometry, after: Geometry, size: float, least: tuple[float, float]
 ) -> tuple[float, float]:
     """Nominal times of the extended zone on both sides, not below those of the TCP zone."""
+    measures = way.measure, after.measure
+    if all(m.angle + m.linear + m.rotary < NO_TURN for m in measures):
+        return least  # nothing but the TCP moves
     first, second = extended_share(zone, way.measure), extended_share(zone, after.measure)
     if way.measure.tcp > NO_WAY:
         radius = min(first * way.measure.tcp, second * after.measure.tcp)
@@ -124,7 +129,7 @@ def _cartesian(
     point = before.end
     position = _position(way, after, near)
     orientation = _orientation(way, after, wide)
-    external = _external(way, after, wide)
+    external = _external(way, after, wide) if external_places(kinematics) else None
 
     def pose(time: float) -> Pose:
         return position(time), orientation(time)
@@ -133,8 +138,6 @@ def _cartesian(
     ends = sorted({-wide[0], -near[0], 0.0, near[1], wide[1]})
     sections = [(point + a, point + b) for a, b in pairwise(ends) if b - a > _SMALLEST]
     origin = way.posture(way.duration - wide[0])
-    if not any(joint.axis.startswith("eax") for joint in kinematics.group.joints):
-        external = None
     solve = _Tracker(kinematics, way.carrier.flange, pose, external)
     return _sampled(solve, point, sections, origin, limits, max(way.tcp, after.tcp))
 
@@ -166,6 +169,9 @@ def _position(
 def _orientation(
     way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
 ) -> Callable[[float], Quaternion]:
+    constant = way.orientation
+    if constant is not None and after.orientation is not None:
+        return lambda _time: constant
     inside, outside = zone
     w = _parameter(inside, outside)
     points = (
@@ -183,7 +189,7 @@ def _orientation(
 
 def _external(
     way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
-) -> Callable[[float], Posture] | None:
+) -> Callable[[float], Posture]:
     inside, outside = zone
     w = _parameter(inside, outside)
     points = (
@@ -209,15 +215,11 @@ class _Tracker:
         self._flange = flange
         self._pose = pose
         self._external = external
+        self._places = external_places(kinematics)
 
     def __call__(self, time: float, near: Posture) -> Posture:
         if self._external is not None:
-            near = tuple(
-                e if joint.axis.startswith("eax") else n
-                for joint, n, e in zip(
-                    self._kinematics.group.joints, near, self._external(time), strict=True
-                )
-            )
+            near = with_external(near, self._external(time), self._places)
         found = self._kinematics.follow(self._flange(self._pose(time)), near)
         if found is None:
             raise RapidError("ERR_OUTSIDE_REACH", "in a corner")

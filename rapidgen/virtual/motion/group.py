@@ -44,6 +44,7 @@ MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
 
 
+_NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
 LATE = 0.002
 """s by which a move may miss its \\T unreported."""
 
@@ -126,6 +127,8 @@ class MotionGroup:
         self._path = Path(start)
         self._motion = Motion(kernel.now, kernel.now, TimeLaw(0.0), (), start)
         self._history: list[Motion] = []
+        self._planned = _NOT_PLANNED
+        """The law found last: appending asks for it twice."""
         self._report(True)
         io.report("MechUnitActive", 1, config.mechanical_unit)
 
@@ -228,6 +231,7 @@ class MotionGroup:
             self._change_speed()
 
     def _change_speed(self) -> None:
+        self._planned = _NOT_PLANNED
         if self._override * self._refresh == 0.0:
             self.stop("override")
         elif "override" in self._stops:
@@ -485,9 +489,15 @@ class MotionGroup:
         return self._motion.law.state((self._kernel.now - self._motion.start) / S)
 
     def _law(self, pieces: tuple[Piece, ...]) -> TimeLaw | None:
+        now = self._kernel.now
+        planned_at, planned, law = self._planned
+        if planned is pieces and planned_at == now:
+            return law
         place, speed = self._state()
         limit = MANUAL_REDUCED if self._reduced else inf
-        return plan(pieces, place, speed, self._override * self._refresh, limit)
+        law = plan(pieces, place, speed, self._override * self._refresh, limit)
+        self._planned = now, pieces, law
+        return law
 
     def _replan(self) -> None:
         """Go from the present state to the end of the path."""
@@ -519,6 +529,7 @@ class MotionGroup:
 
     def _move_by(self, law: TimeLaw, start: int, rest: Posture) -> None:
         now = self._kernel.now
+        self._planned = _NOT_PLANNED
         if self.settings.servo_lag > 0:
             old = now - round(self.settings.servo_lag * S)
             later = [m for m in self._history if m.since > old]

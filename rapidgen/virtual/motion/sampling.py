@@ -39,10 +39,13 @@ def interval_limits(
 
 def largest_step(nodes: Sequence[Posture]) -> float:
     """The largest change of one axis between two nodes."""
-    return max(
-        (abs(y - x) for a, b in pairwise(nodes) for x, y in zip(a, b, strict=True)),
-        default=0.0,
-    )
+    largest = 0.0
+    for a, b in pairwise(nodes):
+        for x, y in zip(a, b, strict=True):
+            step = y - x if y > x else x - y
+            if step > largest:
+                largest = step
+    return largest
 
 
 def spaced(start: float, end: float, count: int) -> list[float]:

@@ -1,0 +1,122 @@
+"""Motion: moves planned per second of CPU, inverse kinematics, cost of watching.
+
+    python benchmarks/motion.py
+
+Figures to hold: 1,000 moves planned a second, 50 µs a pose in closed form, and end times that
+do not depend on how often anybody looks.
+"""
+
+import time
+from collections.abc import Callable
+from types import SimpleNamespace
+
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.config import load_config
+from rapidgen.system.model import System
+from rapidgen.virtual.dialect import Dialect
+from rapidgen.virtual.io import IOSystem
+from rapidgen.virtual.kernel import Kernel, S
+from rapidgen.virtual.log import EventLog
+from rapidgen.virtual.motion import MotionGroup, MotionSystem
+from rapidgen.virtual.motion.moves import CartesianMove, JointMove, Move, Speed, Zone
+from rapidgen.virtual.task import Task
+
+HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
+ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
+
+
+def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tuple[float, int, int]:
+    """CPU s, end time in ns and events (process switches) of a program of moves."""
+    config = load_config("irb120").groups[0]
+    kernel = Kernel()
+    log = EventLog(kernel)
+    io = IOSystem(kernel, log, System("bench", ()))
+    group = MotionSystem(kernel, [config], log, io).group(config.name)
+    group.jump(HOME)
+    program = moves(group)
+    task = Task(kernel, "T_ROB1", SimpleNamespace(dialect=Dialect()))
+    ended = 0
+
+    def body() -> None:
+        nonlocal ended
+        for move in program:
+            task.charge(1_000_000)
+            group.move(task, move)
+        ended = kernel.now
+
+    def look() -> None:
+        group.positions()
+        if task.alive:
+            kernel.after(round(period * S), look)
+
+    task.launch(body)
+    if period:
+        kernel.after(0, look)
+    start = time.process_time()
+    kernel.advance(stop=lambda: not task.alive)
+    return time.process_time() - start, ended, kernel.switches
+
+
+def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
+    """A zigzag of `count` joint moves of 0.1 s."""
+
+    def make(_group: MotionGroup) -> list[Move]:
+        return [
+            JointMove(
+                target=(0.02 * (k % 7), 0.2, 0.1 + 0.01 * (k % 3), 0.0, 0.6, 0.01 * k / count),
+                speed=Speed(0.2),
+                zone=ZONE if k < count - 1 else Zone(fine=True),
+                time=0.1,
+            )
+            for k in range(1, count + 1)
+        ]
+
+    return make
+
+
+def linear_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
+    """A zigzag of `count` lines of 20 mm."""
+
+    def make(group: MotionGroup) -> list[Move]:
+        start = group.geometry().forward(HOME)
+        return [
+            CartesianMove(
+                target=(frames.add(start[0], (0.0, 0.02 * (k % 2), 0.02 * (k // 2 % 2))), start[1]),
+                external=HOME,
+                speed=Speed(0.2),
+                zone=ZONE if k < count - 1 else Zone(fine=True),
+            )
+            for k in range(1, count + 1)
+        ]
+
+    return make
+
+
+def inverse(count: int = 5000) -> float:
+    """s of CPU for one pose on a known branch."""
+    own = Kinematics.of(load_config("irb120").groups[0])
+    assert own is not None
+    pose = own.forward(HOME)
+    start = time.process_time()
+    for _ in range(count):
+        own.follow(pose, HOME)
+    return (time.process_time() - start) / count
+
+
+def main() -> None:
+    """Print the figures."""
+    for name, moves in (("joint", joint_moves(1000)), ("linear", linear_moves(300))):
+        spent, end, switches = min(run(moves) for _ in range(3))
+        count = 1000 if name == "joint" else 300
+        print(
+            f"{name} moves: {count / spent:,.0f} a second of CPU, "
+            f"{switches / count:.1f} switches a move, {end / S:.3f} s simulated"
+        )
+    print(f"inverse kinematics: {inverse() * 1e6:.1f} µs a pose")
+    ends = {period: run(linear_moves(20), period)[1] for period in (0.0, 0.001, 0.01, 0.1)}
+    print(f"end times differ by {(max(ends.values()) - min(ends.values())) / 1e6:.6f} ms")
+
+
+if __name__ == "__main__":
+    main()
