@@ -1,5 +1,6 @@
 """Servers that say anything at all: each time a diagnostic, soon, and no password in it."""
 
+import contextlib
 import os
 import random
 import socket
@@ -45,29 +46,22 @@ class Liar:
                 client, _ = self.listener.accept()
             except OSError:
                 return
-            with client:
-                try:
-                    self._talk(client)
-                except OSError:
-                    continue
+            with client, contextlib.ExitStack() as held, contextlib.suppress(OSError):
+                self._talk(client, held)
 
-    def _talk(self, client):
+    def _talk(self, client, held):
         client.settimeout(5)
         pending, count, data = b"", 0, None
         word = b""
         while True:
             answer = GOOD.get(word, b"250 ok\r\n")
             if word == b"PASV":
-                if data is not None:
-                    data.close()
-                data = socket.create_server(("127.0.0.1", 0))
+                data = held.enter_context(socket.create_server(("127.0.0.1", 0)))
                 data.settimeout(2)
                 port = data.getsockname()[1]
                 answer %= (port // 256, port % 256)
             if count == self.step:
                 client.sendall(self.lie)
-                if data is not None:
-                    data.close()
                 return
             if word in (b"MLSD", b"LIST", b"RETR") and data is not None:
                 with data.accept()[0] as line:
@@ -77,8 +71,6 @@ class Liar:
             while b"\r\n" not in pending:
                 block = client.recv(4096)
                 if not block:
-                    if data is not None:
-                        data.close()
                     return
                 pending += block
             line, _, pending = pending.partition(b"\r\n")
