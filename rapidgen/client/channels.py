@@ -109,9 +109,12 @@ class Channel:
             raise self._lost(error) from error
 
     def _wait_writable(self, seconds: float) -> None:
-        waiter = poll()
-        waiter.register(self.socket, POLLOUT)
-        waiter.poll(seconds * 1000)
+        number = self.socket.fileno()
+        # Closed meanwhile by another thread: the next write says so.
+        if number >= 0:
+            waiter = poll()
+            waiter.register(number, POLLOUT)
+            waiter.poll(seconds * 1000)
 
     def _lost(self, error: OSError) -> ConnectionLost:
         name = self.port.name.lower()
@@ -166,8 +169,9 @@ class Reader:
         """End the thread; every channel is closed."""
         self._ended = True
         self._waker.send(b".")
-        if threading.current_thread() is not self._thread:
-            self._thread.join()
+        self._thread.join()
+        self._wake.close()
+        self._waker.close()
 
     def _loop(self) -> None:
         while not self._ended:
@@ -179,8 +183,6 @@ class Reader:
         for channel in self._selector_channels():
             self._forget(channel)
         self._selector.close()
-        self._wake.close()
-        self._waker.close()
 
     def _selector_channels(self) -> list[Channel]:
         return [key.data for key in self._selector.get_map().values() if key.data is not None]

@@ -69,6 +69,7 @@ class Run:
         self._start = tracker.state
         self._began = tracker.clock()
         self._first_sample = tracker.samples
+        self._first_progress = tracker.progresses
         self._seen_moving = False
         self._stood_since: float | None = None
         self._goal = plan.trajectory.positions[-1]
@@ -87,6 +88,7 @@ class Run:
         self.number = number
         self._began = self._tracker.clock()
         self._first_sample = self._tracker.samples
+        self._first_progress = self._tracker.progresses
 
     def failed(self, error: RobotError) -> None:
         """It is over; only the first reason counts."""
@@ -120,11 +122,18 @@ class Run:
         told = self._told()
         if told is not None:
             self._by_progress(told)
-        elif tracker.samples > self._first_sample:
+        elif tracker.progress is None and tracker.samples > self._first_sample:
             self._by_position()
 
     def _told(self) -> messages.Progress | None:
-        """PROGRESS of this very trajectory."""
+        """PROGRESS of this very trajectory.
+
+        Its number and state are written by one task of the controller and read by another: what
+        was put together while the trajectory came in may have the number of this one and the
+        state of the one before. So it counts from the second message after the acceptance.
+        """
+        if self._tracker.progresses < self._first_progress + 2:
+            return None
         progress = self._tracker.progress
         if progress is None:
             return None

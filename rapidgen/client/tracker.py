@@ -37,7 +37,7 @@ class Tracker:
         self.progress: messages.Progress | None = None
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
-        self.updates = 0
+        self.progresses = 0
         self.heard = clock()
         """When the last message came."""
         self.listeners: list[Callable[[Sample], None]] = []
@@ -82,7 +82,6 @@ class Tracker:
 
     def _take(self, content: messages.Content, now: float) -> None:
         self.heard = now
-        self.updates += 1
         self._state = None
         match content:
             case messages.JointPosition():
@@ -96,6 +95,7 @@ class Tracker:
                 self._status = content
             case messages.Progress():
                 self.progress = content
+                self.progresses += 1
             case messages.HelloReply():
                 self.hello = content
                 self.driver = Driver(content)

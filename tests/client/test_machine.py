@@ -23,6 +23,7 @@ from rapidgen.client import (
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
+from rapidgen.protocol.spec import Reason
 from rapidgen.virtual.asyncio_clock import VirtualLoop
 from rapidgen.virtual.controller import VirtualController
 
@@ -110,8 +111,11 @@ class ClientAndController(RuleBasedStateMachine):
     @rule()
     def cancel(self):
         self.do(self.execution.cancel())
-        with pytest.raises(MotionStopped):
-            self.do(self.execution.result())
+        try:
+            # It may have arrived before the STOP did.
+            assert self.do(self.execution.result()).deviation < 1e-3
+        except MotionStopped as error:
+            assert error.reason is Reason.STOPPED  # noqa: PT017 - either way is right
         assert self.execution.stopped_position is not None
 
     @rule(ports=st.sampled_from(["all", "state", "motion"]))

@@ -5,6 +5,7 @@ import functools
 import socket
 import threading
 import time
+from dataclasses import replace
 
 import pytest
 from fake_controller import joint_frame, status_frame
@@ -433,7 +434,8 @@ def test_stop_from_another_thread_while_sending(fake, quick):
         except RobotError as error:
             failed.append(error)
 
-    with Robot(controller.address, timeouts=quick) as robot:
+    # The scripted controller takes its time to read what the kernel already has.
+    with Robot(controller.address, timeouts=replace(quick, stop=10)) as robot:
         sender = threading.Thread(target=send)
         sender.start()
         assert _comes(lambda: len(controller.frames) > 5)
@@ -441,7 +443,7 @@ def test_stop_from_another_thread_while_sending(fake, quick):
         controller.script.read_pause = 0.0
         controller.script.read_bytes = 65536
         robot.stop()
-        sender.join(5)
+        sender.join(10)
         assert isinstance(failed[0], MotionStopped)
     sequences = [frame[2] for frame in controller.frames]
     assert sequences[-1] == -4
