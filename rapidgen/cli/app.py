@@ -30,6 +30,7 @@ VERBS = {
     "run": "Run RAPID on the virtual clock.",
     "sim": "Run a virtual controller in real time.",
     "test": "Prove the driver for this robot: every behaviour, stops and faults in many schedules.",
+    "probe": "Write a module that asks a controller what is only assumed about it.",
     "move": "Execute a trajectory. Ctrl-C stops the robot.",
     "stop": "Stop the robot: every motion group, or one.",
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",

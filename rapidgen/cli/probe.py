@@ -1,0 +1,39 @@
+"""`rapidgen probe`: a RAPID module that asks a real controller what no manual settles."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+def probe(
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="File to write; default stdout.", metavar="FILE"),
+    ] = None,
+) -> int:
+    """Write a module that asks a controller what is only assumed about it.
+
+    Load it alone into a NORMAL task and start it: each line on the pendant is an answer that
+    `rapidgen run --dialect` takes. It moves nothing and sets no output.
+    """
+    from rapidgen._data import data_folder
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    text = (data_folder("templates") / "ROS_probe.mod").read_text(encoding="latin-1")
+    if output is None:
+        typer.echo(text, nl=False)
+        return 0
+    try:
+        output.write_text(text, encoding="latin-1")
+    except OSError as error:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG802",
+                Severity.ERROR,
+                f"{output} cannot be written: {error.strerror}",
+                help="name a file in a folder that exists and may be written",
+            )
+        ) from error
+    typer.echo(f"{output}: load it alone into a NORMAL task, PP to main, Start", err=True)
+    return 0
