@@ -84,11 +84,11 @@ def sim(
         _tell(controller.diagnostics)
         if cold:
             _start_cold(controller)
+        # Whoever may command the controller is on this machine, whoever may reach its servers.
         control = ControlSocket(
             controller.kernel,
             commands(controller),
             lambda listener: subscribe(controller, listener),
-            host=host,
         )
         try:
             return _serve(controller, chosen, control, host, speed)

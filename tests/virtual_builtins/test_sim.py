@@ -118,6 +118,48 @@ def test_cold(start):
     assert sim.control(do="status")["result"]["tasks"]["T_ROB1"] == "running"
 
 
+SERVER = """MODULE echo
+    VAR socketdev server;
+    VAR socketdev client;
+    PROC main()
+        VAR string text;
+        SocketCreate server;
+        SocketBind server, "192.168.125.1", 5000;
+        SocketListen server;
+        SocketAccept server, client \\Time:=WAIT_MAX;
+        WHILE TRUE DO
+            SocketReceive client \\Str:=text \\Time:=WAIT_MAX;
+            SocketSend client \\Str:=text + "!";
+        ENDWHILE
+    ENDPROC
+ENDMODULE
+""".replace("\\\\", "\\")
+SYS = """SYS:CFG_1.0:6:0::
+#
+CAB_TASKS:
+
+      -Name "T_ROB1" -Type "NORMAL" -Entry "main" -MotionTask
+"""
+
+
+def test_a_backup_of_somebody_elses_program(start, tmp_path):
+    """The address in it is the controller's own; here it is this machine, on any free port."""
+    backup = tmp_path / "cell_3"
+    (backup / "RAPID" / "TASK1" / "PROGMOD").mkdir(parents=True)
+    (backup / "SYSPAR").mkdir()
+    (backup / "HOME").mkdir()
+    (backup / "RAPID" / "TASK1" / "PROGMOD" / "echo.mod").write_text(SERVER)
+    (backup / "SYSPAR" / "SYS.cfg").write_text(SYS)
+    sim = start(str(backup), "--ports", "auto")
+    assert sim.ready["ports"] == {}
+    with sim.connect(sim.ready["listeners"]["5000"]) as sock:
+        sock.sendall(b"hello")
+        assert sock.recv(100) == b"hello!"
+    code, _, err = sim.end()
+    assert code == 0
+    assert "RG432" in err
+
+
 def test_faults_reach_real_sockets(start, tmp_path):
     plan = tmp_path / "plan.yaml"
     plan.write_text(
