@@ -173,8 +173,8 @@ class ExpressionParser:
             return BoolLiteral(i, i, True)
         if kind == "FALSE":
             return BoolLiteral(i, i, False)
-        if kind is HOLDER:
-            return Placeholder(i, i, self.texts[i].upper())
+        if kind is HOLDER and self.texts[i].upper() == "<EXP>":
+            return Placeholder(i, i, "<EXP>")
         raise SyntaxFault(i, "an expression")
 
     def _operators(self, i: int, left: Expression | None) -> Expression:
@@ -357,6 +357,8 @@ class ExpressionParser:
                 argument = self._optional(i)
             elif kind == "*" and kinds[i + 1] in _BEHIND_ARGUMENTS:
                 argument = Argument(i, i, "required", None, Star(i, i))
+            elif kind is HOLDER and close == ";" and texts[i].upper() == "<ARG>":
+                argument = Argument(i, i, "required", None, Placeholder(i, i, "<ARG>"))
             else:
                 value = self.expression(i)
                 argument = Argument(i, value.last, "required", None, value)
@@ -385,7 +387,7 @@ class ExpressionParser:
             at = i + 3
             if kinds[at] is NAME:
                 return Argument(i, at, "conditional", name, Name(at, at, texts[at]))
-            if kinds[at] is HOLDER:
-                return Argument(i, at, "conditional", name, Placeholder(at, at, texts[at].upper()))
+            if kinds[at] is HOLDER and texts[at].upper() == "<VAR>":
+                return Argument(i, at, "conditional", name, Placeholder(at, at, "<VAR>"))
             raise SyntaxFault(at, "the name of an optional parameter")
         return Argument(i, i + 1, "switch", name, None)

@@ -330,7 +330,7 @@ class StatementParser(ExpressionParser):
     def _placeholder(self, i: int) -> Statement:
         text = self.texts[i].upper()
         kinds = self.kinds
-        if kinds[i + 1] == ":=":
+        if kinds[i + 1] == ":=" and text == "<VAR>":
             value = self.expression(i + 2)
             end = self._semicolon(value.last + 1, "';' or an operator")
             return Assignment(i, end, Placeholder(i, i, text), value)
@@ -394,8 +394,8 @@ class StatementParser(ExpressionParser):
     def _connect(self, i: int) -> Connect:
         kinds = self.kinds
         target: Expression
-        if kinds[i + 1] is HOLDER:
-            target = Placeholder(i + 1, i + 1, self.texts[i + 1].upper())
+        if kinds[i + 1] is HOLDER and self.texts[i + 1].upper() == "<VAR>":
+            target = Placeholder(i + 1, i + 1, "<VAR>")
         elif kinds[i + 1] is NAME:
             target = self.reference(i + 1)
         else:
