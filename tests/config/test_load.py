@@ -307,3 +307,8 @@ def test_an_axis_of_length_0_turns_nothing(tmp_path):
         "chain: [{joint: j, axis: [0, 0, 0]}, {joint: k}]\n"
     )
     assert places(faults(tmp_path, text)) == [("RG014", 2, 20), ("RG014", 2, 46)]
+
+
+def test_a_faulty_figure_is_not_also_a_missing_one(tmp_path):
+    text = "model: irb120\njoints: {joint_1: {lower: x}, joint_2: {axis: rax_9}}"
+    assert places(faults(tmp_path, text)) == [("RG006", 2, 27), ("RG006", 2, 47)]

@@ -4,6 +4,7 @@ yourdfpy accepts loops, duplicates, NaN and unknown types (and ends with Python'
 others), so whatever it takes for granted is checked on the XML first. No mesh is opened.
 """
 
+import gc
 import math
 from dataclasses import dataclass
 from io import BytesIO
@@ -113,10 +114,20 @@ def _skeleton(root: Any) -> Any:
     return made
 
 
-def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
-    import yourdfpy
+def _yourdfpy() -> Any:
+    """The module. It brings trimesh and scipy: collecting garbage meanwhile costs a tenth."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        import yourdfpy
+    finally:
+        if enabled:
+            gc.enable()
+    return yourdfpy
 
-    made = yourdfpy.URDF.load(BytesIO(data), load_meshes=False, build_scene_graph=False)
+
+def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
+    made = _yourdfpy().URDF.load(BytesIO(data), load_meshes=False, build_scene_graph=False)
     robot = made.robot
     joints = []
     for joint in robot.joints:
