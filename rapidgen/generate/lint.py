@@ -8,6 +8,8 @@ MAX_NAME = 32
 MAX_STRING = 80
 MAX_LINE = 160
 _TOKEN = re.compile(r'"((?:[^"\\]|""|\\\\|\\[0-9A-Fa-f]{2})*)"|![^\n]*|([A-Za-z]\w*)')
+_NOT_ASCII = re.compile(r"[^\t -\x7f]")
+_NOT_LATIN = re.compile(r"[^\t -\xff]")
 _ESCAPE = re.compile(r'""|\\\\|\\[0-9A-Fa-f]{2}')
 
 
@@ -17,15 +19,13 @@ def lint(path: str, text: str, *, ascii_only: bool = False) -> list[Diagnostic]:
     RobotWare 7 reads another encoding than 5 and 6 [mem]: ASCII is the same in both.
     """
     found = []
-    highest = 127 if ascii_only else 255
+    odd_character = _NOT_ASCII if ascii_only else _NOT_LATIN
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > MAX_LINE:
             found.append(_fault(path, number, 1, f"the line has {len(line)} characters"))
-        odd = next(
-            (i for i, c in enumerate(line) if ord(c) > highest or (ord(c) < 32 and c != "\t")), None
-        )
+        odd = odd_character.search(line)
         if odd is not None:
-            found.append(_fault(path, number, odd + 1, f"{line[odd]!r} cannot be written"))
+            found.append(_fault(path, number, odd.start() + 1, f"{odd[0]!r} cannot be written"))
         for token in _TOKEN.finditer(line):
             if token[2] and len(token[2]) > MAX_NAME:
                 label = f"the name '{token[2]}' has {len(token[2])} characters"

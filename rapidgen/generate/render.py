@@ -4,12 +4,15 @@ The map is made of marks in Unicode's private use area, put at the start of ever
 that can produce text and stripped after rendering; so the output does not depend on them.
 """
 
+import os
 import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import jinja2
+
+from rapidgen import __version__
 
 _OPEN, _CLOSE = "\ue000", "\ue001"
 _MARK = re.compile(f"{_OPEN}([^{_OPEN}{_CLOSE}:]*):(\\d+){_CLOSE}")
@@ -35,6 +38,7 @@ class Renderer:
             lstrip_blocks=True,
             keep_trailing_newline=True,
             autoescape=False,
+            bytecode_cache=_compiled(),
         )
 
     def add_filter(self, name: str, function: Any) -> None:  # noqa: ANN401
@@ -44,6 +48,21 @@ class Renderer:
     def render(self, template: str, **context: object) -> Rendered:
         """One template as text."""
         return unmarked(self._environment.get_template(template).render(**context))
+
+
+def _compiled() -> jinja2.BytecodeCache | None:
+    """Compiled templates in the user's cache folder, as Python keeps compiled modules.
+
+    Compiling is a third of a build. Jinja keys an entry by the text of its template.
+    """
+    base = os.environ.get("XDG_CACHE_HOME") or os.path.expanduser("~/.cache")
+    folder = os.path.join(base, "rapidgen", f"templates-{__version__}")
+    try:
+        os.makedirs(folder, mode=0o700, exist_ok=True)
+    except OSError:
+        return None
+    usable = os.access(folder, os.W_OK) and os.stat(folder).st_uid == os.getuid()
+    return jinja2.FileSystemBytecodeCache(folder) if usable else None
 
 
 class _Loader(jinja2.FileSystemLoader):
