@@ -36,10 +36,11 @@ VERBS = {
     "monitor": "Watch a robot: joints against limits, mode, rate, jitter, last event.",
     "record": "Write every joint message to a CSV: `time,<joint names>` in s and rad (m).",
     "plot": "Draw joints over time: FILE.png and FILE.html (which shows values at the pointer).",
-    "plan": "Show what `deploy` would do: files, cfg instances, restarts,",
+    "plan": "Show what `deploy` would do: files, cfg instances, restarts.",
     "deploy": "Put the driver on one or several controllers: backup, upload, verify, switch.",
     "rollback": "Go back to the set before the last deployment, or to backup ID.",
-    "uninstall": "Go back to the state before the first deployment: our files go,",
+    "uninstall": "Go back to the state before the first deployment.",
+    "doctor": "Look at a controller: reach, ports, names, RobotWare, disk, what runs.",
     "demo": "Build a driver, boot it on a virtual controller, move it, and report.",
 }
 

@@ -33,7 +33,7 @@ def doctor(
     ] = "",
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array.")] = False,
 ) -> int:
-    """Look at a controller: reach, ports, names, RobotWare, disk, passwords, and what runs.
+    """Look at a controller: reach, ports, names, RobotWare, disk, what runs.
 
     Each line is ok, warn, fail or unknown, with the mend. Exits 1 if one fails. Changes nothing;
     tries once whether the delivered password is still accepted.

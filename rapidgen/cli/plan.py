@@ -37,8 +37,9 @@ def plan(
     ] = "",
     parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
 ) -> int:
-    """Show what `deploy` would do: files, cfg instances, restarts, and what is left to people.
+    """Show what `deploy` would do: files, cfg instances, restarts.
 
+    What is left to people, and what cannot be seen over the transport, is a line of it.
     The password comes from --secrets, RAPIDGEN_PASSWORD or a prompt.
 
     rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --out plan.json

@@ -34,9 +34,9 @@ def uninstall(
     ] = "",
     parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
 ) -> int:
-    """Go back to the state before the first deployment: our files go, strangers' come back.
+    """Go back to the state before the first deployment.
 
-    cfg instances that were loaded at the pendant are listed: they are deleted there.
+    Our files go, strangers' come back. cfg instances that were loaded at the pendant are listed: they are deleted there.
 
     rapidgen uninstall cell1.yaml --to "sftp://admin@192.168.125.1/HOME"
     """
