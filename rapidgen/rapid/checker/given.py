@@ -7,7 +7,7 @@ from typing import Final
 
 from rapidgen.rapid.dialect import Dialect
 
-_SHORT: Final = 3
+_SHORT: Final = 4
 _LONG: Final = 7
 
 

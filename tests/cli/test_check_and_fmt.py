@@ -1,0 +1,111 @@
+"""`rapidgen check` and `rapidgen fmt` as a user calls them."""
+
+import json
+
+import pytest
+
+from rapidgen.cli.app import main
+
+GOOD = "MODULE Good\n    PROC main()\n        TPErase;\n    ENDPROC\nENDMODULE\n"
+BAD = "MODULE Bad\n    VAR num a := TRUE;\nENDMODULE\n"
+
+
+@pytest.fixture
+def folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "good.mod").write_text(GOOD)
+    (tmp_path / "bad.mod").write_text(BAD)
+    return tmp_path
+
+
+def test_clean_file(folder, capsys):
+    assert main(["check", "good.mod"]) == 0
+    out, err = capsys.readouterr()
+    assert (out, err) == ("", "0 error(s), 0 warning(s)\n")
+
+
+def test_findings_are_data_and_make_exit_1(folder, capsys):
+    assert main(["check", "bad.mod"]) == 1
+    out = capsys.readouterr().out
+    assert "error[RG307]" in out
+    assert "VAR num a := TRUE;" in out
+
+
+def test_json_is_one_array_also_for_none(folder, capsys):
+    assert main(["check", "good.mod", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out) == []
+    assert main(["check", "bad.mod", "--format", "json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert [(f["code"], f["path"], f["line"], f["column"]) for f in found] == [
+        ("RG307", "bad.mod", 2, 18)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("format", "start"), [("concise", "bad.mod:2:18: error[RG307]"), ("github", "::error ")]
+)
+def test_other_formats(folder, capsys, format, start):
+    assert main(["check", "bad.mod", "--format", format]) == 1
+    assert capsys.readouterr().out.startswith(start)
+
+
+def test_folder(folder, capsys):
+    assert main(["check", "."]) == 1
+
+
+def test_nothing_there_is_bad_input(folder, capsys):
+    assert main(["check", "nowhere.mod"]) == 2
+    assert "RG904" in capsys.readouterr().err
+    (folder / "empty").mkdir()
+    assert main(["check", "empty"]) == 1
+
+
+@pytest.mark.parametrize("version", ["4", "8", "six", "6.x"])
+def test_wrong_robotware_is_bad_usage(folder, capsys, version):
+    assert main(["check", "good.mod", "--robotware", version]) == 2
+
+
+def test_robotware_decides(folder, capsys):
+    (folder / "hex.mod").write_text("MODULE h\n    CONST num a := 0x10;\nENDMODULE\n")
+    assert main(["check", "hex.mod"]) == 0
+    assert main(["check", "hex.mod", "--robotware", "5.0"]) == 1
+    assert main(["check", "hex.mod", "--robotware", "7"]) == 0
+
+
+def test_files_named_together_know_each_other(folder, capsys):
+    (folder / "a.mod").write_text(
+        "MODULE a\n    PROC main()\n        b1 1;\n    ENDPROC\nENDMODULE\n"
+    )
+    (folder / "b.mod").write_text("MODULE b\n    PROC b1()\n    ENDPROC\nENDMODULE\n")
+    assert main(["check", "a.mod"]) == 0
+    assert main(["check", "a.mod", "b.mod"]) == 1
+
+
+def test_configurations_by_name_and_path(folder, capsys):
+    assert main(["check", "irb120"]) == 0
+    (folder / "wrong.yaml").write_text("model: irb120\nportss: 1\n")
+    assert main(["check", "wrong.yaml", "--format", "json"]) == 1
+    assert json.loads(capsys.readouterr().out)[0]["line"] == 2
+
+
+def test_fmt_writes_once(folder, capsys):
+    path = folder / "ugly.mod"
+    path.write_bytes(b"module m\r\nvar num gr\xf6\xdfe;\r\nendmodule\r\n")
+    assert main(["fmt", "ugly.mod", "--check"]) == 1
+    assert main(["fmt", "ugly.mod", "--diff"]) == 1
+    assert "+    VAR num größe;" in capsys.readouterr().out
+    assert main(["fmt", "ugly.mod"]) == 0
+    assert path.read_bytes() == b"MODULE m\r\n    VAR num gr\xf6\xdfe;\r\nENDMODULE\r\n"
+    assert main(["fmt", "ugly.mod", "--check"]) == 0
+
+
+def test_fmt_leaves_wrong_files_alone(folder, capsys):
+    path = folder / "wrong.mod"
+    path.write_text("module m\nvar num\nendmodule\n")
+    assert main(["fmt", str(folder)]) == 1
+    assert path.read_text() == "module m\nvar num\nendmodule\n"
+    assert "RG201" in capsys.readouterr().err
+
+
+def test_fmt_of_nothing(folder, capsys):
+    assert main(["fmt", "nowhere.mod"]) == 2

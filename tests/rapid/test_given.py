@@ -1,0 +1,161 @@
+"""What is unknown is judged by what was given: a file, a folder, a task, a system."""
+
+import pytest
+
+from rapidgen.diagnostics import Severity
+from rapidgen.rapid import Dialect, check, parse
+from rapidgen.system import MechanicalUnitGroup, ModuleFile, SignalSpec, System, TaskSpec
+
+
+def module(name, body="", data="", entry="main"):
+    return f"MODULE {name}\n{data}\nPROC {entry}()\n{body}\nENDPROC\nENDMODULE\n"
+
+
+def found(given, **options):
+    return [(d.severity.value, d.code) for d in check(given, **options)]
+
+
+def system(*texts, **parts):
+    files = tuple(ModuleFile(f"m{k}", f"m{k}.mod", t.encode()) for k, t in enumerate(texts))
+    return System("s", (TaskSpec("T_ROB1", modules=files),), **parts)
+
+
+UNKNOWN = {
+    "procedure": "OwnThing 1;",
+    "function": 'TPWrite "" \\Num:=OwnValue();',
+    "trap": "CONNECT INTNO WITH OwnTrap;",
+}
+
+
+@pytest.mark.parametrize("body", ["OwnThing 1;", "own_flag := TRUE;", "IF di_ready = 1 TPErase;"])
+def test_a_lone_file_may_use_what_is_elsewhere(body):
+    assert found(module("a", body)) == []
+
+
+@pytest.mark.parametrize(
+    ("body", "code", "suggestion"),
+    [
+        ('TPWrte "x";', "RG301", "TPWrite"),
+        ("SocketRecieve s;", "RG301", "SocketReceive"),
+        ("cuonter := 1;", "RG302", "counter"),
+    ],
+)
+def test_a_slip_in_a_lone_file_is_a_warning(body, code, suggestion):
+    text = module("a", body, "VAR num counter;\nVAR socketdev s;")
+    diagnostics = check(text)
+    assert [(d.severity, d.code) for d in diagnostics] == [(Severity.WARNING, code)]
+    assert suggestion in diagnostics[0].help
+
+
+def test_siblings_of_a_slip_are_no_slips():
+    text = module("a", "MoveJ p20, v100, fine, tool0;", "CONST robtarget p10 := p0;")
+    assert found(text) == []
+
+
+def test_a_folder_knows_its_routines_but_not_its_signals():
+    one = parse(module("a", "Helper;\nHelpr;\nIF di_ready = 1 TPErase;"), path="a.mod")
+    two = parse("MODULE b\nPROC Helper()\nENDPROC\nENDMODULE\n", path="b.mod")
+    assert found([one, two]) == [("error", "RG301"), ("warning", "RG302")]
+
+
+def test_a_folder_without_an_entry_routine_is_a_part():
+    one = parse(module("a", "Missing;", entry="part"), path="a.mod")
+    assert found([one]) == []
+
+
+def test_modules_of_several_tasks_in_a_folder_do_not_clash():
+    one, two = (parse(module(n), path=f"{n}.mod") for n in "ab")
+    assert found([one, two]) == []
+
+
+def test_objects_that_differ_between_tasks_are_not_judged():
+    one = parse(module("a", "x := 1;", "PERS num x;"), path="a.mod")
+    two = parse(module("b", 'x := "1";', "PERS string x;"), path="b.mod")
+    assert found([one, two]) == []
+
+
+def test_a_whole_task_knows_its_data():
+    one = parse(module("a", "own_flag := TRUE;"), path="a.mod")
+    assert found([one], whole_task=True) == [("error", "RG302")]
+    assert found([one], whole_task=True, gaps=True) == []
+
+
+def test_a_module_that_cannot_be_read_may_declare_anything():
+    one = parse(module("a", "Missing;"), path="a.mod")
+    encoded = parse(b"\xfc\x00\x01", path="b.mod")
+    assert found([one, encoded]) == [("warning", "RG219")]
+
+
+def test_a_program_that_loads_modules_may_get_names_from_them():
+    one = parse(module("a", 'Load "HOME:/b.mod";\nMissing;'), path="a.mod")
+    assert found([one]) == []
+
+
+def test_names_of_other_tasks_are_not_called_unknown():
+    one = parse(module("a", "Missing;"), path="a.mod")
+    assert found([one], elsewhere={"missing"}) == []
+
+
+def test_a_system_knows_everything():
+    text = module("a", "Missing;\nown_flag := TRUE;\nIF di_ready = 1 TPErase;")
+    assert found(system(text)) == [("error", "RG301"), ("error", "RG302"), ("error", "RG302")]
+
+
+def test_a_system_knows_its_signals_units_and_tasks():
+    body = """SetDO do_ready, 1;
+IF di_ready = 1 AND DOutput(do_ready) = 1 ActUnit STN1;
+IF TaskIsActive(T_ROB1Id) TPErase;
+SetDO di_ready, 1;"""
+    signals = (SignalSpec("di_ready", "DI"), SignalSpec("do_ready", "DO"))
+    groups = (MechanicalUnitGroup("rob1", "ROB_1", ("STN1",)),)
+    whole = system(module("a", body), signals=signals, groups=groups)
+    diagnostics = check(whole)
+    assert [(d.code, d.span.line) for d in diagnostics] == [("RG307", 7)]
+
+
+def test_globals_of_one_task_clash_and_locals_do_not():
+    one = module("a", data="VAR num x;\nLOCAL VAR num y;\nVAR num z;")
+    two = module(
+        "b", "y := 1;\nz := y;", data="VAR num x;\nVAR num y;\nLOCAL VAR num z;", entry="b2"
+    )
+    diagnostics = check(system(one, two))
+    errors = [(d.code, d.span.path, d.span.line) for d in diagnostics if "x" in d.message]
+    assert errors == [("RG305", "m1.mod", 2)]
+
+
+def test_a_local_hides_a_global_of_another_module():
+    one = module("a", "x := 1;", data="LOCAL VAR num x;")
+    two = module("b", 'x := "1";', data="VAR string x;", entry="b2")
+    assert [c for _, c in found(system(one, two))] == ["RG324"]  # the LOCAL is only written
+
+
+def test_the_same_module_in_two_tasks_is_reported_once():
+    file = ModuleFile("a", "a.sys", b"MODULE a\nVAR num x := TRUE;\nENDMODULE\n")
+    tasks = tuple(TaskSpec(name, modules=(file,)) for name in ("T_ROB1", "T_COM"))
+    assert found(System("s", tasks)) == [("error", "RG307")]
+
+
+def test_records_of_other_modules_are_known():
+    one = module("a", "b.x := 1;\nb.y := 1;", data="VAR rec b;")
+    two = "MODULE b\nRECORD rec\nnum x;\nENDRECORD\nENDMODULE\n"
+    assert found(system(one, two)) == [("error", "RG304")]
+
+
+def test_dialects():
+    text = module("a", "d := NumToDnum(1);\nEGMGetId e;", "VAR dnum d;\nVAR egmident e;")
+    codes = [d.code for d in check(text, dialect=Dialect((5, 0)))]
+    assert codes == ["RG325", "RG325", "RG325"]
+    assert found(text, dialect=Dialect((6, 0))) == []
+    assert found(text, dialect=Dialect((7, 0))) == []
+
+
+def test_a_system_is_checked_for_its_own_robotware():
+    text = module("a", "x := 0x1F;", "VAR num x;")
+    assert [c for _, c in found(system(text, robotware=(5, 0)))] == ["RG205"]
+    assert found(system(text, robotware=(7, 2))) == []
+    assert [c for _, c in found(system(text), dialect=Dialect((5, 0)))] == ["RG205"]
+
+
+def test_findings_of_the_parser_come_with_those_of_the_checker():
+    text = module("a", "x := 1;\ny := 2;\nVAR num z;\nz := TRUE;", "VAR num x;\nVAR num y;")
+    assert [c for _, c in found(text)] == ["RG213", "RG324", "RG307"]

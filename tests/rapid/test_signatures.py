@@ -1,0 +1,76 @@
+"""The built-ins as data hold together."""
+
+import pytest
+
+from rapidgen.rapid import signatures
+
+
+def test_every_type_that_a_header_names_exists():
+    known = {name.lower() for name in signatures.type_names()} | {"anytype", "switch"}
+    named = {p.type.lower() for s in signatures.routines().values() for p in s.parameters}
+    named |= {s.type.lower() for s in signatures.routines().values() if s.type}
+    named |= {t.lower() for r in signatures.records().values() for t, _ in r.components}
+    named |= {d.type.lower() for d in signatures.predefined().values()}
+    assert named - known == set()
+
+
+def test_names_are_found_in_any_case():
+    assert signatures.routine("SOCKETSEND").name == "SocketSend"
+    assert signatures.record("RobTarget").components[0] == ("pos", "trans")
+    assert signatures.constant("TOOL0").value[0] is True
+    assert signatures.routine("no_such_routine") is None
+
+
+def test_alternatives_and_order_of_parameters():
+    send = signatures.routine("SocketSend")
+    shown = [(p.mode, p.type, p.name, p.dimensions, p.optional, p.group) for p in send.parameters]
+    assert shown == [
+        ("VAR", "socketdev", "Socket", 0, False, -1),
+        ("", "string", "Str", 0, True, 0),
+        ("VAR", "rawbytes", "RawData", 0, True, 0),
+        ("", "byte", "Data", 1, True, 0),
+        ("", "num", "NoOfBytes", 0, True, -1),
+    ]
+
+
+def test_required_alternatives_have_a_group():
+    bits = signatures.routine("BitSet").parameters
+    assert [(p.name, p.optional, p.group) for p in bits] == [
+        ("BitData", False, 0),
+        ("DnumData", False, 0),
+        ("BitPos", False, -1),
+    ]
+
+
+def test_error_numbers_are_distinct_and_no_users_numbers():
+    numbers = [
+        d.value
+        for n, d in signatures.predefined().items()
+        if n.startswith("err_") and d.type == "errnum"
+    ]
+    assert len(numbers) > 200
+    assert len(set(numbers)) == len(numbers)
+    assert min(numbers) > 90
+
+
+@pytest.mark.parametrize(
+    ("name", "kind"), [("rawbytes", "nonvalue"), ("signaldi", "semivalue"), ("errnum", "value")]
+)
+def test_type_classes(name, kind):
+    assert signatures.type_class(name) == kind
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("v100", (100, 500, 5000, 1000)),
+        ("z10", (False, 10, 15, 15, 1.5, 15, 1.5)),
+        ("fine", (True, 0, 0, 0, 0, 0, 0)),
+        ("SOCKET_CLOSED", 5),
+        ("EOF_BIN", -1),
+        ("LINT", -8),
+        ("pi", 3.1415926),
+    ],
+)
+def test_values(name, value):
+    assert signatures.constant(name).value == value
