@@ -48,7 +48,7 @@ def test_a_slip_in_a_lone_file_is_a_warning(body, code, suggestion):
 
 
 def test_siblings_of_a_slip_are_no_slips():
-    text = module("a", "MoveJ p20, v100, fine, tool0;", "CONST robtarget p10 := p0;")
+    text = module("a", "MoveJ p20, v100, fine, tool0;", "VAR robtarget p10;")
     assert found(text) == []
 
 
@@ -136,7 +136,7 @@ def test_the_same_module_in_two_tasks_is_reported_once():
 
 
 def test_records_of_other_modules_are_known():
-    one = module("a", "b.x := 1;\nb.y := 1;", data="VAR rec b;")
+    one = module("a", "r.x := 1;\nr.y := 1;", data="VAR rec r;")
     two = "MODULE b\nRECORD rec\nnum x;\nENDRECORD\nENDMODULE\n"
     assert found(system(one, two)) == [("error", "RG304")]
 

@@ -7,7 +7,7 @@ from typing import Final
 
 from rapidgen.rapid.dialect import Dialect
 
-_SHORT: Final = 4
+_SHORT: Final = 3
 _LONG: Final = 7
 
 
@@ -65,7 +65,9 @@ def closest(word: str, known: Iterable[str]) -> str:
         slips = _slips(folded, other, best)
         if slips < best:
             best, found = slips, name
-    return found if len(folded) >= _SHORT else ""
+    # p1 and v1 are no slips of each other either.
+    shortest = _SHORT if bare == folded else _SHORT + 2
+    return found if len(folded) >= shortest else ""
 
 
 def _slips(one: str, other: str, limit: int) -> int:
