@@ -247,3 +247,43 @@ def test_wait_rob_waits_for_standstill(rapid):
         DATA,
     ).run()
     assert numbers(out[0])[1] == pytest.approx(50, abs=1e-3)
+
+
+def test_path_acc_lim_slows_the_ramps(rapid):
+    times = []
+    for limit in ("", "PathAccLim TRUE \\AccMax:=0.2, FALSE;"):
+        out = rapid(
+            HOME + f"{limit} ClkStart c; MoveL Offs(p,0,100,0), v100, fine, tool0; ClkStop c;"
+            'TPWrite "" \\Num:=ClkRead(c);',
+            DATA + "VAR clock c;\n",
+        ).run()
+        times.append(float(out[0]))
+    assert times[1] - 1.0 == pytest.approx(0.1 / 0.2, abs=0.01)
+    assert times[0] < 1.1
+
+
+def test_a_circle_may_keep_its_orientation_in_the_object(rapid):
+    # 3HAC050917 CirPathMode
+    out = rapid(
+        HOME
+        + "CirPathMode \\ObjectFrame; MoveC Offs(p,0,25,25), Offs(p,0,50,0), v100, fine, tool0;"
+        'q := CRobT(); TPWrite "" \\Orient:=q.rot;',
+        DATA,
+    ).run()
+    assert numbers(out[0]) == pytest.approx([0.5, 0, 0.866025, 0], abs=1e-5)
+
+
+def test_mechanical_units_and_a_deactivated_axis(rapid):
+    out = rapid(
+        "WHILE GetNextMechUnit(n, name \\TCPRob:=robot \\NoOfAxes:=count) DO "
+        'TPWrite name + " " + ValToStr(robot) + " " + ValToStr(count); ENDWHILE '
+        "j := CJointT(); j.extax.eax_a := 100; DeactUnit TRACK_1; "
+        'IF NOT IsMechUnitActive(TRACK_1) TPWrite "off"; '
+        'MoveAbsJ j, v1000, fine, tool0; j := CJointT(); TPWrite "" \\Num:=j.extax.eax_a;'
+        "ActUnit TRACK_1; j.extax.eax_a := 100; MoveAbsJ j, v1000, fine, tool0; j := CJointT();"
+        'TPWrite "" \\Num:=j.extax.eax_a;',
+        "VAR jointtarget j;\nVAR num n;\nVAR string name;\nVAR bool robot;\nVAR num count;\n",
+        robot="irb120_track",
+    ).run()
+    assert out[-3:] == ["off", "0", "100"]
+    assert out[0] == "ROB_1 TRUE 6"

@@ -55,7 +55,7 @@ def move_abs_j(
     group.move(
         task,
         JointMove(
-            target=target_of(to, group.map, group.path_target, offsets),
+            target=group.with_active(target_of(to, group.map, group.path_target, offsets)),
             speed=speed_of(speed, tcp_speed, modal),
             zone=zone_of(zone, radius, stop),
             time=time_of(time, modal),
@@ -84,9 +84,11 @@ def move_ext_j(
     modal = group.modal
     ends = group.path_target
     target = target_of(to, group.map, ends, modal.external_offset if use_offsets else _NO_OFFSETS)
-    target = tuple(
-        new if joint.axis.startswith("eax") else old
-        for joint, new, old in zip(group.config.joints, target, ends, strict=True)
+    target = group.with_active(
+        tuple(
+            new if joint.axis.startswith("eax") else old
+            for joint, new, old in zip(group.config.joints, target, ends, strict=True)
+        )
     )
     group.move(
         task,

@@ -4,15 +4,16 @@ Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-mots
 3HAC050917 for SpeedRefresh and CSpeedOverride.
 """
 
+from math import inf
 from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
-from rapidgen.virtual.builtins.positions import carrier_for
+from rapidgen.virtual.builtins.positions import carrier_for, load0
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
-from rapidgen.virtual.motion.access import group_of
+from rapidgen.virtual.motion.access import group_of, named_group
 from rapidgen.virtual.motion.arguments import frame
 from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.motion.targets import rob_target
@@ -22,6 +23,7 @@ from rapidgen.virtual.values import Ref, single
 
 Data: TypeAlias = Any
 _NO_OFFSETS = (0.0,) * 6
+_LEAST_ACCELERATION = 0.1
 
 
 @builtin("VelSet")
@@ -86,6 +88,53 @@ def sing_area(task: Task, wrist: bool | None, lock_axis_4: bool | None, _off: bo
     if lock_axis_4:
         raise FatalError(events.NOT_SIMULATED, "SingArea \\LockAxis4 is not simulated")
     group_of(task).modal.wrist = bool(wrist)
+
+
+@builtin("PathAccLim")
+def path_acc_lim(
+    task: Task,
+    limits_rise: bool,
+    rise: float | None,
+    limits_fall: bool,
+    fall: float | None,
+) -> None:
+    """m/s^2 of the TCP along its path. One value holds for both: profiles are symmetric.
+
+    ERR_ARGVALERR: a limit without a value of at least 0.1 [mem].
+    """
+    found = []
+    for wanted, value in ((limits_rise, rise), (limits_fall, fall)):
+        if wanted:
+            if value is None or value < _LEAST_ACCELERATION:
+                raise RapidError("ERR_ARGVALERR", "PathAccLim")
+            found.append(value)
+    group_of(task).modal.path_acceleration = min(found, default=inf)
+
+
+@builtin("WorldAccLim")
+def world_acc_lim(_task: Task, limit: float | None, _off: bool | None) -> None:
+    """\\Off is how it is. FatalError: a limit in world coordinates is not simulated."""
+    if limit is not None:
+        raise FatalError(events.NOT_SIMULATED, "WorldAccLim \\On is not simulated")
+
+
+@builtin("CirPathMode")
+def cir_path_mode(
+    task: Task,
+    _path: bool | None,
+    in_object: bool | None,
+    circle_point: bool | None,
+    wrist45: bool | None,
+    wrist46: bool | None,
+    wrist56: bool | None,
+) -> None:
+    """How the tool turns on circles: with the path, or as seen from the object.
+
+    FatalError: the other modes are not simulated.
+    """
+    if circle_point or wrist45 or wrist46 or wrist56:
+        raise FatalError(events.NOT_SIMULATED, "This CirPathMode is not simulated")
+    group_of(task).modal.circle_in_object = bool(in_object)
 
 
 # -- displacement and offsets -------------------------------------------------------------------
@@ -182,6 +231,13 @@ def motion_sup(
 def grip_load(task: Task, load: Ref) -> None:
     """Loads change no kinematics, and there is no dynamic model."""
     group_of(task).modal.extra["GripLoad"] = load.get().copy()
+
+
+@builtin("CLoad")
+def c_load(task: Task, reference: Data, name: str | None) -> Data:
+    """What GripLoad set, else load0."""
+    load: Data = named_group(task, reference, name).modal.extra.get("GripLoad") or load0()
+    return load.copy()
 
 
 @builtin("PathResol")

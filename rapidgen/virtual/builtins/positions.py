@@ -26,7 +26,12 @@ Data: TypeAlias = Any
 
 def tool0() -> Data:
     """tooldata of the flange."""
-    return ToolData(True, _identity(), LoadData(0.001, Pos(0, 0, 0.001), Orient(1, 0, 0, 0)))
+    return ToolData(True, _identity(), load0())
+
+
+def load0() -> Data:
+    """loaddata of next to nothing."""
+    return LoadData(0.001, Pos(0, 0, 0.001), Orient(1, 0, 0, 0))
 
 
 def wobj0() -> Data:

@@ -55,6 +55,8 @@ class Arc:
     normal: Vector
     sweep: float
     """rad, positive about `normal`"""
+    with_path: bool = True
+    """False: the orientation turns as on a line (CirPathMode \\ObjectFrame)."""
 
     @property
     def length(self) -> float:
@@ -64,6 +66,8 @@ class Arc:
     @property
     def angle(self) -> float:
         """rad that the tool turns in all, at most."""
+        if not self.with_path:
+            return frames.angle_between(self.start[1], self.end[1])
         return self.sweep + frames.angle_between(self.start[1], self._unswept())
 
     def _unswept(self) -> Quaternion:
@@ -83,11 +87,13 @@ class Arc:
 
     def orientation(self, share: float) -> Quaternion:
         """Unit quaternion."""
+        if not self.with_path:
+            return frames.slerp(self.start[1], self.end[1], share)
         own = frames.slerp(self.start[1], self._unswept(), share)
         return frames.multiply(frames.about(self.normal, self.sweep * share), own)
 
 
-def arc_through(start: Pose, via: Vector, end: Pose) -> Arc | None:
+def arc_through(start: Pose, via: Vector, end: Pose, *, with_path: bool = True) -> Arc | None:
     """The circle through three points; None: they do not make one.
 
     Points closer than 0.1 mm, or in one line, are no circle.
@@ -109,4 +115,4 @@ def arc_through(start: Pose, via: Vector, end: Pose) -> Arc | None:
     sweep = atan2(frames.dot(frames.cross(arm, last), normal), frames.dot(arm, last))
     if sweep <= 0:
         sweep += 2 * pi
-    return Arc(start, end, centre, normal, sweep)
+    return Arc(start, end, centre, normal, sweep, with_path)

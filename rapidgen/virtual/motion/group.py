@@ -9,33 +9,28 @@ from dataclasses import dataclass
 from math import ceil, inf
 from typing import Protocol
 
-from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
-from rapidgen.axes.limits import outside
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import MotionGroup as GroupConfig
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
-from rapidgen.virtual.motion import events
-from rapidgen.virtual.motion.cartesian import CartesianWay
+from rapidgen.virtual.motion import events, ways
 from rapidgen.virtual.motion.corners import zone_entry
-from rapidgen.virtual.motion.legs import Geometry, Leg, joint_measure, joint_way, lever_measure
+from rapidgen.virtual.motion.legs import Leg
 from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.motion import Motion
 from rapidgen.virtual.motion.moves import (
     NO_WAY,
-    CartesianMove,
     From,
-    JointMove,
-    Measure,
     Move,
     PathEvent,
     Posture,
 )
-from rapidgen.virtual.motion.path import NOTHING_M, Path
+from rapidgen.virtual.motion.path import Path
 from rapidgen.virtual.motion.pieces import AxisLimits, Piece
+from rapidgen.virtual.motion.punctuality import Punctuality
 from rapidgen.virtual.motion.settings import MotionSettings
 from rapidgen.virtual.motion.timelaw import TimeLaw, brake, plan
 from rapidgen.virtual.values import Record
@@ -45,8 +40,6 @@ MANUAL_REDUCED = 0.25
 
 
 _NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
-LATE = 0.002
-"""s by which a move may miss its \\T unreported."""
 
 
 class Waiter(Protocol):
@@ -109,12 +102,12 @@ class MotionGroup:
         self._stored: list[_Level] = []
         self._release = inf
         self._was_standing = True
-        self._late = 0.0
-        self._late_moves = 0
-        self._last_passed: float | None = None
+        self._punctuality = Punctuality()
         self._concurrent = 0
         self._settled = 0
         self.modal = ModalSettings()
+        self.inactive: set[str] = set()
+        """External axes of deactivated units (DeactUnit)."""
         self.tool: Record | None = None
         """tooldata of the last move, None before the first."""
         self.work_object: Record | None = None
@@ -157,6 +150,16 @@ class MotionGroup:
     def path_target(self) -> Posture:
         """Where the path ends: the start of the next move."""
         return self._path.target
+
+    def with_active(self, posture: Posture) -> Posture:
+        """A target whose deactivated external axes stay where the path ends."""
+        if not self.inactive:
+            return posture
+        ends = self.path_target
+        return tuple(
+            end if joint.axis in self.inactive else value
+            for joint, value, end in zip(self.config.joints, posture, ends, strict=True)
+        )
 
     def use(self, tool: Record, work_object: Record | None) -> None:
         """Tool and work object of the move that follows are the active ones from now on."""
@@ -288,27 +291,22 @@ class MotionGroup:
                 raise RapidError("ERR_CONC_MAX")
         else:
             self._concurrent = 0
-        if not isinstance(move, JointMove):
-            return
-        faults = outside(self.config.joints, move.target)
-        if faults:
-            if self.settings.range_error == "fatal":
-                raise FatalError(events.OUT_OF_RANGE, "Joint out of range", str(faults[0]))
-            raise RapidError("ERR_ROBLIMIT", str(faults[0]))
+        ways.check_range(self.config, self.settings, move)
 
     def _append(self, move: Move) -> Leg | None:
         path = self._path
         waits = self.settings.zero_length == "wait" and move.time is not None
-        if self._goes_nowhere(move) and not waits:
+        if ways.goes_nowhere(self.config, self.kinematics, move, path.target) and not waits:
             return self._stay(move)
         place, _ = self._state()
         fixed = place
         if self._braking():
             fixed = max(fixed, self._motion.law.place)
         path.prune(place)
-        limits = self._limits.scaled(self.modal.acceleration)
+        limits = self._limits.scaled(self.modal.acceleration, self.modal.path_acceleration)
+        make = ways.make(self.config, self.kinematics, self.settings, limits)
         standing = self.is_standing
-        leg, failed = path.extend(move, self._way, self._law, limits, fixed, self.kinematics)
+        leg, failed = path.extend(move, make, self._law, limits, fixed, self.kinematics)
         self._events += [(leg, event) for event in move.events]
         if standing and not self._stops:
             leg.began = self._kernel.now / S
@@ -329,59 +327,9 @@ class MotionGroup:
         self._rearm()
         return tail
 
-    def _goes_nowhere(self, move: Move) -> bool:
-        ends = self._path.target
-        if isinstance(move, JointMove):
-            return all(abs(a - b) < NOTHING_M for a, b in zip(move.target, ends, strict=True))
-        assert isinstance(move, CartesianMove)
-        kinematics = self.geometry()
-        if move.via is not None:
-            return False
-        position, orientation = move.carrier.pose(kinematics.forward(ends))
-        return (
-            frames.distance(position, move.target[0]) < NO_WAY
-            and frames.angle_between(orientation, move.target[1]) < NO_WAY
-            and all(
-                abs(a - b) < NOTHING_M
-                for joint, a, b in zip(self.config.joints, move.external, ends, strict=True)
-                if joint.axis.startswith("eax")
-            )
-        )
-
-    def _way(self, origin: Posture, move: Move, from_rest: bool) -> Geometry:
-        limits = self._limits.scaled(self.modal.acceleration)
-        if isinstance(move, CartesianMove):
-            way = CartesianWay(origin, move, self.geometry(), limits, from_rest=from_rest)
-            self._check_configuration(move, way.target)
-            return way
-        assert isinstance(move, JointMove)
-        return joint_way(origin, move, self.measure(origin, move), limits, from_rest=from_rest)
-
     def geometry(self) -> Kinematics:
         """The group's kinematics. FatalError: its model has none."""
-        if self.kinematics is None:
-            raise FatalError(
-                events.NO_GEOMETRY,
-                "No geometry",
-                f"{self.name}: the configuration has no chain, so the robot moves in joints only",
-            )
-        return self.kinematics
-
-    def _check_configuration(self, move: CartesianMove, target: Posture) -> None:
-        if move.wanted is None or self.geometry().matches(target, move.wanted):
-            return
-        reached = self.geometry().configuration(target)
-        raise FatalError(
-            events.NOT_COMPATIBLE,
-            "Position not compatible",
-            f"the way ends in configuration {list(reached)}, programmed is {list(move.wanted)}",
-        )
-
-    def measure(self, origin: Posture, move: JointMove) -> tuple[Measure, float]:
-        """How far a joint move goes, and the TCP's largest way per share of it."""
-        if self.kinematics is None:
-            return lever_measure(self.config, origin, move.target, self.settings.lever)
-        return joint_measure(self.kinematics, move.carrier, origin, move.target)
+        return ways.require(self.config, self.kinematics)
 
     # -- stops ------------------------------------------------------------------------------
 
@@ -523,7 +471,7 @@ class MotionGroup:
 
     def _set_motion(self, law: TimeLaw, start: int) -> None:
         path = self._path
-        self._note_passing()
+        self._punctuality.look(self._path.legs, self._motion, self._kernel.now)
         rest = path.target if law.place >= path.end else path.at(law.place)
         self._move_by(law, start, rest)
 
@@ -540,15 +488,6 @@ class MotionGroup:
         for observer in self.observers:
             observer(self._motion)
         self._rearm()
-
-    def _note_passing(self) -> None:
-        """Remember when legs were passed that a new law would know nothing of."""
-        place, _ = self._state()
-        for leg in self._path.legs:
-            if leg.end > place:
-                break
-            if leg.passed_at is None:
-                leg.passed_at = self._motion.start / S + self._motion.law.time_at(leg.end)
 
     # -- deadlines --------------------------------------------------------------------------
 
@@ -610,7 +549,7 @@ class MotionGroup:
             self._was_standing = standing
             self._report(standing)
             if standing:
-                self._report_lateness()
+                self._punctuality.report(self._log, self.name)
             changed = True
         if standing and self._settled != self._motion.start:
             self._settled = self._motion.start
@@ -646,32 +585,9 @@ class MotionGroup:
             leg.finished = not cleared
             leg.cleared = cleared
             if not cleared:
-                self._measure_time(leg)
+                self._punctuality.finished(leg, self._motion)
         if legs and cleared:
             self.changed.notify()
-
-    def _measure_time(self, leg: Leg) -> None:
-        """Compare the time that a move took with its \\T."""
-        if leg.passed_at is None:
-            leg.passed_at = self._motion.start / S + self._motion.law.time_at(leg.end)
-        began = leg.began if leg.began is not None else self._last_passed
-        self._last_passed = leg.passed_at
-        if leg.move.time is None or began is None:
-            return
-        late = leg.passed_at - began - leg.move.time
-        if late > LATE:
-            self._late += late
-            self._late_moves += 1
-
-    def _report_lateness(self) -> None:
-        if self._late_moves:
-            self._log.warning(
-                events.TIME_NOT_MET,
-                "Programmed time not met",
-                f"{self.name}: {self._late_moves} moves with \\T took {self._late:.3f} s longer",
-                "the axes' limits, the override or a stop",
-            )
-        self._late, self._late_moves = 0.0, 0
 
     def _corner_failure(self, leg: Leg) -> None:
         where = leg.move.place() if leg.move.place is not None else None

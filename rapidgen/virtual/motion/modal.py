@@ -1,6 +1,7 @@
 """Motion settings that stay until changed or until PP to main (S4 datasys 1-motsetdata-3)."""
 
 from dataclasses import dataclass, field
+from math import inf
 
 from rapidgen.axes.frames import IDENTITY, Pose
 
@@ -25,5 +26,9 @@ class ModalSettings:
     """Program displacement, m."""
     external_offset: tuple[float, ...] = (0.0,) * 6
     """Offsets of eax_a to eax_f in RAPID units."""
+    path_acceleration: float = inf
+    """PathAccLim, m/s^2 of the TCP along its path."""
+    circle_in_object: bool = False
+    """CirPathMode \\ObjectFrame: orientation on a circle turns relative to the object."""
     extra: dict[str, object] = field(default_factory=dict)
     """Settings that change no motion here: kept so that a program can set them."""

@@ -115,6 +115,8 @@ class CartesianMove(Move):
     via: Pose | None = None
     wanted: Configuration | None = None
     """confdata that is checked at the end (ConfL \\On)."""
+    in_object: bool = False
+    """CirPathMode \\ObjectFrame: on a circle the orientation turns as on a line."""
     wrist: bool = False
     """SingArea \\Wrist: the wrist axes go straight in joint space, the TCP stays on the way."""
 

@@ -66,8 +66,8 @@ class Path:
                 leg = Leg(move, way, tail.end, tail.end + way.duration)
                 pieces = (
                     *self._until(start),
-                    *between,
-                    *way.pieces(leg.begin, end, leg.end),
+                    *limits.slow(between),
+                    *limits.slow(way.pieces(leg.begin, end, leg.end)),
                 )
                 if plan(pieces) is None:
                     continue
@@ -77,18 +77,20 @@ class Path:
         failed = tail is not None and not tail.stops
         if tail is not None and failed:
             tail.committed = True
-        leg, pieces = self._from_rest(move, make)
+        leg, pieces = self._from_rest(move, make, limits)
         self._take(leg, pieces)
         return leg, failed
 
-    def _from_rest(self, move: Move, make: WayMaker) -> tuple[Leg, tuple[Piece, ...]]:
+    def _from_rest(
+        self, move: Move, make: WayMaker, limits: AxisLimits
+    ) -> tuple[Leg, tuple[Piece, ...]]:
         way = make(self.target, move, True)
         leg = Leg(move, way, self.end, self.end + way.duration)
         before = self.pieces
         if before:
             last = before[-1]
             before = (*before[:-1], last.until(last.end, stop=True))
-        return leg, (*before, *way.pieces(leg.begin, leg.begin, leg.end))
+        return leg, (*before, *limits.slow(way.pieces(leg.begin, leg.begin, leg.end)))
 
     def _take(self, leg: Leg, pieces: tuple[Piece, ...]) -> None:
         leg.left = leg.end

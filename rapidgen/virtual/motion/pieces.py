@@ -157,18 +157,32 @@ class Curve(Piece):
 class AxisLimits:
     """Speeds and accelerations of the axes (rad, m), turned into limits along a path."""
 
-    __slots__ = ("accelerations", "share", "speeds")
+    __slots__ = ("accelerations", "share", "speeds", "tcp_acceleration")
 
     def __init__(
-        self, speeds: Sequence[float], accelerations: Sequence[float], share: float
+        self,
+        speeds: Sequence[float],
+        accelerations: Sequence[float],
+        share: float,
+        tcp_acceleration: float = inf,
     ) -> None:
         self.speeds = tuple(speeds)
         self.accelerations = tuple(accelerations)
         self.share = share
+        self.tcp_acceleration = tcp_acceleration
+        """m/s^2 of the TCP along the path (PathAccLim)."""
 
-    def scaled(self, factor: float) -> "AxisLimits":
-        """The same with `factor` times the accelerations (AccSet)."""
-        return AxisLimits(self.speeds, [a * factor for a in self.accelerations], self.share)
+    def scaled(self, factor: float, tcp_acceleration: float) -> "AxisLimits":
+        """The same with `factor` times the accelerations (AccSet) and a limit of the TCP's."""
+        accelerations = [a * factor for a in self.accelerations]
+        return AxisLimits(self.speeds, accelerations, self.share, tcp_acceleration)
+
+    def slow(self, pieces: Sequence[Piece]) -> Sequence[Piece]:
+        """Fresh pieces with the limit of the TCP's acceleration."""
+        for piece in pieces:
+            if piece.tcp * piece.acceleration > self.tcp_acceleration:
+                piece.acceleration = self.tcp_acceleration / piece.tcp
+        return pieces
 
     def of_line(self, rates: Posture) -> tuple[float, float]:
         """Path speed (at most 1) and acceleration on a straight joint line."""

@@ -75,5 +75,6 @@ class Request:
             via=None if via is None else frame(via),
             wanted=wanted,
             wrist=group.modal.wrist,
+            in_object=group.modal.circle_in_object,
             **common,
         )

@@ -44,13 +44,15 @@ def carrier_of(tool: Data, work_object: Data, modal: ModalSettings) -> Carrier:
 
 
 def external_posture(group: MotionGroup, data: Data) -> Posture:
-    """The path's end with the external axes of an extjoint."""
+    """The path's end with the external axes of an extjoint (deactivated ones as they are)."""
     ends = group.path_target
     values = external_values(data, group.modal.external_offset)
     asked = group.map.from_rapid((0.0,) * 6, values, ends)
-    return tuple(
-        new if joint.axis.startswith("eax") else old
-        for joint, new, old in zip(group.config.joints, asked, ends, strict=True)
+    return group.with_active(
+        tuple(
+            new if joint.axis.startswith("eax") else old
+            for joint, new, old in zip(group.config.joints, asked, ends, strict=True)
+        )
     )
 
 
