@@ -27,7 +27,9 @@ from rapidgen.client import (
     Trajectory,
     TrajectoryRefused,
 )
-from rapidgen.protocol.spec import Mode, Reason, TrajectoryState, TriState
+from rapidgen.client.address import Address
+from rapidgen.client.channels import Channel
+from rapidgen.protocol.spec import Mode, Port, Reason, TrajectoryState, TriState
 
 GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=0.1)
@@ -158,6 +160,12 @@ def test_a_loop_is_not_done_before_it_was_run(fake, client, rapidgen):
         assert robot.execute(LOOP).result().seconds > 0.2
 
 
+def test_a_driver_that_never_says_moving_is_judged_by_time_too(fake, client):
+    controller = fake(rapidgen=False, status={"in_motion": 0})
+    with client(controller.address) as robot:
+        assert robot.execute(LOOP).result().seconds > 0.2
+
+
 def test_a_robot_that_never_moves_has_not_arrived(fake, client):
     controller = fake(rapidgen=False, moves=False)
     with client(controller.address) as robot:
@@ -265,12 +273,15 @@ def test_an_invalid_trajectory_sends_nothing(fake, client):
     assert controller.frames == []
 
 
-def test_a_plain_driver_gets_at_most_100_points(fake, client):
+@pytest.mark.parametrize("target", ["irb120", None])
+def test_a_plain_driver_gets_at_most_100_points(fake, client, target):
+    # Also where the configuration has room for more: what runs there may be abb_driver.
     controller = fake(rapidgen=False)
-    points = [[0.0] * 6] * 101
-    robot_in = client(controller.address)
+    points = Trajectory.from_points([[0.0] * 6] * 101, seconds=0.1)
+    options = {"address": controller.address} if target else {}
+    robot_in = client(target or controller.address, **options)
     with robot_in as robot, pytest.raises(InvalidTrajectory, match="holds 100"):
-        robot.execute(Trajectory.from_points(points, seconds=0.1))
+        robot.execute(points)
     assert controller.frames == []
 
 
@@ -450,6 +461,18 @@ def test_stop_from_another_thread_while_sending(fake, quick):
     assert -3 not in sequences
     # whole frames only, none left out
     assert sequences[:-1] == [-1, *range(1, len(sequences) - 1)]
+
+
+def test_no_frame_goes_out_behind_a_stop_that_came_before_the_lock():
+    answers = iter([False, True])
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        address = Address("127.0.0.1", server.getsockname()[1])
+        channel = Channel(address, Port.MOTION, 1.0)
+        peer, _ = server.accept()
+        assert not channel.send(b"x" * 680, 1.0, lambda: next(answers))
+        channel.close()
+        assert peer.recv(100) == b""
+        peer.close()
 
 
 def test_ctrl_c_stops_the_robot(fake, quick, monkeypatch):

@@ -152,3 +152,20 @@ def test_two_arms_start_together():
 
     with controller:
         run(controller, main())
+
+
+@pytest.mark.parametrize("seconds", [0.0, 4.0])
+def test_a_single_point_is_gone_to_from_anywhere(seconds):
+    controller, config = booted()
+    goal = [0.4, 0.2, -0.2, 0.0, 0.5, -1.0]
+
+    async def main():
+        async with robot_of(config) as robot:
+            result = await (await robot.execute(Trajectory([seconds], [goal]))).result()
+            assert result.deviation < 1e-4
+            return result.seconds
+
+    with controller:
+        taken = run(controller, main())
+    # at a tenth of the axis speeds, or in the time that was given
+    assert taken > max(seconds, 0.3) - 0.1
