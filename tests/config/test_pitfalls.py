@@ -291,6 +291,22 @@ def test_12_a_mimic_in_the_chain_follows(check):
     assert config.groups[0].chain[5].follows == (("joint_5", -1.0),)
 
 
+def test_12_the_offset_of_a_mimic_in_the_chain_is_kept(check):
+    more = '<mimic joint="joint_5" multiplier="2" offset="0.25"/>'
+    text = robot(
+        BASE,
+        arm([f"joint_{n}" for n in range(1, 6)]),
+        joint("between", "link_5", "middle", more=more),
+        joint("joint_6", "middle", "link_6"),
+        links("middle", "link_6"),
+    )
+    config, _ = check(text)
+    link = config.groups[0].chain[5]
+    assert link.follows == (("joint_5", 2.0),)
+    assert link.rpy == pytest.approx((0, 0, 0.25))
+    assert link.xyz == pytest.approx((0, 0, 0.1))
+
+
 def test_13_a_passive_joint_that_is_not_marked(check):
     still = joint("tail", "link_2", "tail_link", lower=0, upper=0)
     text = robot(BASE, arm(), still, links("tail_link"))

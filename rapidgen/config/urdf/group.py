@@ -271,7 +271,10 @@ def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
 
 
 def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[Link]:
-    """The kinematic chain from the root to the flange, in the URDF's sense."""
+    """The kinematic chain from the root to the flange, in the URDF's sense.
+
+    A turning joint that mimics a mapped one follows it; a sliding one stands still.
+    """
     by_axis = {joint.axis: joint.name for joint in draft.joints}
     last = next(
         (by_axis[axis] for axis in reversed(ROBOT_AXES) if axis in by_axis), draft.joints[-1].name
@@ -287,7 +290,7 @@ def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[Link]:
     for joint in graph.path_to(tip_link):
         if joint.name in mapped:
             made.append(Link(joint.name, joint.xyz, joint.rpy, joint.axis))
-        elif joint.mimic in mapped:
+        elif joint.mimic in mapped and joint.kind != "prismatic":
             follows = ((joint.mimic, joint.multiplier),)
             made.append(Link("", joint.xyz, joint.rpy, joint.axis, follows))
         elif any(joint.xyz) or any(joint.rpy):

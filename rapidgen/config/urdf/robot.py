@@ -25,7 +25,10 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True, slots=True)
 class UrdfJoint:
-    """One joint as the file has it: rad, m, s; None is what the file leaves out."""
+    """One joint as the file has it: rad, m, s; None is what the file leaves out.
+
+    The offset of a mimic joint is part of its `xyz` and `rpy`.
+    """
 
     name: str
     kind: str
@@ -39,7 +42,6 @@ class UrdfJoint:
     velocity: float | None
     mimic: str
     multiplier: float
-    offset: float
     span: Span | None
 
     @property
@@ -131,10 +133,12 @@ def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
     robot = made.robot
     joints = []
     for joint in robot.joints:
-        matrix = joint.origin
         limit, mimic = joint.limit, joint.mimic
         factor = mimic.multiplier if mimic and mimic.multiplier is not None else 1.0
-        offset = mimic.offset if mimic and mimic.offset is not None else 0.0
+        axis = _unit(_vector(joint.axis))
+        matrix = joint.origin
+        if mimic and mimic.offset:
+            matrix = _moved(matrix, axis, float(mimic.offset), slides=joint.type == "prismatic")
         joints.append(
             UrdfJoint(
                 joint.name,
@@ -143,17 +147,31 @@ def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
                 joint.child,
                 _vector(matrix[:3, 3]) if matrix is not None else (0.0, 0.0, 0.0),
                 _rpy(matrix) if matrix is not None else (0.0, 0.0, 0.0),
-                _unit(_vector(joint.axis)),
+                axis,
                 None if limit is None else limit.lower,
                 None if limit is None else limit.upper,
                 None if limit is None else limit.velocity,
                 mimic.joint if mimic else "",
                 float(factor),
-                float(offset),
                 lines.get(joint.name),
             )
         )
     return UrdfRobot(robot.name, tuple(link.name for link in robot.links), tuple(joints))
+
+
+def _moved(matrix: Any, axis: Vector, amount: float, *, slides: bool) -> Any:
+    """A joint's origin with the joint itself moved by `amount`."""
+    import numpy as np
+
+    step = np.eye(4)
+    x, y, z = axis
+    if slides:
+        step[:3, 3] = np.array(axis) * amount
+    else:
+        cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        turn = math.sin(amount) * cross + (1 - math.cos(amount)) * cross @ cross
+        step[:3, :3] += turn
+    return step if matrix is None else matrix @ step
 
 
 def _vector(values: Any) -> Vector:
