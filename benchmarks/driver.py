@@ -1,0 +1,136 @@
+"""The generated driver on the reference cost model, beside abb_driver's modules where they are.
+
+    python benchmarks/driver.py [FOLDER with abb_driver's six modules]
+
+Simulated time per point (from the slope over two lengths of a download whose points all pass every
+check, ended by a STOP whose reply marks the time), time from STOP to deceleration, and time
+and path error on the trajectories beside this file, the approach left out. These compare algorithms
+in our cost and motion model; no controller was measured.
+"""
+
+import csv
+import sys
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import STOP, Bench, off, point_frame
+from tests.foreign.abb_driver import read_system
+
+TRAJECTORIES = Path(__file__).resolve().parent / "trajectories"
+
+
+def drivers():
+    config = load_config("irb120")
+    yield "rapidgen", config, make_system(config, build(config))
+    if len(sys.argv) > 1:
+        foreign = replace(config, trajectory=replace(config.trajectory, capacity=100))
+        yield "abb_driver", foreign, read_system(Path(sys.argv[1]))
+
+
+def per_point(config, system):
+    """Simulated s for one more point."""
+    taken = []
+    for count in (20, 90):
+        bench = Bench(config, system)
+        bench.run(1)
+        link = bench.motion()
+        points = bench.wave(count + 1, duration=0.2, size=0.01)
+        data = b"".join(point_frame(n, count + 1, *points[n]) for n in range(count))
+        start = bench.now
+        link.send(data + STOP)
+        bench.until(lambda got=link.frames: bool(got), 60, "STOP is answered")
+        taken.append(link.frames[0][0] - start)
+        bench.close()
+    return (taken[1] - taken[0]) / 70
+
+
+def stopping(config, system):
+    """s from the last byte of STOP to the moment in which the robot is told to stop."""
+    found = []
+    for delay in (0.5, 0.77, 1.03, 1.31, 1.6):
+        bench = Bench(config, system)
+        bench.run(1)
+        link = bench.motion()
+        link.send(bench.download(bench.wave(30)))
+        bench.wait_until_moving()
+        bench.run(delay)
+        group = bench.controller.motion.group("rob1")
+        link.send(STOP)
+        start = bench.now
+        bench.until(lambda g=group: g.stop_reasons or not g.legs, 5, "the robot is told to stop")
+        found.append(bench.now - start)
+        bench.close()
+    return sorted(found)[len(found) // 2], max(found)
+
+
+def read(path):
+    with path.open(newline="") as file:
+        rows = list(csv.reader(file))[1:]
+    times = [float(row[0]) for row in rows]
+    joints = [tuple(float(v) for v in row[1:]) for row in rows]
+    steps = [10.0, *(b - a for a, b in pairwise(times))]
+    return times, list(zip(joints, steps, strict=True))
+
+
+def follow(config, system, path):
+    """(time error s, path error rad): of the end, and largest distance from the polyline."""
+    times, points = read(path)
+    bench = Bench(config, system)
+    bench.run(1)
+    link = bench.motion()
+    link.send(bench.download(points))
+    bench.run(2 + times[-1] * 1.5 + 12)
+    moving = [t for t, _ in bench.track[1:]]
+    if not moving:
+        bench.close()
+        return None
+    began, ended = moving[0], moving[-1]
+    way = [p for p, _ in points]
+    apart, at = 0.0, 0
+    for when, seen in bench.track:
+        if when < began:
+            continue
+        near = [(off(seen, way[i], way[i + 1]), i) for i in range(at, min(at + 4, len(way) - 1))]
+        distance, at = min(near)
+        apart = max(apart, distance)
+    lost = max(abs(a - b) for a, b in zip(bench.position, way[-1], strict=True))
+    bench.close()
+    # Where the last points are one place, the robot has nothing left to do.
+    last = next(t for t, p in zip(times, way, strict=True) if p == way[-1])
+    if way[0] == way[-1]:
+        last = next(t for t, p in list(zip(times, way, strict=True))[1:] if p == way[-1])
+    return abs((ended - began) - last), max(apart, lost)
+
+
+def main():
+    results = {}
+    for name, config, system in drivers():
+        median, worst = stopping(config, system)
+        results[name] = {
+            "point": per_point(config, system),
+            "stop": median,
+            **{p.stem: follow(config, system, p) for p in sorted(TRAJECTORIES.glob("*.csv"))},
+        }
+        own = results[name]
+        print(
+            f"{name}: {own['point'] * 1e3:.3f} ms a point, STOP {median * 1e3:.1f} ms "
+            f"(worst {worst * 1e3:.1f})"
+        )
+        for path in sorted(TRAJECTORIES.glob("*.csv")):
+            found = own[path.stem]
+            if found is None:
+                print(f"  {path.stem:6} not moved")
+            else:
+                print(f"  {path.stem:6} time {found[0]:8.3f} s  path {found[1]:.5f} rad")
+    if len(results) == 2:
+        ours, theirs = results["rapidgen"], results["abb_driver"]
+        print(f"point: {ours['point'] / theirs['point']:.2f} x abb_driver's")
+
+
+if __name__ == "__main__":
+    main()
