@@ -36,7 +36,8 @@ def uninstall(
 ) -> int:
     """Go back to the state before the first deployment.
 
-    Our files go, strangers' come back. cfg instances that were loaded at the pendant are listed: they are deleted there.
+    Our files go, strangers' come back. cfg instances that were loaded at the pendant are listed:
+    they are deleted there.
 
     rapidgen uninstall cell1.yaml --to "sftp://admin@192.168.125.1/HOME"
     """

@@ -13,6 +13,7 @@ from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import parse_target
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.diagnostics import DiagnosticError, render
+from rapidgen.services import serve_ftp
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 VERBS = (plan, deploy, rollback, uninstall, doctor)
@@ -140,6 +141,23 @@ def test_doctor(run, built, home):
     assert checks["reach"]["verdict"] == "ok"
     assert checks["RobotWare"]["verdict"] == "unknown"
     assert list(p.name for p in home.iterdir()) == ["theirs.mod"]
+
+
+def test_doctor_warns_of_the_delivered_password_and_of_other_programs(
+    run, built, home, monkeypatch
+):
+    service = serve_ftp(home, password="robotics")
+    url = f"ftp://127.0.0.1:{service.port}"
+    for password in ("robotics", "changed"):
+        monkeypatch.setenv("RAPIDGEN_PASSWORD", password)
+        _, out, _ = run("doctor", built(OLD), "--to", url, "--json")
+        found = [c for c in json.loads(out) if c["area"] in ("passwords", "reach")]
+        if password == "robotics":
+            assert [c["verdict"] for c in found] == ["ok", "warn"]
+            assert "robotics" not in out
+        else:
+            assert [c["verdict"] for c in found] == ["fail"]
+    service.close()
 
 
 @pytest.mark.parametrize(

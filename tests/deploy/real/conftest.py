@@ -167,7 +167,7 @@ RequireValidShell off
 RootLogin on
 PidFile {folder}/pid
 ScoreboardFile {folder}/scoreboard
-DelayTable none
+DelayEngine off
 WtmpLog off
 TransferLog none
 UseReverseDNS off
