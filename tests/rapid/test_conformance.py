@@ -3,6 +3,7 @@
 import pytest
 
 from tests.rapid.conformance_files import all_files
+from tests.rapid.uncovered import rules, uncovered
 
 FILES = all_files()
 
@@ -17,3 +18,12 @@ def test_file_gives_what_it_announces(file):
 
 def test_every_file_says_its_rule_and_source():
     assert [f.path.name for f in FILES if not {"rule", "source"} <= f.head.keys()] == []
+
+
+def test_every_rule_has_files_and_every_file_a_rule():
+    assert len(rules()) > 70
+    assert uncovered() == ([], [])
+
+
+def test_every_rule_names_its_source():
+    assert [rule for rule, source, _ in rules() if not source.startswith("[")] == []
