@@ -19,6 +19,7 @@ from rapidgen.virtual.values import NUM, Cell, Type, make_array, make_record
 if TYPE_CHECKING:
     from rapidgen.virtual.task import Task
 
+TypeDeclaration = n.RecordDeclaration | n.AliasDeclaration
 _ATOMIC = ("num", "dnum", "bool", "string")
 
 
@@ -39,6 +40,8 @@ class LoadedModule:
     """Everything it declares, by lower-case name."""
     declarations: dict[str, n.DataDeclaration] = field(default_factory=dict)
     """Of its data."""
+    types: dict[str, TypeDeclaration] = field(default_factory=dict)
+    """Declarations of its types."""
 
     def span(self, node: n.Node) -> Span:
         """Place of a node."""
@@ -75,6 +78,7 @@ class Program:
         self._kept: dict[int, str] = {}
         self._predefined: dict[str, Data] = {}
         self._evaluating: set[int] = set()
+        self._global_types: dict[str, tuple[LoadedModule, TypeDeclaration]] = {}
         self.space: dict[str, Any] = {
             **runtime.NAMESPACE,
             "R": task,
@@ -100,11 +104,18 @@ class Program:
             module = LoadedModule(tree.name, self._serial, tree, file)
             loaded.append(module)
             self.modules[tree.name.lower()] = module
-            for declaration in tree.declarations:
-                self._declare_type(module, declaration)
+            types: list[TypeDeclaration] = [*tree.records, *tree.aliases]
+            for declaration in types:
+                key = declaration.name.lower()
+                module.types[key] = declaration
+                if declaration.scope != "LOCAL":
+                    self._global_types.setdefault(key, (module, declaration))
         for module in loaded:
-            for declaration in module.tree.declarations:
-                self._declare(module, declaration)
+            for own in module.types.values():
+                self._declare_type(module, own)
+        for module in loaded:
+            for member in module.tree.declarations:
+                self._declare(module, member)
         for module in loaded:
             for key in module.declarations:
                 self._datum(module, key)
@@ -115,6 +126,9 @@ class Program:
     def unload(self, name: str) -> None:
         """Remove a module; code that called it is linked anew."""
         module = self.modules.pop(name.lower())
+        for key in module.types:
+            if self._global_types.get(key, (None,))[0] is module:
+                del self._global_types[key]
         for key, symbol in module.symbols.items():
             if self.globals.get(key) is symbol:
                 del self.globals[key]
@@ -126,17 +140,19 @@ class Program:
                 if isinstance(symbol, Routine):
                     self.space[symbol.code] = self._stub(symbol)
 
-    def _declare_type(self, module: LoadedModule, d: n.Declaration) -> None:
-        if isinstance(d, n.RecordDeclaration | n.AliasDeclaration):
-            key = d.name.lower()
-            kind: Type | None
-            if isinstance(d, n.AliasDeclaration):
-                kind = self.find_type(module, d.type.lower())
-            else:
-                kind = self._record(module, d)
+    def _declare_type(self, module: LoadedModule, d: TypeDeclaration) -> None:
+        key = d.name.lower()
+        if key in module.symbols or id(d) in self._evaluating:
+            return
+        self._evaluating.add(id(d))
+        if isinstance(d, n.AliasDeclaration):
+            kind = self.find_type(module, d.type.lower())
             if kind is None:
-                self._fault(module, f"type {d.type} is not known", d)  # type: ignore[union-attr]
-                return
+                self._fault(module, f"type {d.type} is not known", d)
+        else:
+            kind = self._record(module, d)
+        self._evaluating.discard(id(d))
+        if kind is not None:
             module.symbols[key] = kind
             if d.scope != "LOCAL":
                 self.globals.setdefault(key, kind)
@@ -320,27 +336,15 @@ class Program:
             found = scope.get(key)
             if isinstance(found, Type):
                 return found
-        for d in module.tree.declarations:
-            if (
-                isinstance(d, n.RecordDeclaration | n.AliasDeclaration)
-                and d.name.lower() == key
-                and key not in module.symbols
-            ):
-                self._declare_type(module, d)
-                found = module.symbols.get(key)
-                return found if isinstance(found, Type) else None
-        for other in self.modules.values():
-            if other is module or key in other.symbols:
-                continue
-            for d in other.tree.declarations:
-                if (
-                    isinstance(d, n.RecordDeclaration | n.AliasDeclaration)
-                    and d.scope != "LOCAL"
-                    and d.name.lower() == key
-                ):
-                    self._declare_type(other, d)
-                    found = other.symbols.get(key)
-                    return found if isinstance(found, Type) else None
+        # Not met yet: types may be used before the module that declares them is linked.
+        place = module.types.get(key)
+        owner = module
+        if place is None or key in module.symbols:
+            owner, place = self._global_types.get(key, (module, None))
+        if place is not None and key not in owner.symbols:
+            self._declare_type(owner, place)
+            found = owner.symbols.get(key)
+            return found if isinstance(found, Type) else None
         return predefined.find_type(key)
 
     def find_data(self, module: LoadedModule | None, key: str) -> Data | None:
