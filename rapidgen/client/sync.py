@@ -76,15 +76,20 @@ class Robot:
         try:
             self._run(flows.connect(self._core))
         except BaseException:
-            self.close()
+            self._hang_up()
             raise
         return self
 
     def close(self) -> None:
         """Close all connections. A motion under way is stopped first."""
         run = self._core.run
-        if run is not None and not run.is_over and Port.MOTION in self._channels:
-            self.stop()
+        try:
+            if run is not None and not run.is_over and Port.MOTION in self._channels:
+                self.stop()
+        finally:
+            self._hang_up()
+
+    def _hang_up(self) -> None:
         with self._changed:
             self._core.closed()
             channels, self._channels = list(self._channels.values()), {}

@@ -210,6 +210,15 @@ def test_closing_stops_what_moves(fake, client):
     assert len(controller.stops) == 1
 
 
+def test_closing_says_that_it_could_not_stop_and_closes_all_the_same(fake, client):
+    controller = fake()
+    with pytest.raises(StopFailed), client(controller.address) as robot:  # noqa: PT012
+        robot.execute(LONG)
+        controller.script.answer_stop = False
+    assert not robot.is_connected
+    assert _comes(lambda: not controller._clients)
+
+
 def test_refusal_tells_reason_point_and_joint(fake, client):
     controller = fake(refuse=(4, 1, 3))
     with client(controller.address) as robot:
