@@ -10,6 +10,7 @@ from rapidgen.rapid.lexer import KEYWORDS
 from rapidgen.virtual.compiler.analysis import walk
 from rapidgen.virtual.compiler.program import LoadedModule, Program
 
+_BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
 _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
 
 
@@ -38,6 +39,9 @@ def _suspects(program: Program, module: LoadedModule) -> set[str]:
         routine = program.find_routine(module, text)
         if routine is None or routine.missing:
             unknown.add(text)
+    for declared in module.tree.routines:
+        unknown.difference_update(d.name.lower() for d in declared.data)
+        unknown.difference_update(p.name.lower() for p in declared.parameters)
     if not unknown:
         return unknown
     suspects = set()
@@ -48,7 +52,7 @@ def _suspects(program: Program, module: LoadedModule) -> set[str]:
             continue
         behind = tokens[i + 1] if i < last else ""
         before = tokens[i - 1].upper() if i else ""
-        starts = before in (";", "THEN", "DO", "ELSE", ":", ")") or before.isalpha()
+        starts = before in _BEFORE_STATEMENT or (before[:1].isalpha() and before not in KEYWORDS)
         if behind == "(" or (starts and (behind == ";" or behind not in _NO_CALL)):
             suspects.add(key)
     return suspects
