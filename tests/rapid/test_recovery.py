@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.diagnostics import Severity
-from rapidgen.rapid import parse
+from rapidgen.rapid import check, parse
 from rapidgen.rapid.walk import walk
 
 
@@ -162,3 +162,22 @@ def test_depth_limits_are_reached_without_harm():
 def test_an_encoded_module_is_a_warning():
     found = parse(ENDLESS["encoded"]).diagnostics
     assert [(d.code, d.severity) for d in found] == [("RG219", Severity.WARNING)]
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        "(1+" * 199 + "1" + ")" * 199,
+        "f(1+" * 99 + "1" + ")" * 99,
+        "Abs(1+" * 99 + "1" + ")" * 99,
+        "[" * 199 + "1" + "]" * 199,
+        "1" + "+1" * 199,
+        "a{" * 199 + "1" + "}" * 199,
+        "(NOT " * 99 + "TRUE" + ")" * 99,
+    ],
+)
+def test_the_deepest_expression_in_the_deepest_block_is_checked(value):
+    deep = "IF a THEN " * 100 + f"x := {value}; Foo {value}; IF {value} TPErase;" + "ENDIF " * 100
+    assert all(d.code.startswith("RG3") for d in check(parse(routine(deep), path="deep.mod")))
+    data = f"MODULE m\nVAR num x := {value};\nPERS num y := {value};\nENDMODULE\n"
+    assert all(d.code.startswith("RG3") for d in check(parse(data, path="deep.mod")))

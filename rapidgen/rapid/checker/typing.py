@@ -44,6 +44,7 @@ _NUMERIC: Final = frozenset((NUMBER, "num", "dnum"))
 _ATOMIC: Final = frozenset(("num", "dnum", "bool", "string"))
 """What surely has no components; of some installed types they are not known."""
 _RELATIONS: Final = frozenset(("<", "<=", ">", ">="))
+_MAX_DEPTH: Final = 50
 _HARDWARE: Final = frozenset(
     ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
 )
@@ -53,6 +54,8 @@ _HARDWARE: Final = frozenset(
 class TypeChecker(Reporter):
     """Finds types, and says where they do not fit."""
 
+    _depth = 0
+
     def check_arguments(self, symbol: Symbol, node: FunctionCall) -> None:
         """Check a call's arguments against its routine."""
         raise NotImplementedError
@@ -60,8 +63,16 @@ class TypeChecker(Reporter):
     # -- reading -------------------------------------------------------------------------
 
     def type_of(self, node: Expression) -> str | None:
-        """Type of an expression whose value is read; None when it is not known."""
-        return _READERS[type(node)](self, node)
+        """Type of an expression whose value is read; None when it is not known.
+
+        An expression that is nested deeper than anybody writes is not judged further in.
+        """
+        if self._depth >= _MAX_DEPTH:
+            return None
+        self._depth += 1
+        found = _READERS[type(node)](self, node)
+        self._depth -= 1
+        return found
 
     def _number(self, node: NumberLiteral) -> str:
         if not is_single(node.value) and not self.given.dialect.has_dnum:
