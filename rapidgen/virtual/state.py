@@ -184,9 +184,17 @@ class ControllerState:
         self.io.power_up()
         for task in self.rapid_tasks.values():
             task.due("POWER_ON")
-            if task.spec.type != "NORMAL":
-                task.start()
+        self._start_background()
         self._report()
+
+    def _start_background(self) -> None:
+        """Start (semi)static tasks, once each has left what it was in."""
+        background = [t for t in self.rapid_tasks.values() if t.spec.type != "NORMAL"]
+        if any(t.leaving for t in background):
+            self.kernel.after(1_000_000, self._start_background)
+            return
+        for task in background:
+            task.start()
 
     def perform(self, action: str) -> None:
         """One action of a fault plan or of the control socket."""

@@ -150,6 +150,19 @@ def test_half_open_hides_the_end_until_the_second_send(server):
     assert got[0] == ["ERR_SOCK_TIMEOUT", "", "ERR_SOCK_CLOSED"]
 
 
+def test_half_open_begins_where_the_rule_says(server):
+    """Before that many bytes have passed, the end of the connection is seen as ever."""
+    bench, inner = server(NetworkRule("half-open", after=10))
+
+    def body(task, socket):
+        with pytest.raises(RapidError) as caught:
+            bench.call(task, "SocketReceive", socket, RawData=RawBytes(), Time=2)
+        return caught.value.name
+
+    got = bench.run(serve(bench, body), outside(bench, inner, lambda t, e: inner.close(e)))
+    assert got[0] == "ERR_SOCK_CLOSED"
+
+
 def test_slow_reader_limits_what_the_program_can_send(server):
     """1000 bytes a second: 64 kB go into the buffer, what is behind waits for room."""
     bench, inner = server(NetworkRule("slow", direction="out", bytes=1000))

@@ -108,6 +108,22 @@ def test_the_control_socket_commands_the_controller(start):
     assert sim.end(signal.SIGTERM)[0] == 0
 
 
+def test_servers_come_back_where_they_were_after_a_power_failure(start):
+    sim = start("irb120", "--ports", "auto")
+    port = sim.ready["ports"]["rob1"]["state"]
+    with sim.connect(port) as state:
+        message(state)
+        sim.control(do="power-loss")
+        while state.recv(65_536):
+            pass
+    status = sim.control(do="status")["result"]
+    while "11002" not in status["listeners"]:
+        status = sim.control(do="status")["result"]
+    assert status["listeners"]["11002"] == port
+    with sim.connect(port) as state:
+        assert message(state)[0] in (JOINT, STATUS)
+
+
 def test_cold(start):
     sim = start("irb120", "--ports", "auto", "--cold")
     status = sim.control(do="status")["result"]

@@ -156,6 +156,38 @@ def test_what_was_sent_before_a_close_still_arrives(bench):
     assert pair(bench, serving, asking)[0] == ("bye", "ERR_SOCK_CLOSED")
 
 
+def test_part_of_a_buffer_is_sent_and_received_as_data(bench):
+    """\\NoOfBytes is 1 to the length; \\Data fills the first elements and leaves the others."""
+    data = bench.box({1: 9, 2: 9, 3: 9, 4: 9}, None, (4,))
+
+    def serving(task, socket):
+        bench.call(task, "SocketReceive", socket, Data=data, Time=5)
+        return data.get()
+
+    def asking(task, socket):
+        raw = RawBytes(b"\1\2\3")
+        errors = [
+            failure(bench, task, "SocketSend", socket, RawData=raw, NoOfBytes=n)
+            for n in (0, 4, 1.5)
+        ]
+        bench.call(task, "SocketSend", socket, Data={1: 1, 2: 2, 3: 3}, NoOfBytes=2)
+        errors.append(failure(bench, task, "SocketSend", socket, Data={1: 256}))
+        return errors
+
+    assert pair(bench, serving, asking) == [
+        {1: 1, 2: 2, 3: 9, 4: 9},
+        ["ERR_ARGVALERR"] * 4,
+    ]
+
+
+@pytest.mark.parametrize("count", [0, 81, -1, 1.5])
+def test_a_count_that_the_buffer_cannot_hold(bench, count):
+    def serving(task, socket):
+        return failure(bench, task, "SocketReceive", socket, Str=bench.box(""), ReadNoOfBytes=count)
+
+    assert pair(bench, serving, lambda task, socket: None)[0] == "ERR_ARGVALERR"
+
+
 def test_default_times_are_60_seconds(bench):
     server, client = SocketDevice(), SocketDevice()
 
