@@ -142,6 +142,7 @@ def test_a_macro_says_what_it_needs(tmp_path):
             f'<robot {XACRO}><xacro:macro name="m"><xacro:m/></xacro:macro><xacro:m/></robot>',
             "RG061",
         ),
+        (f'<robot {XACRO}><xacro:arg name="a"/></robot>', "RG061"),
         (f"<robot {XACRO}><link", "RG060"),
         (f"<machine {XACRO}/>", "RG060"),
         (f"<robot {XACRO}/>", "RG031"),

@@ -152,7 +152,7 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         LookupError,
         NameError,
         OSError,
-        RecursionError,
+        RuntimeError,
         SyntaxError,
         TypeError,
         ValueError,
