@@ -72,6 +72,21 @@ def test_message_says_what_was_met_expected_and_what_is_open():
         ("RETURN 1 2;\nb := 1;", [(3, "RG201")]),
         ("GOTO 1;\nb := 1;", [(3, "RG201")]),
         ("CONNECT i t;\nb := 1;", [(3, "RG201")]),
+        ("CONNECT 1 WITH t;\nb := 1;", [(3, "RG201")]),
+        ("a.b c;\nb := 1;", [(3, "RG201")]),
+        ("<EXP>\nb := 1;", [(3, "RG201")]),
+        ('%"p";\nb := 1;', [(3, "RG201")]),
+        ("IF a = 1 b: c := 1;", [(3, "RG201")]),
+        ("FOR i FROM\nb := 1;\nENDFOR", [(4, "RG201")]),
+        ("TEST a\nDEFAULT:\nCASE 1:\nENDTEST", [(5, "RG201")]),
+        ("TEST a\nDEFAULT:\nDEFAULT:\nENDTEST", [(5, "RG201")]),
+        ("TEST a\nDEFAULT\nb := 1;\nENDTEST", [(5, "RG201")]),
+        ("IF a THEN\nELSEIF a b THEN\nENDIF", [(4, "RG201")]),
+        ("IF a THEN\nELSE\nELSEIF b THEN\nENDIF", [(5, "RG201")]),
+        ("IF a THEN\nIF b THEN\nENDIF\nENDFOR\nc := 1;\nENDIF", [(6, "RG203")]),
+        ("VAR num a{*};\nb := 1;", [(3, "RG201")]),
+        ("VAR num a{1;\nb := 1;", [(3, "RG201")]),
+        ("VAR num a b;\nc := 1;", [(3, "RG201")]),
     ],
 )
 def test_one_mistake_is_one_error(body, expected):
@@ -88,6 +103,24 @@ def test_wrong_header_keeps_the_body():
     text = "MODULE m\nPROC a(num x num y)\n    x := 1;\nENDPROC\nPROC b()\nENDPROC\nENDMODULE\n"
     assert places(text) == [(2, "RG201")]
     assert [(r.name, len(r.body)) for r in parse(text).routines] == [("a", 1), ("b", 0)]
+
+
+@pytest.mark.parametrize(
+    ("line", "expected"),
+    [
+        ("VAR num a b;", [(2, "RG201")]),
+        ("RECORD r\nnum x{3\nENDRECORD", [(3, "RG201"), (4, "RG201")]),
+        ("PROC p(num a{*,})\nENDPROC", [(2, "RG201")]),
+        ("PROC p(num a{*)\nENDPROC", [(2, "RG201")]),
+        ("PROC p(num)\nENDPROC", [(2, "RG201")]),
+        ("nonsense\n<TDN>", [(2, "RG201")]),
+        ("LOCAL ALIAS num a;\nLOCAL RECORD r num x; ENDRECORD\nLOCAL PROC p()\nENDPROC", []),
+        ("PROC p()\n<DDN>\nVAR num a;\nENDPROC", []),
+        ("PROC p()\n<SMT>\nCONNECT <VAR> WITH t;\nFoo \\a?<VAR>;\nENDPROC", []),
+    ],
+)
+def test_declarations(line, expected):
+    assert places(f"MODULE m\n{line}\nENDMODULE\n") == expected
 
 
 def test_junk_among_declarations_is_one_error():

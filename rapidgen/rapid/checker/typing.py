@@ -435,7 +435,7 @@ class TypeChecker(Reporter):
             return
         for member, (name, type_name) in zip(members, components.items(), strict=True):
             if type(member) is NumberLiteral and type_name == "num":
-                if type(member.value) is int and member.value > 8_388_608:
+                if member.value > 8_388_608:
                     self._single(member)
                 continue
             self.expect(member, type_name, f"the component {name}")

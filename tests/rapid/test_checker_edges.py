@@ -1,0 +1,93 @@
+"""Corners of the checker that need no file of their own."""
+
+import pytest
+
+from rapidgen.rapid import check, parse
+
+
+def codes(body, data="", rest="", **options):
+    text = f"MODULE m\n{data}\nPROC main()\n{body}\nENDPROC\n{rest}\nENDMODULE\n"
+    return [d.code for d in check([parse(text, path="m.mod")], whole_task=True, **options)]
+
+
+@pytest.mark.parametrize(
+    ("index", "fits"),
+    [
+        ("n", True),
+        ("n + 1", False),
+        ("n - 1", True),
+        ("n * 2", False),
+        ("n / 3", True),
+        ("-n", False),
+        ("(n)", True),
+        ("+n", True),
+        ("m", False),
+    ],
+)
+def test_indices_known_before_the_run(index, fits):
+    data = "CONST num n := 3;\nCONST num m := n + n;\nVAR num a{n};"
+    assert codes(f"a{{{index}}} := 1;", data) == ([] if fits else ["RG318"])
+
+
+@pytest.mark.parametrize("value", ["n DIV 2", "Abs(n)", "v", "NOT_THERE"])
+def test_indices_that_are_not_known(value):
+    data = "CONST num n := 3;\nVAR num v;\nVAR num NOT_THERE;\nVAR num a{n};"
+    assert codes(f"a{{{value}}} := 1;", data) == []
+
+
+def test_constants_that_name_each_other_end():
+    assert codes("a{x} := 1;", "CONST num x := y;\nCONST num y := x;\nVAR num a{3};") == []
+
+
+@pytest.mark.parametrize("body", ["Hand_GripInward \\holdForce:=10;", "CamReqImage c;"])
+def test_arguments_that_no_source_tells_are_not_checked(body):
+    assert codes(body, "VAR cameradev c;") == []
+
+
+def test_alternatives_are_told_by_type():
+    data = "VAR dnum d;\nVAR byte b;\nVAR bool f;\nVAR num n;"
+    assert codes("BitSet d, 52;\nBitSet b, 8;\nIncr d;\nAdd d, d;\nAdd n, 1;", data) == []
+    assert codes("BitSet f, 1;", data) == ["RG307"]
+    assert codes("BitSet d + 1, 1;", data) == ["RG315"]
+
+
+def test_conditional_arguments_of_the_wrong_kind():
+    rest = "PROC p(\\num a)\nq \\s?a;\nq \\s?<VAR>;\nENDPROC\nPROC q(\\switch s)\nENDPROC"
+    assert codes("p;", rest=rest) == ["RG316"]
+
+
+def test_parameters_that_are_placeholders_are_not_checked():
+    assert codes("p 1, 2, 3;", rest="PROC p(<PAR>)\nENDPROC") == []
+
+
+def test_unknown_traps_and_endless_steps():
+    data = "VAR intnum i;"
+    assert codes("CONNECT i WITH nothing;", data) == ["RG301"]
+    assert codes("FOR k FROM 1 TO 3 STEP 0 DO\nENDFOR") == ["RG319"]
+
+
+def test_arrays_assigned_from_elements_are_not_compared_in_size():
+    assert codes("r.x := 1;\na := b;", "VAR pos r;\nVAR pos a{2};\nVAR pos b{2};") == []
+
+
+def test_records_that_hold_each_other_end():
+    data = "RECORD r1\nr2 x;\nENDRECORD\nRECORD r2\nr1 y;\nENDRECORD\nVAR r1 a;"
+    assert codes("a.x.y.x := a.x;", data) == []
+
+
+def test_aggregates_left_of_an_operator():
+    assert codes("p := [1, 2, 3] + p;\nb := [1, 2] = p;", "VAR pos p;\nVAR bool b;") == ["RG330"]
+
+
+def test_members_out_of_range():
+    assert codes("p := [1E39, 0, 0];", "VAR pos p;") == ["RG319"]
+    assert codes("p := [16777217, 0, 0];", "VAR pos p;") == ["RG319"]
+
+
+def test_unknown_types_are_reported_once():
+    data = "VAR nosuch a;\nVAR nosuch b;"
+    assert codes("a := b;\na.x := 1;\nUse a;", data, "PROC Use(VAR nosuch p)\nENDPROC") == ["RG303"]
+
+
+def test_array_parameters_have_three_dimensions_at_most():
+    assert codes("", rest="PROC p(num a{*,*,*,*})\nENDPROC") == ["RG318"]
