@@ -23,7 +23,7 @@ def fmt(
 
     Encoding and line ends stay as they are. A file with syntax errors is not touched.
     """
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
     from rapidgen.rapid import format_source
     from rapidgen.system.paths import read_limited
 
@@ -34,7 +34,10 @@ def fmt(
         try:
             after = format_source(before, path=str(path))
         except DiagnosticError as error:
-            wrong += error.diagnostics
+            if any(d.severity is Severity.ERROR for d in error.diagnostics):
+                wrong += error.diagnostics
+            else:
+                typer.echo(f"left {path}: {error.diagnostics[0].message}", err=True)
             continue
         if after == before:
             continue

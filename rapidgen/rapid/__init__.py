@@ -1,8 +1,25 @@
 """RAPID: text, tokens, tree, checked program, formatted text."""
 
-from rapidgen.rapid.checker import check
+from typing import TYPE_CHECKING
+
 from rapidgen.rapid.dialect import Dialect
-from rapidgen.rapid.formatter import format_source
 from rapidgen.rapid.parser import parse
 
+if TYPE_CHECKING:
+    from rapidgen.rapid.checker import check
+    from rapidgen.rapid.formatter import format_source
+
 __all__ = ["Dialect", "check", "format_source", "parse"]
+
+
+def __getattr__(name: str) -> object:
+    """Checker and formatter are imported when they are asked for: most users only parse."""
+    if name == "check":
+        from rapidgen.rapid.checker import check
+
+        return check
+    if name == "format_source":
+        from rapidgen.rapid.formatter import format_source
+
+        return format_source
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

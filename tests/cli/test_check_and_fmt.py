@@ -109,3 +109,9 @@ def test_fmt_leaves_wrong_files_alone(folder, capsys):
 
 def test_fmt_of_nothing(folder, capsys):
     assert main(["fmt", "nowhere.mod"]) == 2
+
+
+def test_fmt_leaves_encoded_modules_alone(folder, capsys):
+    (folder / "encoded.sys").write_bytes(b"\xfc\x00\x01\x02")
+    assert main(["fmt", "encoded.sys"]) == 0
+    assert "encoded" in capsys.readouterr().err
