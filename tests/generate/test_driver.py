@@ -771,6 +771,83 @@ def test_a_stop_and_start_within_one_watch(bench):
     move_well(b, client)
 
 
+def statements_of(b, routine):
+    """Lines of the statements of a routine of ROS_motion."""
+    from rapidgen.rapid import parse
+
+    (motion,) = [f for f in b.output.files if f.path.endswith("ROS_motion.mod")]
+    module = parse(motion.data)
+    (found,) = [r for r in module.routines if r.name == routine]
+    lines = []
+
+    def walk(body):
+        for node in body:
+            lines.append(module.source.line(node.first))
+            for branch in getattr(node, "branches", ()):
+                walk(branch.body)
+            walk(getattr(node, "otherwise", None) or ())
+
+    walk(found.body)
+    return lines
+
+
+@pytest.mark.parametrize("pause", [0.001, 1.0])
+def test_a_program_stop_at_every_statement(bench, pause):
+    """Also when main is just about to begin a move: nothing of the old path comes after Start.
+
+    With a short pause the robot may still be braking, and the supervisor has not looked.
+    """
+    lines = statements_of(bench(), "next_point")
+    assert len(lines) > 20
+    stopped = 0
+    for line in lines:
+        b = bench()
+        client = b.client()
+        b.vc.before_statement("T_ROB1", "ROS_motion", line, 2, lambda b=b: b.vc.perform("stop"))
+        send_all(client, trajectory(FIVE, SECONDS))
+        assert reply_of(client)[0] == 1
+        task = b.vc.tasks["T_ROB1"]
+        if not b.vc.run_until(lambda task=task: task.state == "stopped", timeout=6):
+            continue
+        stopped += 1
+        b.vc.run_for(pause)
+        standing = b.group.is_standing
+        here = b.joints()
+        b.vc.perform("start")
+        if not standing:
+            b.vc.run_for(0.3)
+            here = b.joints()
+        b.vc.run_for(4)
+        assert close_to(b.joints(), here, 1e-6), line
+        move_well(b, client)
+    assert stopped > 10
+
+
+def test_a_stop_at_every_statement(bench):
+    stopped = 0
+    for line in statements_of(bench(), "next_point"):
+        b = bench()
+        client = b.client()
+
+        def stop(client=client):
+            client.network.send(client.endpoint, STOP)
+
+        b.vc.before_statement("T_ROB1", "ROS_motion", line, 2, stop)
+        send_all(client, trajectory(FIVE, SECONDS))
+        assert reply_of(client)[0] == 1
+        frame = client.wait_frame(timeout=4)
+        if frame is None:
+            continue
+        stopped += 1
+        assert frame == struct.pack("<4i", 12, 11, 3, 1)
+        b.vc.run_for(1)
+        here = b.joints()
+        b.vc.run_for(3)
+        assert b.joints() == here, line
+        move_well(b, client)
+    assert stopped > 10
+
+
 def test_modules_of_different_builds_refuse_to_move(bench):
     b = bench()
     b.vc.tasks["T_ROS_STATE"]["ROS_common:ROS_shown_state"] = "0123456789ab"

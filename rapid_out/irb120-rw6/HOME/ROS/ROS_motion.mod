@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "93c721101017";
+    CONST string ROS_BUILD_MOTION := "504ee58dd193";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -77,13 +77,13 @@ MODULE ROS_motion
     ENDPROC
 
     ! The program was stopped or started in the middle of a trajectory. Main may still wait in a
-    ! move of it, so that is told to the supervisor, who asks until main has answered.
+    ! move of it, or be about to begin one; so the robot stays stopped, by this task too, until
+    ! main has answered the supervisor, who is told.
     LOCAL PROC interrupted(num reason)
         IF NOT ROS_active() RETURN;
         ROS_interrupts := ROS_next(ROS_interrupts);
         stop_robot;
-        drop_path reason;
-        start_robot;
+        drop_path ROS_cause(reason);
     ENDPROC
 
     ! Do what the supervisor asks for. Only main does: it is in no move then.
@@ -93,6 +93,7 @@ MODULE ROS_motion
         ! Read first: a request that comes meanwhile is not answered by this.
         asked := ROS_abort;
         drop_path reason;
+        start_robot;
         bells := 0;
         ROS_abort_done := asked;
     ENDPROC
@@ -162,10 +163,10 @@ MODULE ROS_motion
         TRYNEXT;
     ENDPROC
 
+    ! Take back this task's own stop; that of the supervisor stays.
     LOCAL PROC start_robot()
-        StartMove;
+        IF IsStopMoveAct(\FromMoveTask) StartMove;
     ERROR
-        ! The supervisor keeps it stopped.
         SkipWarn;
         TRYNEXT;
     ENDPROC

@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "93c721101017";
+    CONST string ROS_BUILD_STATE := "504ee58dd193";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;

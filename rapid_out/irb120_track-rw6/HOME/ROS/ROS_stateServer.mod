@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "a522b72be8f7";
+    CONST string ROS_BUILD_STATE := "08c3ea884509";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;

@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "89068e5e9491";
+    CONST string ROS_BUILD_STATE := "c038852ed0bc";
 
     LOCAL CONST num PORT := 12002;
     LOCAL CONST num PERIOD := 0.05;

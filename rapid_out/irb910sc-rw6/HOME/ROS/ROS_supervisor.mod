@@ -10,13 +10,11 @@ MODULE ROS_supervisor
     ! the robot standing. It halts on request, and when something happened after
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
 
-    CONST string ROS_BUILD_SUPERVISOR := "0b12fd5d5848";
+    CONST string ROS_BUILD_SUPERVISOR := "cd80f8df3912";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
-    LOCAL VAR bool latched := FALSE;
     LOCAL VAR num mode := 0;
-    LOCAL VAR num interrupts := 0;
     LOCAL VAR clock since_bell;
     LOCAL VAR clock since_halt;
     LOCAL VAR bool told := FALSE;
@@ -26,7 +24,6 @@ MODULE ROS_supervisor
         ! What was under way when this task ended is over.
         IF ROS_active() halt ROS_REASON_POWER_FAILURE;
         mode := OpMode();
-        interrupts := ROS_interrupts;
         IDelete asked_to_stop;
         CONNECT asked_to_stop WITH on_request;
         IPers ROS_stop_asked, asked_to_stop;
@@ -38,7 +35,7 @@ MODULE ROS_supervisor
             IDisable;
             answer;
             watch;
-            IF latched release;
+            IF ROS_latched release;
             ROS_not_ready := obstacle();
             IEnable;
             WaitTime 0.1;
@@ -62,7 +59,7 @@ MODULE ROS_supervisor
         ENDIF
         asked := ROS_look_asked;
         IF asked <> ROS_look_done THEN
-            IF latched release;
+            IF ROS_latched release;
             ROS_not_ready := obstacle();
             ROS_look_done := asked;
         ENDIF
@@ -70,28 +67,24 @@ MODULE ROS_supervisor
 
     ! End what is under way when it must not go on by itself.
     LOCAL PROC watch()
-        VAR num reason := 0;
+        VAR num reason;
 
-        IF ROS_emergency_stop() = ROS_TRI_TRUE THEN
-            reason := ROS_REASON_EMERGENCY_STOP;
-        ELSEIF ROS_motors_on() = ROS_TRI_FALSE THEN
-            reason := ROS_REASON_MOTORS_OFF;
-        ELSEIF ROS_executing() = ROS_TRI_FALSE THEN
-            reason := ROS_REASON_PROGRAM_STOPPED;
-        ELSEIF OpMode() <> mode THEN
-            reason := ROS_REASON_MODE_CHANGED;
+        reason := ROS_cause(ROS_REASON_NONE);
+        IF reason = ROS_REASON_NONE THEN
+            IF OpMode() <> mode reason := ROS_REASON_MODE_CHANGED;
+            IF ROS_executing() = ROS_TRI_FALSE reason := ROS_REASON_PROGRAM_STOPPED;
         ENDIF
         mode := OpMode();
         IF reason > 0 AND ROS_active() AND ROS_halted <> ROS_session halt reason;
-        IF interrupts <> ROS_interrupts THEN
-            interrupts := ROS_interrupts;
+        IF ROS_interrupts_seen <> ROS_interrupts THEN
+            ROS_interrupts_seen := ROS_interrupts;
             halt ROS_REASON_PROGRAM_STOPPED;
         ENDIF
     ENDPROC
 
     LOCAL PROC halt(num reason)
         stop_robot;
-        latched := TRUE;
+        ROS_latched := TRUE;
         told := FALSE;
         IF ROS_active() THEN
             ROS_halt_reason := reason;
@@ -120,11 +113,13 @@ MODULE ROS_supervisor
 
     ! 0, why no trajectory may start, or -1: not yet.
     LOCAL FUNC num obstacle()
+        VAR num reason;
+
         IF NOT ROS_same_build() RETURN ROS_REASON_BUILD_MISMATCH;
-        IF ROS_emergency_stop() = ROS_TRI_TRUE RETURN ROS_REASON_EMERGENCY_STOP;
-        IF ROS_motors_on() = ROS_TRI_FALSE RETURN ROS_REASON_MOTORS_OFF;
+        reason := ROS_cause(ROS_REASON_NONE);
+        IF reason <> ROS_REASON_NONE RETURN reason;
         IF ROS_executing() = ROS_TRI_FALSE RETURN ROS_REASON_NOT_EXECUTING;
-        IF latched OR interrupts <> ROS_interrupts RETURN -1;
+        IF ROS_latched OR ROS_interrupts_seen <> ROS_interrupts RETURN -1;
         RETURN ROS_REASON_NONE;
     ENDFUNC
 
@@ -143,8 +138,8 @@ MODULE ROS_supervisor
     ENDPROC
 
     LOCAL PROC start_robot()
-        StartMove;
-        latched := FALSE;
+        IF IsStopMoveAct(\FromNonMoveTask) StartMove;
+        ROS_latched := FALSE;
     ERROR
         ! Not now (motors off, program stopped): it stays latched and the next round tries again.
         SkipWarn;
