@@ -44,6 +44,19 @@ class Dialect:
     dionum: Literal["strict", "nonzero"] = "strict"
     """A dionum other than 0 and 1 is an error (S4 datasys 1-dionum-1), or counts as 1."""
 
+    open_default: Literal["write", "read"] = "write"
+    """Open without a mode: \\Write (S4 datasys 2-Open-1), or \\Read."""
+
+    refused_connect: Literal["timeout", "unreachable", "closed"] = "timeout"
+    """Which ERR_SOCK_ a connection that the partner refuses raises. No source."""
+
+    receive_timeout: Literal["keep", "drop"] = "keep"
+    """Bytes that came before a SocketReceive timed out wait for the next one, or are gone. No
+    source."""
+
+    unpack_beyond: Literal["error", "zero"] = "error"
+    """UnpackRawBytes behind the valid length: ERR_OUTOFBND, or the bytes count as 0. No source."""
+
 
 def parse_dialect(text: str) -> Dialect:
     """A dialect from `name=value,...`. ValueError: unknown switch or value."""

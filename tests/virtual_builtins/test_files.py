@@ -4,6 +4,7 @@ import os
 
 import pytest
 
+from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.files import Directory, FileSystem, IODevice
 from rapidgen.virtual.rawbytes import RawBytes
@@ -37,6 +38,14 @@ def test_open_without_a_mode_empties_the_file(bench, disk):
     (disk / "a").write_text("old")
     bench("Open", "HOME:/a", IODevice())
     assert (disk / "a").read_text() == ""
+
+
+def test_open_without_a_mode_reads_in_the_other_dialect(bench, disk):
+    (disk / "a").write_text("old")
+    bench.controller.dialect = Dialect(open_default="read")
+    device = IODevice()
+    bench("Open", "a", device)
+    assert bench("ReadStr", device) == "old"
 
 
 def test_append(bench, disk):

@@ -2,6 +2,7 @@
 
 import pytest
 
+from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.rawbytes import RawBytes
 
@@ -112,6 +113,15 @@ def test_unpacking_beyond_the_valid_length(bench):
     with pytest.raises(RapidError) as caught:
         bench("UnpackRawBytes", RawBytes(b"abc"), 1, bench.box(0), IntX=DINT)
     assert caught.value.name == "ERR_OUTOFBND"
+
+
+def test_unpacking_beyond_the_valid_length_in_the_other_dialect(bench):
+    bench.controller.dialect = Dialect(unpack_beyond="zero")
+    target = bench.box(5)
+    bench("UnpackRawBytes", RawBytes(b"\1\2"), 1, target, IntX=DINT)
+    assert target.get() == 513
+    with pytest.raises(RapidError):
+        bench("UnpackRawBytes", RawBytes(), 1023, target, IntX=DINT)
 
 
 def test_copying_out_of_an_empty_container(bench):

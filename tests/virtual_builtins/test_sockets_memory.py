@@ -2,6 +2,7 @@
 
 import pytest
 
+from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.network.device import SocketDevice, SocketStatus
 from rapidgen.virtual.rawbytes import RawBytes
@@ -250,6 +251,36 @@ def test_refused_connect_and_what_follows(bench):
         return seen
 
     assert bench.run(body) == [["ERR_SOCK_TIMEOUT", "ERR_SOCK_UNSPEC", "ERR_SOCK_ADDR_INVALID"]]
+
+
+@pytest.mark.parametrize(
+    ("switch", "error"),
+    [("unreachable", "ERR_SOCK_NET_UNREACH"), ("closed", "ERR_SOCK_CLOSED")],
+)
+def test_a_refused_connect_in_other_dialects(bench, switch, error):
+    bench.controller.dialect = Dialect(refused_connect=switch)
+    socket = SocketDevice()
+
+    def body(task):
+        bench.call(task, "SocketCreate", socket)
+        return failure(bench, task, "SocketConnect", socket, "127.0.0.1", PORT)
+
+    assert bench.run(body) == [error]
+
+
+def test_bytes_before_a_time_out_are_gone_in_the_other_dialect(bench):
+    bench.controller.dialect = Dialect(receive_timeout="drop")
+
+    def serving(task, socket):
+        raw = RawBytes()
+        failure(bench, task, "SocketReceive", socket, RawData=raw, ReadNoOfBytes=4, Time=0.2)
+        return bench.call(task, "SocketPeek", socket)
+
+    def asking(task, socket):
+        bench.call(task, "SocketSend", socket, RawData=RawBytes(b"ab"))
+        task.sleep(1)
+
+    assert pair(bench, serving, asking)[0] == 0
 
 
 @pytest.mark.parametrize(

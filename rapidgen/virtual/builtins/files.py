@@ -54,6 +54,8 @@ def open_file(
         mode = "rb"
     elif append:
         mode = "ab"
+    elif not write and not binary and task.controller.dialect.open_default == "read":
+        mode = "rb"
     elif write or not binary:
         mode = "wb"
     else:

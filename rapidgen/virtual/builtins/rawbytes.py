@@ -57,7 +57,7 @@ def pack_raw_bytes(
 
 @builtin("UnpackRawBytes", cost="string")
 def unpack_raw_bytes(
-    _task: Task,
+    task: Task,
     raw: RawBytes,
     network: bool | None,
     start: float,
@@ -70,6 +70,8 @@ def unpack_raw_bytes(
     """Read one value out of a container."""
     value = target_of(datum)
     index = whole(start, "ERR_OUTOFBND")
+    if task.controller.dialect.unpack_beyond == "zero":
+        raw = RawBytes(bytes(raw.data).ljust(CAPACITY, b"\0"))
     if int_type is not None:
         value.set(integer_from(raw, index, int_type, network=bool(network)))
     elif float4:

@@ -1,9 +1,9 @@
 """SocketCreate to SocketReceiveFrom.
 
 Sources: 3HAC16581-1 as quoted on CSDN [manual] for limits, default times and ERR_SOCK_CLOSED;
-abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: 32 sockets, a
-refused connect raises ERR_SOCK_TIMEOUT at once, a send that finds no room for 60 s raises
-ERR_SOCK_TIMEOUT, bytes that came before a time-out stay for the next SocketReceive.
+abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: 32 sockets, and a
+send that finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switches:
+`refused_connect`, `receive_timeout`.
 """
 
 from rapidgen.virtual.errors import FatalError, RapidError
@@ -18,6 +18,11 @@ DEFAULT_TIME = 60.0
 WAIT_MAX = 9_999_999
 """A \\Time of this or more waits for ever."""
 
+_REFUSED = {
+    "timeout": "ERR_SOCK_TIMEOUT",
+    "unreachable": "ERR_SOCK_NET_UNREACH",
+    "closed": "ERR_SOCK_CLOSED",
+}
 _ERRORS = {
     Reason.ADDRESS_IN_USE: "ERR_SOCK_ADDR_INUSE",
     Reason.ADDRESS_INVALID: "ERR_SOCK_ADDR_INVALID",
@@ -185,6 +190,8 @@ def socket_connect(
             timeout=_seconds(time),
         )
     except NetworkFault as fault:
+        if fault.reason is Reason.REFUSED:
+            raise RapidError(_REFUSED[task.controller.dialect.refused_connect]) from fault
         raise _error(fault) from fault
     if not there:
         raise RapidError("ERR_SOCK_TIMEOUT")
@@ -298,6 +305,8 @@ def _wait_for_bytes(
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if not there or result is None:
+        if task.controller.dialect.receive_timeout == "drop":
+            network.receive(endpoint, limit)
         raise RapidError("ERR_SOCK_TIMEOUT")
     if not result and not socket.udp:
         raise _lost(task, socket, NetworkFault(Reason.CLOSED, "the peer has closed"))
