@@ -2,7 +2,8 @@
 
 import pytest
 
-from rapidgen.rapid import check, parse
+from rapidgen.rapid import Dialect, check, parse, signatures
+from rapidgen.rapid.signatures import Signature
 
 
 def codes(body, data="", rest="", **options):
@@ -91,3 +92,11 @@ def test_unknown_types_are_reported_once():
 
 def test_array_parameters_have_three_dimensions_at_most():
     assert codes("", rest="PROC p(num a{*,*,*,*})\nENDPROC") == ["RG318"]
+
+
+def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
+    gone = Signature("Gone", "PROC", None, (), None, (6, 99))
+    found = signatures.routine
+    monkeypatch.setattr(signatures, "routine", lambda n: gone if n == "gone" else found(n))
+    assert codes("Gone;", dialect=Dialect((7, 0))) == ["RG325"]
+    assert codes("Gone;", dialect=Dialect((6, 15))) == []

@@ -11,6 +11,7 @@ from rapidgen.rapid.nodes import (
     Argument,
     FunctionCall,
     Index,
+    LateCall,
     Member,
     Name,
     Parameter,
@@ -20,6 +21,7 @@ from rapidgen.rapid.nodes import (
     Star,
 )
 
+_Call = FunctionCall | ProcedureCall | LateCall
 _RAW_INDEX: Final = {
     "packrawbytes": ("startindex",),
     "unpackrawbytes": ("startindex",),
@@ -37,7 +39,7 @@ _MODES: Final = {
 class CallChecker(TypeChecker):
     """Checks calls of procedures and functions."""
 
-    def check_arguments(self, symbol: Symbol, node: FunctionCall | ProcedureCall) -> None:
+    def check_arguments(self, symbol: Symbol, node: _Call) -> None:
         """Arguments against the parameters of a known routine."""
         parameters = parameters_of(symbol)
         if parameters is None:
@@ -47,7 +49,7 @@ class CallChecker(TypeChecker):
         self._version(symbol, node)
         self._match(symbol, parameters, node)
 
-    def _version(self, symbol: Symbol, node: FunctionCall | ProcedureCall) -> None:
+    def _version(self, symbol: Symbol, node: _Call) -> None:
         signature = symbol.signature
         if signature is None:
             return
@@ -65,9 +67,7 @@ class CallChecker(TypeChecker):
                 "RG325", f"{symbol.name} went with RobotWare {until[0]}.{until[1]}", node.first
             )
 
-    def _match(
-        self, symbol: Symbol, parameters: Sequence[Parameter], node: FunctionCall | ProcedureCall
-    ) -> None:
+    def _match(self, symbol: Symbol, parameters: Sequence[Parameter], node: _Call) -> None:
         """Walk arguments and parameters together: their orders are the same [K §3.10]."""
         at = 0
         groups: dict[int, Argument] = {}
@@ -198,7 +198,7 @@ class CallChecker(TypeChecker):
         self,
         symbol: Symbol,
         parameters: Sequence[Parameter],
-        node: FunctionCall | ProcedureCall,
+        node: _Call,
         given: set[int],
         groups: dict[int, Argument],
     ) -> None:

@@ -140,6 +140,22 @@ class FlowChecker(CallChecker):
 
     def _late(self, node: LateCall) -> bool:
         self.expect(node.procedure, "string", "the name of the procedure")
+        name = self.constant(node.procedure)
+        # `module:name` may reach a LOCAL procedure of a module that is not looked at here.
+        known = name.removeprefix(":") if isinstance(name, str) else ""
+        symbol = self.find(known) if known and ":" not in known else None
+        if symbol is not None and symbol.kind == "PROC":
+            self.check_arguments(symbol, node)
+            return True
+        if symbol is not None:
+            self.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
+        elif known and ":" not in known and self.given.judges_routines:
+            self.warn(
+                "RG301",
+                f"there is no procedure '{known}'",
+                node.procedure,
+                help="the call would fail with ERR_REFUNKPRC",
+            )
         for argument in node.arguments:
             self.loose_argument(argument)
         return True
