@@ -228,3 +228,18 @@ def test_cut_again_and_again(kit, tmp_path, mode):
             assert backup_set(FolderTransport(home), "", past.id).build_id == past.build_id
         kit.deploy(Cutting(home, mode), None, verb="uninstall")
         assert list(home.iterdir()) == []
+
+
+def test_uninstall_takes_the_common_module_first(kit, home):
+    """Whatever the order of the manifest: without ROS_common no task loads."""
+    from dataclasses import replace
+
+    old = kit.driver(OLD)
+    old = replace(old, files=tuple(reversed(old.files)))
+    kit.deploy(FolderTransport(home), old)
+    line = Cutting(home, "replace")
+    plan = make_plan(line, None, verb="uninstall")
+    assert [c.path for c in plan.changes if c.kind == "module"][-1].endswith("ROS_common.sys")
+    kit.deploy(line, None, verb="uninstall")
+    removed = [path for name, path in line.log if name == "delete" and path.startswith("rapidgen/")]
+    assert removed[0] == "rapidgen/ROS_common.sys"
