@@ -1,6 +1,11 @@
 """The plugin, as users' tests see it."""
 
 import re
+import subprocess
+import sys
+from importlib.metadata import entry_points
+
+PLUGIN = "rapidgen.virtual.pytest_plugin"
 
 pytest_plugins = ["pytester"]
 
@@ -38,7 +43,8 @@ def test_race(virtual_controller, tmp_path):
 
 def test_fixture_and_seeds(pytester) -> None:
     pytester.makepyfile(TEST)
-    plugins = ("-p", "rapidgen.virtual.pytest_plugin", "-p", "no:cacheprovider")
+    installed = any(e.value == PLUGIN for e in entry_points(group="pytest11"))
+    plugins = ("-p", "no:cacheprovider", *(() if installed else ("-p", PLUGIN)))
     result = pytester.runpytest_inprocess(*plugins, "-q")
     outcomes = result.parseoutcomes()
     assert outcomes["passed"] >= 1
@@ -48,3 +54,8 @@ def test_fixture_and_seeds(pytester) -> None:
     again = pytester.runpytest_inprocess(*plugins, "-q", f"--virtual-seed={seed}", "-k", "race")
     assert again.parseoutcomes()["failed"] == 1
     assert "passed" not in again.parseoutcomes()
+
+
+def test_the_plugin_imports_no_controller() -> None:
+    code = f"import sys, {PLUGIN}; sys.exit('rapidgen.virtual.controller' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0
