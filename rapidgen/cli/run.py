@@ -14,6 +14,10 @@ if TYPE_CHECKING:
     from rapidgen.virtual.errors import FatalError
 
 
+_CALLERS = 10
+"""Calls of a fault's stack that are shown."""
+
+
 def run(
     files: Annotated[
         list[Path],
@@ -197,7 +201,10 @@ def _fault(task: str, fault: "FatalError") -> "Diagnostic":
     place = fault.stack[-1] if fault.stack else None
     notes = [f"event {fault.event} in task {task}"]
     notes += [t for t in fault.arguments if t]
-    notes += [f"called from {p}" for p in reversed(fault.stack[:-1])]
+    callers = [f"called from {p}" for p in reversed(fault.stack[:-1])]
+    notes += callers[:_CALLERS]
+    if len(callers) > _CALLERS:
+        notes.append(f"and {len(callers) - _CALLERS} calls before that")
     if place is not None and place.origin is not None:
         notes.append(f"generated from {place.origin[0]}:{place.origin[1]}")
     return Diagnostic(

@@ -1,5 +1,6 @@
 """How a task runs its program: start, cycles, stop, PP to main, event routines, faults."""
 
+import sys
 from collections.abc import Callable
 from typing import Any, Literal
 
@@ -12,6 +13,7 @@ from rapidgen.virtual.errors import (
     FatalError,
 )
 from rapidgen.virtual.kernel import Kernel
+from rapidgen.virtual.recovery import DEEPEST
 from rapidgen.virtual.task import Task
 
 State = Literal["ready", "running", "stopped", "finished", "error", "empty"]
@@ -33,6 +35,9 @@ class RapidTask(Task):
         shared: Shared,
     ) -> None:
         super().__init__(kernel, spec.name, controller)
+        # Polls find RAPID's stack overflow (DEEPEST); Python's own limit would strike anywhere,
+        # also in the middle of the kernel's work.
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), 4 * DEEPEST))
         self.spec = spec
         self.program = Program(self, shared, controller.options)
         self.state: State = "empty"

@@ -4,9 +4,9 @@ MODULE recursion
     VAR num n := 0;
     TPWrite ValToStr(fac(6)) + " " + walk(3);
     ! expect: 720 3(2(1(0)1)2)3
-    nest 100, n;
+    nest 2000, n;
     TPWrite ValToStr(n);
-    ! expect: 5050
+    ! expect: 2.001E+06
   ENDPROC
   FUNC num fac(num n)
     IF n <= 1 RETURN 1;
