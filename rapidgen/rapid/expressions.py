@@ -50,6 +50,7 @@ _LEVELS: Final = {
 }  # fmt: skip
 _BEHIND_NAMES: Final = frozenset(("(", "{", "."))
 """What makes more of a name than a whole datum."""
+_PLAIN_OPERANDS: Final = frozenset((NAME, NUMBER, STRING, "(", "[", "TRUE", "FALSE"))
 _BEHIND_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
 _NOT_LEVEL: Final = 1
 """NOT takes a whole chain of ANDs, and ends at OR or XOR."""
@@ -184,6 +185,15 @@ class ExpressionParser:
         pending: list[tuple[int, str, int]] = []
         """(level, operator, token); a negative token marks a prefix: ~token."""
         depth, chained = self.depth, 0
+        if left is not None and kinds[i + 1] in _PLAIN_OPERANDS:
+            # One operator between two operands is most of what there is.
+            operator = kinds[i]
+            right = self._operand(i + 1)
+            if kinds[right.last + 1] not in _LEVELS:
+                return Binary(left.first, right.last, operator, left, right)
+            operands.append(left)
+            pending.append((_LEVELS[operator], operator, i))
+            left, chained, i = right, 1, right.last + 1
         while True:
             if left is None:
                 kind = kinds[i]

@@ -100,3 +100,8 @@ def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
     monkeypatch.setattr(signatures, "routine", lambda n: gone if n == "gone" else found(n))
     assert codes("Gone;", dialect=Dialect((7, 0))) == ["RG325"]
     assert codes("Gone;", dialect=Dialect((6, 15))) == []
+
+
+@pytest.mark.parametrize("name", ["tool0", "main", "TPErase", "anytype"])
+def test_what_is_no_type(name):
+    assert codes("a := a;", f"VAR {name} a;")[:1] == ["RG303"]
