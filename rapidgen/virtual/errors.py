@@ -96,11 +96,7 @@ class ExitCycle(Unwind):
 
 
 class EndOfRun(Unwind):
-    """EXIT, PP moved, or the controller is closed: the run is over."""
-
-    def __init__(self, *, restart: bool = False) -> None:
-        super().__init__()
-        self.restart = restart
+    """EXIT, or PP was moved: the run is over."""
 
 
 # Python's own exceptions in compiled code, and what RAPID calls them.

@@ -85,11 +85,6 @@ class RapidTask(Task):
         """Whether PP was set to main and the routines are still being left."""
         return self._fresh and self.state in ("running", "stopped")
 
-    @property
-    def at_main(self) -> bool:
-        """Whether the next start begins at main."""
-        return self.state in ("ready", "finished")
-
     # -- the run ---------------------------------------------------------------------------------
 
     def _set(self, state: State) -> None:
@@ -121,9 +116,9 @@ class RapidTask(Task):
             self.program.function(entry)()  # type: ignore[arg-type]
         except ExitCycle:
             pass
-        except EndOfRun as end:
+        except EndOfRun:
             self._set("ready" if self._fresh else "finished")
-            return end.restart
+            return False
         except FatalError as fatal:
             self._fail(fatal, fatal)
             return False

@@ -1,7 +1,6 @@
 """Ordering interrupts [K §8; S4 datasys 2-ISignalDI, 2-ITimer, 2-IDisable; 1A/184 IPers]."""
 
 from collections.abc import Callable
-from typing import Any
 
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.interrupts import Interrupt
@@ -327,9 +326,3 @@ def read_err_data(
 
 def _order(task: RapidTask, interrupt: Ref, single: bool | None, safe: bool | None) -> Interrupt:
     return task.interrupts.order(interrupt.get(), single=bool(single), safe=bool(safe))
-
-
-def order(task: RapidTask, interrupt: Ref) -> tuple[Interrupt, Callable[[Any], None]]:
-    """For instructions elsewhere (TriggInt): an order, and what makes its event happen."""
-    made = _order(task, interrupt, None, None)
-    return made, lambda data: task.interrupts.happen(made, data)

@@ -248,7 +248,7 @@ class Program:
             return Data(d.name, "CONST", kind, (), "inline", code, value=value, readonly=True)
         if d.kind == "PERS":
             self.space[code] = self._cell(module, d, kind, dims, value)
-            return Data(d.name, "PERS", kind, dims, "cell", code, shared=d.scope == "")
+            return Data(d.name, "PERS", kind, dims, "cell", code)
         self.space[code] = value
         readonly = d.kind == "CONST"
         return Data(d.name, d.kind, kind, dims, "global", code, readonly=readonly)

@@ -45,10 +45,6 @@ class Compiled:
         node = self.routine.node
         return node is not None and node.error is not None and node.error.numbers is not None
 
-    def line(self, python_line: int) -> int:
-        """RAPID line of a Python line."""
-        return self.module.tree.source.line(self.tokens[python_line])
-
 
 class RoutineCompiler(Loops):
     """Compiles one routine."""

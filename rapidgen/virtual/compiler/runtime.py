@@ -20,7 +20,7 @@ from rapidgen.virtual.values import (
     single,
 )
 
-_SIGNED_ZERO_SAFE = 1 << 24
+_LARGEST_EXACT = 1 << 24
 
 
 def fail(name: str) -> NoReturn:
@@ -161,7 +161,7 @@ def find_set(text: str, position: float, characters: str) -> int:
 
 
 def _as_int(value: float) -> float:
-    if value.__class__ is float and abs(value) <= _SIGNED_ZERO_SAFE and value == int(value):
+    if value.__class__ is float and abs(value) <= _LARGEST_EXACT and value == int(value):
         return int(value)
     return value
 

@@ -43,8 +43,6 @@ class Data:
     value: Any = None
     """Of `inline` data."""
     readonly: bool = False
-    shared: bool = False
-    """Seen by other tasks (PERS, data of shared modules)."""
 
 
 @dataclass(slots=True, eq=False)

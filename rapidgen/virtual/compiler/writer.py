@@ -69,11 +69,6 @@ class Writer:
         """End the block: what follows is paid on its own."""
         self._block = None
 
-    @property
-    def block(self) -> Block | None:
-        """The open block."""
-        return self._block
-
     def render(self) -> tuple[str, list[int], dict[int, int], set[int]]:
         """Python text; tokens by line (from 1); refunds by line; lines that are synced."""
         text: list[str] = []
