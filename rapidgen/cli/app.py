@@ -3,6 +3,7 @@
 Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage.
 """
 
+import gc
 import os
 import sys
 from collections.abc import Callable
@@ -50,6 +51,8 @@ _OPTIONAL_VALUES = {"--profile": "--profile=-"}
 
 def run(arguments: list[str] | None = None) -> None:
     """Entry point: run one verb and leave with its exit code."""
+    # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
+    gc.set_threshold(50_000, 20, 50)
     words = sys.argv[1:] if arguments is None else arguments
     sys.exit(main([_OPTIONAL_VALUES.get(word, word) for word in words]))
 

@@ -1,25 +1,43 @@
 """cfg text, a backup, a generated folder or loose files become one frozen `System`; and back."""
 
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Diagnostic
-from rapidgen.system.backup import is_backup, read_backup
-from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
-from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
-from rapidgen.system.interpret import eio_cfg, sys_cfg
-from rapidgen.system.loose import read_files
-from rapidgen.system.model import (
-    CrossConnection,
-    EventRoutine,
-    MechanicalUnitGroup,
-    ModuleFile,
-    SignalSpec,
-    System,
-    SystemInput,
-    SystemOutput,
-    TaskSpec,
-)
-from rapidgen.system.paths import refusal
+
+if TYPE_CHECKING:
+    from rapidgen.system.backup import is_backup, read_backup
+    from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
+    from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
+    from rapidgen.system.interpret import eio_cfg, sys_cfg
+    from rapidgen.system.loose import read_files
+    from rapidgen.system.model import (
+        CrossConnection,
+        EventRoutine,
+        MechanicalUnitGroup,
+        ModuleFile,
+        SignalSpec,
+        System,
+        SystemInput,
+        SystemOutput,
+        TaskSpec,
+    )
+
+# Most users need one of these files; a build should not pay for reading backups.
+_FILES = {
+    name: file
+    for file, names in {
+        "backup": "is_backup read_backup",
+        "cfg": "Attribute CfgText Instance Section parse_cfg write_cfg",
+        "folder": "expand_lines is_generated read_folder read_manifest",
+        "interpret": "eio_cfg sys_cfg",
+        "loose": "read_files",
+        "model": "CrossConnection EventRoutine MechanicalUnitGroup ModuleFile SignalSpec System "
+        "SystemInput SystemOutput TaskSpec",
+    }.items()
+    for name in names.split()
+}
 
 __all__ = [
     "Attribute",
@@ -50,11 +68,22 @@ __all__ = [
 ]
 
 
+def __getattr__(name: str) -> object:
+    if name not in _FILES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_FILES[name]}"), name)
+
+
 def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> System:
     """Whatever lies at `path`: a generated folder, a backup, a folder of modules, or a module.
 
     Raises DiagnosticError RG701..RG712.
     """
+    from rapidgen.system.backup import is_backup, read_backup
+    from rapidgen.system.folder import is_generated, read_folder
+    from rapidgen.system.loose import read_files
+    from rapidgen.system.paths import refusal
+
     path = Path(path)
     if path.is_dir():
         if is_generated(path):
