@@ -74,7 +74,7 @@ def __getattr__(name: str) -> object:
     return getattr(import_module(f"{__name__}.{_FILES[name]}"), name)
 
 
-def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> System:
+def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "System":
     """Whatever lies at `path`: a generated folder, a backup, a folder of modules, or a module.
 
     Raises DiagnosticError RG701..RG712.
