@@ -105,3 +105,8 @@ def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
 @pytest.mark.parametrize("name", ["tool0", "main", "TPErase", "anytype"])
 def test_what_is_no_type(name):
     assert codes("a := a;", f"VAR {name} a;")[:1] == ["RG303"]
+
+
+def test_a_persistent_has_literals_at_any_depth():
+    data = "PERS pose a := [[1, 2 * 3, 4], [1, 0, 0, 0]];\nPERS num b{2} := [1, pi];"
+    assert codes("a := a;\nb := b;", data) == ["RG317", "RG317"]
