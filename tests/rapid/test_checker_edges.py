@@ -110,3 +110,9 @@ def test_what_is_no_type(name):
 def test_a_persistent_has_literals_at_any_depth():
     data = "PERS pose a := [[1, 2 * 3, 4], [1, 0, 0, 0]];\nPERS num b{2} := [1, pi];"
     assert codes("a := a;\nb := b;", data) == ["RG317", "RG317"]
+
+
+def test_local_routines_that_nothing_calls():
+    rest = "LOCAL PROC p()\nENDPROC\nLOCAL FUNC num f()\nRETURN 1;\nENDFUNC\nLOCAL TRAP t\nENDTRAP"
+    assert codes("", rest=rest) == ["RG324", "RG324", "RG324"]
+    assert codes('%"m:p"%;', rest=rest) == []  # a name in a string may be any of them
