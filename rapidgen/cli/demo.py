@@ -8,10 +8,8 @@ import typer
 
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
-    from rapidgen.client.address import Address
     from rapidgen.client.recording import Recording
     from rapidgen.config.model import MotionGroup
-    from rapidgen.virtual import VirtualController
 
 _SERVERS = 10.0
 """s within which the driver's servers must listen."""
@@ -37,7 +35,8 @@ def demo(
     _say(f"built   {folder}: {len(driver.files)} files, build {driver.build_id}")
     with VirtualController.from_folder(folder, clock="real", ports="auto") as controller:
         group = model.groups[0]
-        address = _boot(controller, group)
+        controller.start()
+        address = controller.address(group.name, timeout=_SERVERS)
         _say(f"booted  {len(controller.tasks)} tasks, RobotWare {model.robotware[0]}, at {address}")
         with Robot(model, address=address, group=group.name) as robot:
             robot.wait_until(lambda s: s.status.motion_possible is TriState.TRUE, _SERVERS)
@@ -54,29 +53,6 @@ def demo(
 
 def _say(text: str) -> None:
     sys.stderr.write(text + "\n")
-
-
-def _boot(controller: "VirtualController", group: "MotionGroup") -> "Address":
-    """Run in real time; where a client finds the servers, once they listen."""
-    import threading
-
-    from rapidgen.client.address import Address
-
-    network = controller.network
-    wanted = (group.ports.motion, group.ports.state)
-    listening = threading.Event()
-
-    def look() -> None:
-        if all(port in network.listeners for port in wanted):
-            listening.set()
-
-    network.listening.add(look)
-    controller.start()
-    if not listening.wait(_SERVERS):
-        raise RuntimeError("\n".join(controller.call(controller.where)))
-    host = network.listeners[wanted[0]][0]
-    motion, state = (network.listeners[port][1] for port in wanted)
-    return Address(host, motion, state)
 
 
 def _trajectory(robot: "Robot") -> "Trajectory":

@@ -2,6 +2,7 @@
 
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Self
 
@@ -278,9 +279,21 @@ class VirtualController(ControllerState):
         return cls(read_files(files, entry=entry), **options)
 
     @classmethod
-    def from_config(cls, system: System, config: RobotConfig, **options: Any) -> Self:  # noqa: ANN401
-        """A system that was generated from a configuration, without a detour over files."""
-        return cls(system, tuple(config.groups), **options)
+    def from_config(
+        cls,
+        config: "RobotConfig | str | PathLike[str]",
+        *,
+        overrides: Sequence[str] = (),
+        **options: Any,  # noqa: ANN401
+    ) -> Self:
+        """The driver that a configuration (a file, a shipped name) generates, without files.
+
+        `overrides` are `key.path=value` texts. DiagnosticError when it has faults.
+        """
+        from rapidgen.virtual.booting import generated_system
+
+        system, model = generated_system(config, tuple(overrides))
+        return cls(system, tuple(model.groups), **options)
 
     # -- loading ---------------------------------------------------------------------------------
 
@@ -433,6 +446,34 @@ class VirtualController(ControllerState):
             else:
                 lines.append(f"{task.name}: not started")
         return lines
+
+    def address(self, group: str = "", *, timeout: float = 10.0) -> str:
+        """Where a client finds a group's servers, once they listen: `HOST:MOTION,STATE`.
+
+        For a controller that runs in a thread of its own (`start()`). TimeoutError when they do
+        not listen within `timeout` s; KeyError for an unknown group.
+        """
+        name = group or next(iter(self.motion.groups))
+        ports = self.motion.group(name).config.ports
+        wanted = (ports.motion, ports.state)
+        listeners = self.network.listeners
+        listening = threading.Event()
+
+        def look() -> None:
+            if all(port in listeners for port in wanted):
+                listening.set()
+
+        def watch() -> None:
+            self.network.listening.add(look)
+            look()
+
+        self.call(watch)
+        came = listening.wait(timeout)
+        self.call(lambda: self.network.listening.remove(look))
+        if not came:
+            raise TimeoutError(f"no server listens on {wanted}: {'; '.join(self.where())}")
+        host, motion = listeners[ports.motion][:2]
+        return f"{host}:{motion},{listeners[ports.state][1]}"
 
     # -- real time -------------------------------------------------------------------------------
 

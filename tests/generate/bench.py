@@ -116,7 +116,7 @@ class Bench:
         self.output, self.system = _CACHE[key]
         self.system = system or self.system
         self.address = next(iter(config.allowed_clients), "10.0.0.1")
-        self.vc = VirtualController.from_config(self.system, config, **options)
+        self.vc = VirtualController(self.system, config.groups, **options)
         self.vc.run_for(0.5)
 
     @property

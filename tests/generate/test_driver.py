@@ -865,7 +865,7 @@ def test_missing_signals_are_not_fatal(bench):
 
     b = bench()
     b.vc.close()
-    b.vc = VirtualController.from_config(replace(b.system, signals=(), outputs=()), b.config)
+    b.vc = VirtualController(replace(b.system, signals=(), outputs=()), b.config.groups)
     b.vc.run_for(0.5)
     state = b.state_client()
     assert b.status(state) == (-1, -1, 0, 0, 0, 2, 1)
