@@ -2,6 +2,8 @@
 
 import pytest
 
+from rapidgen.virtual.motion import MotionSettings
+
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\nVAR robtarget q;\nVAR jointtarget j;\n"
 HOME = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\n"
@@ -287,3 +289,21 @@ def test_mechanical_units_and_a_deactivated_axis(rapid):
     ).run()
     assert out[-3:] == ["off", "0", "100"]
     assert out[0] == "ROB_1 TRUE 6"
+
+
+@pytest.mark.parametrize(("waits", "ended"), [(False, "running"), (True, "standing")])
+def test_whether_stop_move_waits_is_a_switch(rapid, waits, ended):
+    # S4 datasys 2-StopMove: it does not; newer manuals are not public
+    data = DATA + (
+        "VAR intnum i;\nVAR num before;\nTRAP halt\nStopMove;\nj := CJointT();\n"
+        "before := j.robax.rax_1;\nWaitTime 0.5;\nj := CJointT();\n"
+        'IF j.robax.rax_1 = before THEN\nTPWrite "standing";\nELSE\nTPWrite "running";\nENDIF\n'
+        "StartMove;\nENDTRAP\n"
+    )
+    program = rapid(
+        "CONNECT i WITH halt; ITimer \\Single, 0.4, i;"
+        "MoveAbsJ [[90,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs, v1000, fine, tool0;",
+        data,
+    )
+    program.controller.motion.settings = MotionSettings(stop_waits=waits)
+    assert program.run() == [ended]

@@ -1,5 +1,9 @@
-"""Random programs with random stops: never a jump, never past a limit, always an end."""
+"""Random programs with random stops: never a jump, never past a limit, always an end.
 
+RAPIDGEN_RANDOM_PROGRAMS sets how many (60 by default; 10,000 have been run).
+"""
+
+import os
 import random
 
 import pytest
@@ -9,6 +13,7 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.kernel import S
 from rapidgen.virtual.motion.moves import CartesianMove, JointMove, Speed
 
+COUNT = int(os.environ.get("RAPIDGEN_RANDOM_PROGRAMS", "60"))
 RADII = (0, 0.3, 1, 10, 50, 200)
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 
@@ -96,7 +101,7 @@ def cartesian_program(cell, rng, zones):
     return program
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(COUNT))
 def test_joint_programs(cell, zones, seed):
     rng = random.Random(seed)
     if seed % 2:
@@ -110,7 +115,7 @@ def test_joint_programs(cell, zones, seed):
     assert acceleration <= 1 + 1e-3
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", range(COUNT // 2))
 def test_cartesian_programs(cell, zones, seed):
     """Limits along a line come from samples of its inverse kinematics: within a fifth."""
     rng = random.Random(seed)

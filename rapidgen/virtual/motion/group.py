@@ -86,11 +86,6 @@ class MotionGroup:
         self._kernel = kernel
         self._log = log
         self._io = io
-        self._limits = AxisLimits(
-            [j.speed for j in config.joints],
-            [j.acceleration for j in config.joints],
-            settings.corner_share,
-        )
         self._stops: dict[str, None] = {}
         self._override = 1.0
         self._refresh = 1.0
@@ -303,7 +298,7 @@ class MotionGroup:
         if self._braking():
             fixed = max(fixed, self._motion.law.place)
         path.prune(place)
-        limits = self._limits.scaled(self.modal.acceleration, self.modal.path_acceleration)
+        limits = self._limits()
         make = ways.make(self.config, self.kinematics, self.settings, limits)
         standing = self.is_standing
         leg, failed = path.extend(move, make, self._law, limits, fixed, self.kinematics)
@@ -326,6 +321,16 @@ class MotionGroup:
         tail.committed = True
         self._rearm()
         return tail
+
+    def _limits(self) -> AxisLimits:
+        """What the axes may do under the settings of now (AccSet, PathAccLim)."""
+        joints, modal = self.config.joints, self.modal
+        return AxisLimits(
+            [j.speed for j in joints],
+            [j.acceleration * modal.acceleration for j in joints],
+            self.settings.corner_share,
+            modal.path_acceleration,
+        )
 
     def geometry(self) -> Kinematics:
         """The group's kinematics. FatalError: its model has none."""
@@ -404,7 +409,7 @@ class MotionGroup:
         self._path, self._events = level.path, level.events
         self._stops[reason] = None
         place = level.motion.law.place
-        if self._path.regain(here, level.motion.rest, place, self._limits):
+        if self._path.regain(here, level.motion.rest, place, self._limits()):
             place = self._path.pieces[0].start
         self._move_by(TimeLaw(place), self._kernel.now, here)
         self._settle()

@@ -175,9 +175,8 @@ def corner_shares(zone: Zone, before: Measure, after: Measure) -> tuple[float, f
     if zone.fine:
         return None
     if before.tcp > NO_WAY and after.tcp > NO_WAY:
-        radius = min(zone.tcp, before.tcp / 2, after.tcp / 2)
-        for measure in (before, after):
-            radius = min(radius, extended_share(zone, measure) * measure.tcp)
+        reach = min(extended_share(zone, m) * m.tcp for m in (before, after))
+        radius = min(zone.tcp, reach)
         return radius / before.tcp, radius / after.tcp
     shares = [extended_share(zone, measure) for measure in (before, after)]
     return min(shares[0], 0.5), min(shares[1], 0.5)

@@ -172,11 +172,6 @@ class AxisLimits:
         self.tcp_acceleration = tcp_acceleration
         """m/s^2 of the TCP along the path (PathAccLim)."""
 
-    def scaled(self, factor: float, tcp_acceleration: float) -> "AxisLimits":
-        """The same with `factor` times the accelerations (AccSet) and a limit of the TCP's."""
-        accelerations = [a * factor for a in self.accelerations]
-        return AxisLimits(self.speeds, accelerations, self.share, tcp_acceleration)
-
     def slow(self, pieces: Sequence[Piece]) -> Sequence[Piece]:
         """Fresh pieces with the limit of the TCP's acceleration."""
         for piece in pieces:

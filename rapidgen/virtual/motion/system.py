@@ -23,11 +23,22 @@ class MotionSystem:
         settings: MotionSettings | None = None,
     ) -> None:
         self._kernel = kernel
-        self.settings = settings if settings is not None else MotionSettings()
+        self._settings = settings if settings is not None else MotionSettings()
         self.groups: dict[str, MotionGroup] = {
-            config.name: MotionGroup(config, kernel, log, io, self.settings) for config in robots
+            config.name: MotionGroup(config, kernel, log, io, self._settings) for config in robots
         }
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
+
+    @property
+    def settings(self) -> MotionSettings:
+        """The switches of docs/motion-model.md; set them before anything moves."""
+        return self._settings
+
+    @settings.setter
+    def settings(self, value: MotionSettings) -> None:
+        self._settings = value
+        for group in self.groups.values():
+            group.settings = value
 
     def group(self, name: str) -> MotionGroup:
         """The group of that name. KeyError: there is none."""
