@@ -28,6 +28,7 @@ from rapidgen.virtual.handled import ControllerLog
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import ClockKind, Kernel, Schedule
 from rapidgen.virtual.loading import ModuleTable
+from rapidgen.virtual.motion.recorder import Recorder
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
 from rapidgen.virtual.network.faulty import FaultyNetwork
@@ -384,6 +385,10 @@ class VirtualController(ControllerState):
     def signals(self) -> Signals:
         """Values of the signals by name."""
         return Signals(self.io)
+
+    def record(self) -> dict[str, Recorder]:
+        """Record the motion of every group from now on: `["rob1"].recording()` gives arrays."""
+        return self.motion.record()
 
     def run_for(self, seconds: float) -> None:
         """Let simulated time pass."""

@@ -13,7 +13,7 @@ BODY = """
 
 def test_arrays_and_csv(rapid, tmp_path):
     program = rapid(BODY)
-    recorder = program.controller.motion.record()["rob1"]
+    recorder = program.controller.record()["rob1"]
     program.run(2.0)
     recorder.stop()
     program.run(1.0)
@@ -40,7 +40,7 @@ def test_arrays_and_csv(rapid, tmp_path):
 
 def test_any_period_gives_the_same_motion(rapid):
     program = rapid(BODY)
-    recorder = program.controller.motion.record()["rob1"]
+    recorder = program.controller.record()["rob1"]
     program.run(2.0)
     fine, coarse = recorder.recording(0.001), recorder.recording(0.01)
     assert fine.commanded[::10] == pytest.approx(coarse.commanded, abs=0)
