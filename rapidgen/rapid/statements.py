@@ -570,7 +570,7 @@ class StatementParser(ExpressionParser):
             else:
                 if at != told:
                     self.fault(SyntaxFault(at, "CASE, DEFAULT or ENDTEST"))
-                self.statements(at)
+                self.statements(at + 1 if kind is HOLDER else at)
                 if self.after == at:
                     break
         return Test(i, self.leave(), subject, cases, default)

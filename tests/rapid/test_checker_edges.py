@@ -116,3 +116,24 @@ def test_local_routines_that_nothing_calls():
     rest = "LOCAL PROC p()\nENDPROC\nLOCAL FUNC num f()\nRETURN 1;\nENDFUNC\nLOCAL TRAP t\nENDTRAP"
     assert codes("", rest=rest) == ["RG324", "RG324", "RG324"]
     assert codes('%"m:p"%;', rest=rest) == []  # a name in a string may be any of them
+
+
+@pytest.mark.parametrize(
+    ("body", "data", "expected"),
+    [
+        ("again:", "", ["RG324"]),
+        ("a := nothing(1);", "VAR num a;", ["RG301"]),
+        ("a := main();", "VAR num a;", ["RG306"]),
+        ("a := b(1);", "VAR num a;\nVAR num b{2};", ["RG306"]),
+        ("a := a.x;", "VAR num a;", ["RG304"]),
+        ("a := b.x;", "VAR num a;\nVAR pos b{2};", ["RG304"]),
+        ("a := [1, 2];", "VAR num a;", ["RG330"]),
+    ],
+)
+def test_names_and_aggregates_that_do_not_fit(body, data, expected):
+    assert codes(body, data) == expected
+
+
+def test_numbers_beyond_num_where_no_dnum_is():
+    assert codes("IF 1E39 > 1 TPErase;", dialect=Dialect((5, 0))) == ["RG319"]
+    assert codes("IF 1E39 > 1 TPErase;", dialect=Dialect((6, 0))) == []
