@@ -1,12 +1,13 @@
 """`rapidgen sim`: a virtual controller in real time, until it is interrupted."""
 
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from rapidgen.cli.targets import Target
     from rapidgen.virtual.control_socket import ControlSocket
@@ -40,6 +41,14 @@ def sim(
     robot: Annotated[
         str, typer.Option(help="Mechanics of a backup: a shipped name or a configuration.")
     ] = "",
+    ftp: Annotated[
+        int | None,
+        typer.Option(help="Serve HOME over FTP; 0: any free port.", min=0, max=65_535),
+    ] = None,
+    sftp: Annotated[
+        int | None,
+        typer.Option(help="Serve HOME over SFTP; 0: any free port.", min=0, max=65_535),
+    ] = None,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -51,8 +60,8 @@ def sim(
     """Run a virtual controller in real time.
 
     When its servers may be reached, stdout gets one line: `ready` and a JSON object with the
-    ports of each group and of the control socket. What the operator and the event log would
-    show goes to stderr. Ctrl-C ends it.
+    ports of each group, of the control socket, and of the file servers with their login. What
+    the operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
     from rapidgen.cli.targets import load_target
     from rapidgen.virtual.control_commands import commands, subscribe
@@ -91,7 +100,8 @@ def sim(
             lambda listener: subscribe(controller, listener),
         )
         try:
-            return _serve(controller, chosen, control, host, speed)
+            with _files(controller, host, ftp, sftp) as files:
+                return _serve(controller, chosen, control, host, speed, files)
         finally:
             control.close()
 
@@ -102,6 +112,7 @@ def _serve(
     control: "ControlSocket",
     host: str,
     speed: float,
+    files: "dict[str, dict[str, str | int]]",
 ) -> int:
     """Run until a signal comes; the exit code."""
     import json
@@ -136,6 +147,7 @@ def _serve(
             "ports": _ports(controller, target),
             "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
             "control": control.address[1],
+            **files,
         }
         typer.echo(f"ready {json.dumps(found)}")
         kernel.advance(stop=lambda: ended)
@@ -143,6 +155,34 @@ def _serve(
         for number, handler in before.items():
             signal.signal(number, handler)
     return 0
+
+
+@contextmanager
+def _files(
+    controller: "VirtualController", host: str, ftp: int | None, sftp: int | None
+) -> "Iterator[dict[str, dict[str, str | int]]]":
+    """HOME over FTP and SFTP; what `ready` tells of each. Raises DiagnosticError RG560, RG561."""
+    from contextlib import ExitStack
+
+    from rapidgen.services import serve_ftp, serve_sftp
+
+    home = controller.files.path("HOME:")
+    told: dict[str, dict[str, str | int]] = {}
+    with ExitStack() as stack:
+        for name, serve, port in (("ftp", serve_ftp, ftp), ("sftp", serve_sftp, sftp)):
+            if port is None:
+                continue
+            service = serve(home, host, port)
+            stack.callback(service.close)
+            # The login is new in every run and good on this machine only.
+            told[name] = {
+                "port": service.port,
+                "user": service.user,
+                "password": service.password,
+            }
+            if service.host_key:
+                told[name]["host_key"] = service.host_key
+        yield told
 
 
 def _start_cold(controller: "VirtualController") -> None:

@@ -1,0 +1,94 @@
+"""`rapidgen sim --ftp --sftp`: a deployment arrives in the HOME of a running controller."""
+
+import ftplib
+import io
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+
+import pytest
+
+RAPIDGEN = [sys.executable, "-m", "rapidgen.cli"]
+
+
+def rapidgen(*arguments, **environment):
+    return subprocess.run(
+        [*RAPIDGEN, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env={**os.environ, **environment},
+    )
+
+
+@pytest.fixture
+def sim():
+    """A controller that serves its HOME, and what its `ready` told."""
+    process = subprocess.Popen(
+        [*RAPIDGEN, "sim", "irb120", "--ports", "auto", "--ftp", "0", "--sftp", "0"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        line = process.stdout.readline()
+        assert line.startswith("ready "), process.communicate()[1]
+        yield process, json.loads(line.removeprefix("ready "))
+    finally:
+        if process.poll() is None:
+            process.kill()
+        process.communicate()
+
+
+def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim, tmp_path):
+    process, ready = sim
+    sftp, ftp = ready["sftp"], ready["ftp"]
+    assert sftp["password"] != ftp["password"]
+    known = tmp_path / "known_hosts"
+    known.write_text(sftp["host_key"] + "\n")
+    url = f"sftp://Default%20User@127.0.0.1:{sftp['port']}"
+    there = ["irb120", "--to", url, "--known-hosts", str(known)]
+    secret = {"RAPIDGEN_PASSWORD": sftp["password"]}
+    done = rapidgen("deploy", *there, "--yes", **secret)
+    assert done.returncode == 0, done.stderr
+    assert sftp["password"] not in done.stdout + done.stderr
+    assert rapidgen("plan", *there, "--detailed-exitcode", **secret).returncode == 0
+    # The other face shows the same files, and they are what `build` writes.
+    built = tmp_path / "built"
+    assert rapidgen("build", "irb120", "--out", str(built)).returncode == 0
+    modules = [path for path in (built / "HOME").rglob("*") if path.is_file()]
+    assert len(modules) > 3
+    with ftplib.FTP(timeout=10) as client:
+        client.connect("127.0.0.1", ftp["port"])
+        client.login(ftp["user"], ftp["password"])
+        for module in modules:
+            found = io.BytesIO()
+            path = module.relative_to(built / "HOME").as_posix()
+            client.retrbinary(f"RETR {path}", found.write)
+            assert found.getvalue() == module.read_bytes(), path
+    process.send_signal(signal.SIGINT)
+    out, err = process.communicate(timeout=20)
+    assert (process.returncode, out) == (0, "")
+    assert "Traceback" not in err
+    for port in (sftp["port"], ftp["port"]):
+        with pytest.raises(ConnectionRefusedError):
+            socket.create_connection(("127.0.0.1", port), timeout=2)
+
+
+def test_a_file_port_that_is_taken_and_a_host_of_the_network_are_refused():
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        port = other.getsockname()[1]
+        taken = rapidgen("sim", "irb120", "--ports", "auto", "--sftp", str(port))
+    assert (taken.returncode, taken.stdout) == (1, "")
+    assert "RG561" in taken.stderr
+    outside = rapidgen("sim", "irb120", "--ports", "auto", "--host", "0.0.0.0", "--ftp", "0")
+    assert (outside.returncode, outside.stdout) == (2, "")
+    assert "RG560" in outside.stderr
+    for process in (taken, outside):
+        assert "Traceback" not in process.stderr
+    assert rapidgen("sim", "irb120", "--ftp", "65536").returncode == 2
