@@ -122,6 +122,15 @@ def about(axis: Vector, angle: float) -> Quaternion:
     return cos(angle / 2), axis[0] * s, axis[1] * s, axis[2] * s
 
 
+def to_axis(q: Quaternion) -> tuple[Vector, float]:
+    """Unit axis and angle, 0 to pi; the z axis for no rotation."""
+    w, x, y, z = q if q[0] >= 0 else (-q[0], -q[1], -q[2], -q[3])
+    size = sqrt(x * x + y * y + z * z)
+    if size < 1e-12:
+        return (0.0, 0.0, 1.0), 0.0
+    return (x / size, y / size, z / size), 2 * atan2(size, w)
+
+
 def angle_between(a: Quaternion, b: Quaternion) -> float:
     """Smallest rotation angle from a to b, 0 to pi."""
     w, x, y, z = multiply(conjugate(a), b)

@@ -247,6 +247,8 @@ class VirtualController(ControllerState):
             robot = robots.get(spec.mechanical_unit_group.lower())
             if robot is not None and spec.mechanical_unit_group and not spec.motion:
                 self.motion.assign(spec.name, robot)
+            elif spec.motion and (group := self.motion.of_task(spec.name)) is not None:
+                self.motion.assign(spec.name, group.name, moving=True)
 
     # -- other ways in ---------------------------------------------------------------------------
 

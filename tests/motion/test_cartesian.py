@@ -100,6 +100,39 @@ def test_a_circle_keeps_radius_plane_and_relative_orientation(robot, linear):
     assert speeds.max() == pytest.approx(0.1, rel=1e-3)
 
 
+@pytest.mark.parametrize("height", [0.0499, 0.05, 0.0501])
+def test_one_orientation_at_all_three_points_stays(robot, linear, height):
+    """The orientation at the circle point chooses the way round, also at half a circle."""
+    robot.run(
+        lambda task: robot.group.move(task, linear(0, 0.1, 0.0, via=(0.0, 0.05, height), tcp=0.1))
+    )
+    _, turns = tcp(robot)
+    assert max(frames.angle_between(turns[0], q) for q in turns) < 1e-6
+
+
+def test_an_orientation_that_turns_with_the_path(robot, zones):
+    """A quarter circle to a pose turned by the same quarter: constant relative to the path."""
+    own = robot.group.kinematics
+    start = own.forward(HOME)
+    centre = frames.add(start[0], (0.0, 0.05, 0.0))
+
+    def on_circle(angle):
+        q = frames.about((1.0, 0.0, 0.0), -angle)
+        arm = frames.rotate(q, (0.0, -0.05, 0.0))
+        return frames.add(centre, arm), frames.multiply(q, start[1])
+
+    move = CartesianMove(
+        target=on_circle(math.pi / 2), via=on_circle(math.pi / 4), external=HOME,
+        speed=Speed(0.1), zone=zones(0),
+    )  # fmt: skip
+    robot.run(lambda task: robot.group.move(task, move))
+    for posture in robot.path[::50]:
+        place, q = own.forward(tuple(posture))
+        arm = frames.subtract(place, centre)
+        angle = math.atan2(arm[2], -arm[1])
+        assert frames.angle_between(q, on_circle(angle)[1]) < 1e-5
+
+
 @pytest.mark.parametrize(
     ("via", "end"),
     [((0, 0.05, 0.0), (0, 0.1, 0.0)), ((0, 0.00005, 0.0), (0, 0.1, 0.0))],

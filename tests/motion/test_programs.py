@@ -2,6 +2,8 @@
 
 import pytest
 
+from rapidgen.config import load_config
+from rapidgen.virtual.controller import VirtualController
 from rapidgen.virtual.motion import MotionSettings
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
@@ -307,3 +309,13 @@ def test_whether_stop_move_waits_is_a_switch(rapid, waits, ended):
     )
     program.controller.motion.settings = MotionSettings(stop_waits=waits)
     assert program.run() == [ended]
+
+
+def test_a_motion_task_may_have_any_name(tmp_path):
+    file = tmp_path / "Probe.mod"
+    body = HOME + 'j := CJointT(); TPWrite "" \\Num:=j.robax.rax_5;'
+    file.write_text(f"MODULE Probe\n{DATA}PROC main()\n{body}\nENDPROC\nENDMODULE\n")
+    groups = load_config("irb120").groups
+    controller = VirtualController.from_files({"T_OTHER": [file]}, robots=groups, cycle="once")
+    controller.run_for(5.0)
+    assert list(controller.operator.rows) == ["30"]

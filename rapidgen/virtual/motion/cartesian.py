@@ -237,7 +237,7 @@ def with_external(posture: Posture, external: Posture, places: tuple[int, ...]) 
 def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
     if move.via is None:
         return Line(start, move.target)
-    arc = arc_through(start, move.via[0], move.target, with_path=not move.in_object)
+    arc = arc_through(start, move.via, move.target, with_path=not move.in_object)
     if arc is None:
         raise FatalError(
             events.CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"

@@ -174,17 +174,26 @@ def _orientation(
         return lambda _time: constant
     inside, outside = zone
     w = _parameter(inside, outside)
+    first, last = way.pose(way.duration - inside)[1], after.pose(outside)[1]
     points = (
-        way.pose(way.duration - inside)[1],
-        way.pose(way.duration - inside / 3)[1],
-        after.pose(outside / 3)[1],
-        after.pose(outside)[1],
+        first,
+        frames.multiply(_spun(way, way.duration - inside, inside * 2 / 3), first),
+        frames.multiply(_spun(after, outside, -outside * 2 / 3), last),
+        last,
     )
 
     def at(time: float) -> Quaternion:
         return _turn(points, min(1.0, max(0.0, w(time))))
 
     return at
+
+
+def _spun(way: CartesianWay, time: float, span: float) -> Quaternion:
+    """How far the tool would turn in `span` at the rate that it has at `time`."""
+    step = 1e-4 * way.duration
+    ahead, behind = way.pose(time + step)[1], way.pose(time - step)[1]
+    axis, angle = frames.to_axis(frames.multiply(ahead, frames.conjugate(behind)))
+    return frames.about(axis, angle * span / (2 * step))
 
 
 def _external(

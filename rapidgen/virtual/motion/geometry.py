@@ -1,6 +1,7 @@
 """Lines and circles of the TCP in the object's frame, over a share from 0 to 1."""
 
 from dataclasses import dataclass
+from itertools import pairwise
 from math import atan2, pi
 
 from rapidgen.axes import frames
@@ -46,7 +47,7 @@ class Arc:
     """Part of a circle; the orientation turns evenly relative to the path.
 
     Same orientation relative to the path at both ends keeps it so all along (S4 datasys
-    2-MoveC-3): the turn of the path itself is added to an even turn of what is left.
+    2-MoveC-3): the turn of the path itself and an even turn in the tool's own frame.
     """
 
     start: Pose
@@ -55,8 +56,12 @@ class Arc:
     normal: Vector
     sweep: float
     """rad, positive about `normal`"""
-    with_path: bool = True
-    """False: the orientation turns as on a line (CirPathMode \\ObjectFrame)."""
+    swept: float
+    """rad of the path's turn that the tool takes part in: all of it, or none."""
+    axis: Vector
+    """Of the tool's own turn, in the frame of `start`."""
+    turn: float
+    """rad"""
 
     @property
     def length(self) -> float:
@@ -65,13 +70,9 @@ class Arc:
 
     @property
     def angle(self) -> float:
-        """rad that the tool turns in all, at most."""
-        if not self.with_path:
-            return frames.angle_between(self.start[1], self.end[1])
-        return self.sweep + frames.angle_between(self.start[1], self._unswept())
-
-    def _unswept(self) -> Quaternion:
-        return frames.multiply(frames.about(self.normal, -self.sweep), self.end[1])
+        """rad that the tool turns in all."""
+        rows = [self.orientation(k / 8) for k in range(9)]
+        return sum(frames.angle_between(a, b) for a, b in pairwise(rows))
 
     def position(self, share: float) -> Vector:
         """m"""
@@ -87,18 +88,18 @@ class Arc:
 
     def orientation(self, share: float) -> Quaternion:
         """Unit quaternion."""
-        if not self.with_path:
-            return frames.slerp(self.start[1], self.end[1], share)
-        own = frames.slerp(self.start[1], self._unswept(), share)
-        return frames.multiply(frames.about(self.normal, self.sweep * share), own)
+        own = frames.multiply(self.start[1], frames.about(self.axis, self.turn * share))
+        return frames.multiply(frames.about(self.normal, self.swept * share), own)
 
 
-def arc_through(start: Pose, via: Vector, end: Pose, *, with_path: bool = True) -> Arc | None:
+def arc_through(start: Pose, via: Pose, end: Pose, *, with_path: bool = True) -> Arc | None:
     """The circle through three points; None: they do not make one.
 
-    Points closer than 0.1 mm, or in one line, are no circle.
+    Points closer than 0.1 mm, or in one line, are no circle. The orientation at `via` only
+    decides between the short and the long way of the tool's own turn (S4 datasys 2-MoveC-3).
+    `with_path` False: the tool turns as on a line (CirPathMode \\ObjectFrame).
     """
-    a, b, c = start[0], via, end[0]
+    a, b, c = start[0], via[0], end[0]
     to_via, to_end = frames.subtract(b, a), frames.subtract(c, a)
     if min(frames.norm(to_via), frames.norm(to_end), frames.distance(b, c)) < 1e-4:
         return None
@@ -111,8 +112,21 @@ def arc_through(start: Pose, via: Vector, end: Pose, *, with_path: bool = True) 
     second = frames.scale(frames.cross(to_end, normal), frames.dot(to_via, to_via))
     centre = frames.add(a, frames.scale(frames.add(first, second), 1 / (2 * area)))
     normal = frames.unit(normal)
-    arm, last = frames.subtract(a, centre), frames.subtract(c, centre)
-    sweep = atan2(frames.dot(frames.cross(arm, last), normal), frames.dot(arm, last))
-    if sweep <= 0:
-        sweep += 2 * pi
-    return Arc(start, end, centre, normal, sweep, with_path)
+    sweep = _turned(frames.subtract(a, centre), frames.subtract(c, centre), normal)
+    share = _turned(frames.subtract(a, centre), frames.subtract(b, centre), normal) / sweep
+    swept = sweep if with_path else 0.0
+    last = frames.multiply(frames.about(normal, -swept), end[1])
+    axis, turn = frames.to_axis(frames.multiply(frames.conjugate(start[1]), last))
+    ways = [
+        Arc(start, end, centre, normal, sweep, swept, axis, angle)
+        for angle in (turn, turn - 2 * pi)
+    ]
+    if not with_path:
+        return ways[0]
+    return min(ways, key=lambda way: frames.angle_between(way.orientation(share), via[1]))
+
+
+def _turned(first: Vector, last: Vector, normal: Vector) -> float:
+    """rad from one arm to another about a normal, 0 to 2 pi."""
+    angle = atan2(frames.dot(frames.cross(first, last), normal), frames.dot(first, last))
+    return angle if angle > 0 else angle + 2 * pi

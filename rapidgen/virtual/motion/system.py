@@ -28,6 +28,7 @@ class MotionSystem:
             config.name: MotionGroup(config, kernel, log, io, self._settings) for config in robots
         }
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
+        self._moving = set(self._tasks)
 
     @property
     def settings(self) -> MotionSettings:
@@ -48,9 +49,14 @@ class MotionSystem:
         """Start recording every group; see `recorder.py`."""
         return {name: Recorder(self._kernel, group) for name, group in self.groups.items()}
 
-    def assign(self, task: str, group: str) -> None:
-        """Let a task act on a group (UseMechanicalUnitGroup of a background task)."""
+    def assign(self, task: str, group: str, *, moving: bool = False) -> None:
+        """Let a task act on a group (UseMechanicalUnitGroup of a background task).
+
+        `moving`: it is a motion task, whatever the robot's configuration calls its own.
+        """
         self._tasks[task.lower()] = self.groups[group]
+        if moving:
+            self._moving.add(task.lower())
 
     def of_task(self, task: str) -> MotionGroup | None:
         """The group that a task moves or is connected to.
@@ -64,4 +70,4 @@ class MotionSystem:
 
     def is_motion_task(self, task: str) -> bool:
         """Whether a task may execute move instructions."""
-        return any(g.config.task.lower() == task.lower() for g in self.groups.values())
+        return task.lower() in self._moving
