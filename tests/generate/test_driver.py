@@ -771,12 +771,12 @@ def test_a_stop_and_start_within_one_watch(bench):
     move_well(b, client)
 
 
-def statements_of(b, routine):
-    """Lines of the statements of a routine of ROS_motion."""
+def statements_of(b, routine, module="ROS_motion"):
+    """Lines of the statements of a routine."""
     from rapidgen.rapid import parse
 
-    (motion,) = [f for f in b.output.files if f.path.endswith("ROS_motion.mod")]
-    module = parse(motion.data)
+    (file,) = [f for f in b.output.files if f.path.endswith(f"/{module}.mod")]
+    module = parse(file.data)
     (found,) = [r for r in module.routines if r.name == routine]
     lines = []
 
@@ -953,6 +953,93 @@ def test_hello_and_progress(bench):
     assert MOVING in states
     assert told[-1] == (1, DONE, 5, 5, 5, 0, -1, 0)
     assert [t[4] for t in told] == sorted(t[4] for t in told)
+
+
+def ask_progress(b):
+    """A state client that gets PROGRESS."""
+    state = b.state_client()
+    state.send(struct.pack("<4i5i", 32, 1300, 2, 0, 1, 0, 1, 0, 1))
+    b.vc.run_for(0.3)
+    state.frames()
+    return state
+
+
+def progress_of(state):
+    return {
+        struct.unpack_from("<8i", f, 16)
+        for f in state.frames()
+        if struct.unpack_from("<i", f, 4)[0] == 1301
+    }
+
+
+def hold(b, task, seconds):
+    """Let a task wait where it is."""
+    b.vc.rapid_tasks[task].hold()
+    b.vc.kernel.after(round(seconds * 1e9), b.vc.rapid_tasks[task].release)
+
+
+def held_at(bench, task, module, routine, second):
+    """What PROGRESS tells of a first trajectory of three points and of a second one, for each
+    statement of a routine at which `task` is held when the second comes."""
+    for line in statements_of(bench(), routine, module):
+        b = bench()
+        client, state = b.client(), ask_progress(b)
+        send_all(client, trajectory(FIVE[:3], [10, 0.2, 0.2]))
+        assert reply_of(client)[0] == 1
+        b.vc.run_for(2)
+        state.frames()
+
+        def begin(b=b, client=client):
+            if task == "T_ROS_STATE":
+                client.network.send(client.endpoint, b"".join(second))
+            hold(b, task, 0.35)
+
+        b.vc.before_statement(task, module, line, 1, begin)
+        if task != "T_ROS_STATE":
+            send_all(client, second)
+        b.vc.run_for(1.5)
+        yield line, client, progress_of(state)
+
+
+BEFORE = (1, DONE, 3, 3, 3, 0, -1, 0)
+
+
+@pytest.mark.parametrize("routine", ["tell", "look", "look_at"])
+def test_progress_is_one_snapshot(bench, routine):
+    """Whatever the state server is at when a trajectory comes and is refused: a number comes
+    with the state, the counts and the fault of that trajectory."""
+    second = trajectory([FIVE[2], FIVE[1], [9.0] * 6], [10, 1, 1])
+    refused = (2, REFUSED, 2, 0, 0, LIMIT, 2, 1)
+    held = 0
+    for line, client, told in held_at(bench, "T_ROS_STATE", "ROS_stateServer", routine, second):
+        if client.frames():
+            held += 1
+            assert refused in told, line
+        assert told <= {BEFORE, refused}, line
+    assert held
+
+
+@pytest.mark.parametrize(
+    ("task", "module", "routine"),
+    [
+        ("T_ROS_RECV", "ROS_motionServer", "new_trajectory"),
+        ("T_ROS_RECV", "ROS_motionServer", "hand_over"),
+        ("T_ROB1", "ROS_motion", "next_point"),
+    ],
+)
+def test_progress_of_a_trajectory_that_begins(bench, task, module, routine):
+    """Nothing of the trajectory before is told under the number of the new one, or the other
+    way round, whatever statement a writer is at."""
+    second = trajectory([FIVE[2], FIVE[1]], [10, 0.5])
+    for line, _, told in held_at(bench, task, module, routine, second):
+        assert {t for t in told if t[0] == 1} <= {BEFORE}, line
+        assert (2, DONE, 2, 2, 2, 0, -1, 0) in told, line
+        for number, state, received, planned, reached, *fault in told - {BEFORE}:
+            assert number == 2
+            assert state in {RECEIVING, MOVING, DONE}, line
+            assert reached <= planned <= received <= 2, line
+            assert state != RECEIVING or planned == 0, line
+            assert fault == [0, -1, 0], line
 
 
 @pytest.mark.parametrize("data", [bytes(36), b"\xff" * 36, bytes(500)])

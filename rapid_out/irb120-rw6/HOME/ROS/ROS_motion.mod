@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "504ee58dd193";
+    CONST string ROS_BUILD_MOTION := "f0530698817e";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -113,7 +113,9 @@ MODULE ROS_motion
         IF point.session <> session THEN
             session := point.session;
             expected := 1;
+            ROS_planned := 0;
             ROS_reached := 0;
+            ROS_started := session;
         ENDIF
         IF point.index <> expected THEN
             fault := ROS_REASON_INTERNAL;

@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "504ee58dd193";
+    CONST string ROS_BUILD_STATE := "f0530698817e";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -28,6 +28,7 @@ MODULE ROS_stateServer
     LOCAL VAR num idle := 0;
     LOCAL VAR bool progress := FALSE;
     LOCAL VAR bool linked := FALSE;
+    LOCAL VAR ROS_progress newest;
     ! What was told last, so that a movement between two messages is told too.
     LOCAL VAR num told_tail := 0;
     LOCAL VAR jointtarget told_joints;
@@ -88,9 +89,7 @@ MODULE ROS_stateServer
     ! Send one JOINT, one STATUS and, if it was asked for, one PROGRESS.
     LOCAL FUNC bool tell(VAR socketdev client)
         VAR jointtarget joints;
-        VAR num state;
         VAR num code := 0;
-        VAR num index := -1;
         VAR num in_error := ROS_TRI_FALSE;
         VAR num in_motion := ROS_TRI_FALSE;
         VAR num possible := ROS_TRI_FALSE;
@@ -99,50 +98,77 @@ MODULE ROS_stateServer
         ROS_pack_joints message, joints;
         IF NOT ROS_send(client, message) RETURN FALSE;
 
-        state := trajectory_state(code, index);
-        IF state = ROS_TRAJ_REFUSED OR state = ROS_TRAJ_FAILED in_error := ROS_TRI_TRUE;
+        look;
+        IF newest.state = ROS_TRAJ_REFUSED OR newest.state = ROS_TRAJ_FAILED
+            in_error := ROS_TRI_TRUE;
         IF ROS_controller_error() = ROS_TRI_TRUE in_error := ROS_TRI_TRUE;
         IF moving(joints) in_motion := ROS_TRI_TRUE;
         IF ROS_not_ready = ROS_REASON_NONE possible := ROS_TRI_TRUE;
-        IF in_error = ROS_TRI_TRUE THEN
-            ROS_pack_status message, code, in_error, in_motion, possible;
-        ELSE
-            ROS_pack_status message, 0, in_error, in_motion, possible;
-        ENDIF
+        IF in_error = ROS_TRI_TRUE code := newest.code;
+        ROS_pack_status message, code, in_error, in_motion, possible;
         IF NOT ROS_send(client, message) RETURN FALSE;
 
         IF progress THEN
-            ROS_pack_progress message, state, code, index;
+            ROS_pack_progress message, newest;
             RETURN ROS_send(client, message);
         ENDIF
         RETURN TRUE;
     ENDFUNC
 
-    ! State of the newest trajectory; `code` is reason + 100 x joint, `index` the point at fault.
-    LOCAL FUNC num trajectory_state(VAR num code, VAR num index)
-        VAR num session;
+    ! See what has become of the newest trajectory: look again if a newer one begins meanwhile,
+    ! so that a number never comes with what belongs to another.
+    LOCAL PROC look()
+        VAR num trajectory := -1;
 
-        session := ROS_trajectory;
-        TEST ROS_phase
-        CASE ROS_TRAJ_MOVING:
-            IF ROS_done = session RETURN ROS_TRAJ_DONE;
-            IF ROS_dead = session THEN
-                code := ROS_dead_reason;
-            ELSEIF ROS_halted = session THEN
-                code := ROS_halt_reason;
-            ELSE
-                RETURN ROS_TRAJ_MOVING;
-            ENDIF
-            index := ROS_reached;
-            IF code = ROS_REASON_STOPPED OR code = ROS_REASON_SUPERSEDED RETURN ROS_TRAJ_STOPPED;
-            RETURN ROS_TRAJ_FAILED;
+        WHILE trajectory <> ROS_trajectory DO
+            trajectory := ROS_trajectory;
+            look_at trajectory;
+        ENDWHILE
+    ENDPROC
+
+    LOCAL PROC look_at(num trajectory)
+        newest := [trajectory,ROS_TRAJ_RECEIVING,0,0,0,ROS_REASON_NONE,-1];
+        ! It begins just now: all the rest is still of the one before.
+        IF ROS_phase_of <> trajectory RETURN;
+        newest.state := ROS_phase;
+        newest.received := ROS_received;
+        TEST newest.state
         CASE ROS_TRAJ_REFUSED, ROS_TRAJ_STOPPED:
-            code := ROS_refusal;
-            index := ROS_refused_at;
-            RETURN ROS_phase;
-        DEFAULT:
-            RETURN ROS_phase;
+            ! A refusal becomes a stop when STOP comes: the code says which it is.
+            newest.code := ROS_refusal;
+            IF newest.code = ROS_REASON_STOPPED THEN
+                newest.state := ROS_TRAJ_STOPPED;
+            ELSE
+                newest.state := ROS_TRAJ_REFUSED;
+                newest.index := ROS_refused_at;
+            ENDIF
+        CASE ROS_TRAJ_MOVING:
+            look_at_motion trajectory;
         ENDTEST
+    ENDPROC
+
+    ! The state first: it must not be ahead of the counts.
+    LOCAL PROC look_at_motion(num trajectory)
+        IF ROS_done = trajectory THEN
+            newest.state := ROS_TRAJ_DONE;
+        ELSEIF ROS_dead = trajectory THEN
+            newest.code := ROS_dead_reason;
+            newest.state := ended(newest.code);
+        ELSEIF ROS_halted = trajectory THEN
+            newest.code := ROS_halt_reason;
+            newest.state := ended(newest.code);
+        ENDIF
+        IF ROS_started = trajectory THEN
+            newest.reached := ROS_reached;
+            newest.planned := ROS_planned;
+        ENDIF
+        IF newest.code <> ROS_REASON_NONE newest.index := newest.reached;
+    ENDPROC
+
+    ! State of a trajectory that ended early for this reason.
+    LOCAL FUNC num ended(num code)
+        IF code = ROS_REASON_STOPPED OR code = ROS_REASON_SUPERSEDED RETURN ROS_TRAJ_STOPPED;
+        RETURN ROS_TRAJ_FAILED;
     ENDFUNC
 
     ! TRUE while a trajectory is under way, while an axis turns, and once after any movement

@@ -10,7 +10,7 @@ MODULE ROS_supervisor
     ! the robot standing. It halts on request, and when something happened after
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
 
-    CONST string ROS_BUILD_SUPERVISOR := "504ee58dd193";
+    CONST string ROS_BUILD_SUPERVISOR := "f0530698817e";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;

@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "08c3ea884509";
+    CONST string ROS_BUILD_MOTION_SERVER := "00591055d388";
 
     LOCAL CONST num PORT := 11000;
     LOCAL CONST num CAPACITY := 1000;
@@ -113,6 +113,7 @@ MODULE ROS_motionServer
         ! Counters start where those that answer them stand.
         ROS_head := ROS_tail;
         ROS_phase := ROS_TRAJ_NONE;
+        ROS_phase_of := ROS_trajectory;
         end_session ROS_REASON_CLIENT_LOST;
         ROS_listen server, PORT;
         WHILE TRUE DO
@@ -378,11 +379,13 @@ MODULE ROS_motionServer
         count := 0;
         receiving := TRUE;
         skipping := FALSE;
+        ! The number first and its repetition last: see ROS_common.
+        ROS_trajectory := ROS_next(ROS_trajectory);
         ROS_received := 0;
         ROS_refusal := ROS_REASON_NONE;
         ROS_refused_at := -1;
         ROS_phase := ROS_TRAJ_RECEIVING;
-        ROS_trajectory := ROS_next(ROS_trajectory);
+        ROS_phase_of := ROS_trajectory;
         point.session := ROS_trajectory;
         point.target := NOWHERE;
         point.stop := FALSE;
@@ -651,7 +654,6 @@ MODULE ROS_motionServer
         IF receiving OR ROS_phase = ROS_TRAJ_REFUSED THEN
             receiving := FALSE;
             ROS_refusal := ROS_REASON_STOPPED;
-            ROS_refused_at := -1;
             ROS_phase := ROS_TRAJ_STOPPED;
         ENDIF
         skipping := FALSE;

@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "c038852ed0bc";
+    CONST string ROS_BUILD_MOTION := "35a96c9fa1d9";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1500,500,1500,1000];
@@ -115,7 +115,9 @@ MODULE ROS_motion
         IF point.session <> session THEN
             session := point.session;
             expected := 1;
+            ROS_planned_1 := 0;
             ROS_reached_1 := 0;
+            ROS_started_1 := session;
         ENDIF
         IF point.index <> expected THEN
             fault := ROS_REASON_INTERNAL;

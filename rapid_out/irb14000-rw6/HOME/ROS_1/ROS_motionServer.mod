@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "c038852ed0bc";
+    CONST string ROS_BUILD_MOTION_SERVER := "35a96c9fa1d9";
 
     LOCAL CONST num PORT := 11000;
     LOCAL CONST num CAPACITY := 1000;
@@ -113,6 +113,7 @@ MODULE ROS_motionServer
         ! Counters start where those that answer them stand.
         ROS_head_1 := ROS_tail_1;
         ROS_phase_1 := ROS_TRAJ_NONE;
+        ROS_phase_of_1 := ROS_trajectory_1;
         end_session ROS_REASON_CLIENT_LOST;
         ROS_listen server, PORT;
         WHILE TRUE DO
@@ -378,11 +379,13 @@ MODULE ROS_motionServer
         count := 0;
         receiving := TRUE;
         skipping := FALSE;
+        ! The number first and its repetition last: see ROS_common.
+        ROS_trajectory_1 := ROS_next(ROS_trajectory_1);
         ROS_received_1 := 0;
         ROS_refusal_1 := ROS_REASON_NONE;
         ROS_refused_at_1 := -1;
         ROS_phase_1 := ROS_TRAJ_RECEIVING;
-        ROS_trajectory_1 := ROS_next(ROS_trajectory_1);
+        ROS_phase_of_1 := ROS_trajectory_1;
         point.session := ROS_trajectory_1;
         point.target := NOWHERE;
         point.stop := FALSE;
@@ -643,7 +646,6 @@ MODULE ROS_motionServer
         IF receiving OR ROS_phase_1 = ROS_TRAJ_REFUSED THEN
             receiving := FALSE;
             ROS_refusal_1 := ROS_REASON_STOPPED;
-            ROS_refused_at_1 := -1;
             ROS_phase_1 := ROS_TRAJ_STOPPED;
         ENDIF
         skipping := FALSE;

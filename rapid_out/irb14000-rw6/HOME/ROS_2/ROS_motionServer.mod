@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "c038852ed0bc";
+    CONST string ROS_BUILD_MOTION_SERVER := "35a96c9fa1d9";
 
     LOCAL CONST num PORT := 12000;
     LOCAL CONST num CAPACITY := 1000;
@@ -111,6 +111,7 @@ MODULE ROS_motionServer
         ! Counters start where those that answer them stand.
         ROS_head_2 := ROS_tail_2;
         ROS_phase_2 := ROS_TRAJ_NONE;
+        ROS_phase_of_2 := ROS_trajectory_2;
         end_session ROS_REASON_CLIENT_LOST;
         ROS_listen server, PORT;
         WHILE TRUE DO
@@ -376,11 +377,13 @@ MODULE ROS_motionServer
         count := 0;
         receiving := TRUE;
         skipping := FALSE;
+        ! The number first and its repetition last: see ROS_common.
+        ROS_trajectory_2 := ROS_next(ROS_trajectory_2);
         ROS_received_2 := 0;
         ROS_refusal_2 := ROS_REASON_NONE;
         ROS_refused_at_2 := -1;
         ROS_phase_2 := ROS_TRAJ_RECEIVING;
-        ROS_trajectory_2 := ROS_next(ROS_trajectory_2);
+        ROS_phase_of_2 := ROS_trajectory_2;
         point.session := ROS_trajectory_2;
         point.target := NOWHERE;
         point.stop := FALSE;
@@ -641,7 +644,6 @@ MODULE ROS_motionServer
         IF receiving OR ROS_phase_2 = ROS_TRAJ_REFUSED THEN
             receiving := FALSE;
             ROS_refusal_2 := ROS_REASON_STOPPED;
-            ROS_refused_at_2 := -1;
             ROS_phase_2 := ROS_TRAJ_STOPPED;
         ENDIF
         skipping := FALSE;

@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "16d271e253fd";
+    CONST string ROS_BUILD_MOTION := "22d2cfbcbd65";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -116,7 +116,9 @@ MODULE ROS_motion
         IF point.session <> session THEN
             session := point.session;
             expected := 1;
+            ROS_planned := 0;
             ROS_reached := 0;
+            ROS_started := session;
         ENDIF
         IF point.index <> expected THEN
             fault := ROS_REASON_INTERNAL;
