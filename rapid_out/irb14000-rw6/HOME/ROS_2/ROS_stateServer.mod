@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "35a96c9fa1d9";
+    CONST string ROS_BUILD_STATE := "3552bdd25de4";
 
     LOCAL CONST num PORT := 12002;
     LOCAL CONST num PERIOD := 0.05;
@@ -30,7 +30,7 @@ MODULE ROS_stateServer
     LOCAL VAR bool linked := FALSE;
     LOCAL VAR ROS_progress newest;
     ! What was told last, so that a movement between two messages is told too.
-    LOCAL VAR num told_tail := 0;
+    LOCAL VAR num told_started := 0;
     LOCAL VAR jointtarget told_joints;
 
     PROC main()
@@ -58,7 +58,7 @@ MODULE ROS_stateServer
         offset := 0;
         ClkReset schedule;
         ClkStart schedule;
-        told_tail := ROS_tail_2;
+        told_started := ROS_started_2;
         told_joints := CJointT();
         WHILE linked AND (NOT taken_over) DO
             linked := tell(client);
@@ -171,15 +171,16 @@ MODULE ROS_stateServer
         RETURN ROS_TRAJ_FAILED;
     ENDFUNC
 
-    ! TRUE while a trajectory is under way, while an axis turns, and once after any movement
-    ! that fell between two messages.
+    ! TRUE while a trajectory is under way that was not halted, while an axis turns, and once
+    ! after any movement that fell between two messages.
     LOCAL FUNC bool moving(jointtarget joints)
+        VAR num started;
         VAR bool moved;
 
-        moved := ROS_active() OR ROS_tail_2 <> told_tail;
-        IF ROS_standing() = ROS_TRI_FALSE moved := TRUE;
-        IF NOT near(joints) moved := TRUE;
-        told_tail := ROS_tail_2;
+        started := ROS_started_2;
+        moved := started <> told_started OR ROS_standing() = ROS_TRI_FALSE OR (NOT near(joints));
+        IF ROS_active() AND ROS_halted_2 <> ROS_session_2 moved := TRUE;
+        told_started := started;
         told_joints := joints;
         RETURN moved;
     ENDFUNC
