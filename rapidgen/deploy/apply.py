@@ -1,9 +1,9 @@
 """Carry out a plan so that a cut at any point leaves the old set, the new set, or a refusal.
 
 Order: journal, backup, every new file beside its old one and read back; then the mark
-`switching`, the fence (a module of each task with a BUILD_ID that none other has, so that all
-tasks refuse to serve and to move), the files, the fence's own files, everything read back once
-more, the manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
+`switching`, the fence (a module of each task with a BUILD_ID that none other has, so that no
+trajectory is taken), the files, the fence's own files, everything read back once more, the
+manifest, and last the journal's end. Until `switching` stands, nothing old was touched.
 """
 
 from rapidgen.deploy.driverset import FENCE, NEW, DriverSet, SetFile, digest

@@ -5,9 +5,11 @@ R1..R20 are the faults of abb_driver's modules that a promise answers.
 
 import math
 import struct
+from dataclasses import replace
 
 import pytest
 
+from rapidgen.virtual.controller import VirtualController
 from tests.generate.bench import POINT, STOP, close_to, point, trajectory
 
 FIVE = [[0.0] * 6, [0.1] * 6, [0.2] * 6, [0.3] * 6, [0.25] * 6]
@@ -848,21 +850,76 @@ def test_a_stop_at_every_statement(bench):
     assert stopped > 10
 
 
-def test_modules_of_different_builds_refuse_to_move(bench):
+def mix(b, role, build="0123456789ab"):
+    """One task shows another build."""
+    b.vc.tasks["T_ROS_STATE"][f"ROS_common:ROS_shown_{role}"] = build
+
+
+@pytest.mark.parametrize("role", ["motion", "motion_server", "supervisor", "state"])
+def test_tasks_of_different_builds_take_no_trajectory(bench, role):
     b = bench()
-    b.vc.tasks["T_ROS_STATE"]["ROS_common:ROS_shown_state"] = "0123456789ab"
-    b.vc.run_for(0.3)
+    mix(b, role)
+    b.vc.run_for(3)
     client = b.client()
+    for _ in range(2):
+        send_all(client, trajectory(FIVE, SECONDS))
+        assert_refused(b, client, MIXED, -1)
+    # STATUS said why; the event log does, once.
+    assert b.status(b.state_client())[6] == 0
+    assert len([e for e in b.vc.log if "ROS: tasks of different builds" in str(e)]) == 1
+    mix(b, role, b.output.build_id)
+    b.vc.run_for(0.3)
+    move_well(b, client)
+
+
+def test_another_build_is_refused_at_the_first_point(bench):
+    b = bench()
+    mix(b, "supervisor")
+    client = b.client()
+    client.send(point(-1, FIVE[0], 10.0, comm=2))
+    assert reply_of(client) == (2, (MIXED, -1, 0))
+    # What else is wrong with it does not hide that.
+    send_all(client, trajectory([[9.0] * 6, [math.nan] * 6], [10, 1]))
+    assert reply_of(client) == (2, (MIXED, -1, 0))
+    client.send(STOP)
+    assert client.wait_frame() == struct.pack("<4i", 12, 11, 3, 1)
+
+
+@pytest.mark.parametrize("name", ["ROS_messages.sys", "ROS_socket.sys", "ROS_motionServer.mod"])
+def test_a_task_with_modules_of_two_builds(bench, name):
+    b = bench()
+    b.vc.close()
+    b.vc = VirtualController(with_old_file(b, name), b.config.groups)
+    b.vc.run_for(0.5)
+    events = [str(e) for e in b.vc.log if "ROS: modules of different builds" in str(e)]
+    assert events
+    assert any("T_ROS_RECV" in e for e in events)
+    client, state = b.client(), b.state_client()
     send_all(client, trajectory(FIVE, SECONDS))
-    assert_refused(b, client, MIXED, -1)
+    assert reply_of(client) == (2, (MIXED, -1, 0))
+    # The state port serves, so that the reason can be read.
+    assert b.status(state)[2:] == (MIXED, 1, 0, 2, 0)
+    b.vc.run_for(2)
+    assert b.joints() == (0.0,) * 6
+    assert b.healthy()
+
+
+def with_old_file(b, name):
+    """The system, with the BUILD_ID of one file's module being another one."""
+    tasks = []
+    for task in b.system.tasks:
+        modules = [
+            replace(m, data=m.data.replace(b.output.build_id.encode(), b"0123456789ab"))
+            if m.path.endswith(name)
+            else m
+            for m in task.modules
+        ]
+        tasks.append(replace(task, modules=tuple(modules)))
+    return replace(b.system, tasks=tuple(tasks))
 
 
 def test_missing_signals_are_not_fatal(bench):
     """R15: abb_driver's module does not even load."""
-    from dataclasses import replace
-
-    from rapidgen.virtual.controller import VirtualController
-
     b = bench()
     b.vc.close()
     b.vc = VirtualController(replace(b.system, signals=(), outputs=()), b.config.groups)

@@ -3,11 +3,11 @@ MODULE ROS_stateServer
     !
     ! Robot "irb120_track-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds refuse to work together.
+    ! builds take no trajectory.
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "de96f1414788";
+    CONST string ROS_BUILD_STATE := "df94c951089c";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;

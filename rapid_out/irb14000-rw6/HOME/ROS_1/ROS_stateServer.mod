@@ -3,11 +3,11 @@ MODULE ROS_stateServer
     !
     ! Robot "irb14000-rw6", motion group rob_l, T_ROB_L. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds refuse to work together.
+    ! builds take no trajectory.
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "3552bdd25de4";
+    CONST string ROS_BUILD_STATE := "5cd68750a8c1";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;

@@ -3,14 +3,14 @@ MODULE ROS_supervisor
     !
     ! Robot "irb14000-rw6", motion group rob_r, T_ROB_R. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds refuse to work together.
+    ! builds take no trajectory.
     !
     ! A halt: StopMove, which stays in force (latched); then the motion task is asked to drop
     ! its path; when it has, StartMove on the empty path. Whatever goes wrong on the way leaves
     ! the robot standing. It halts on request, and when something happened after
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
 
-    CONST string ROS_BUILD_SUPERVISOR := "3552bdd25de4";
+    CONST string ROS_BUILD_SUPERVISOR := "5cd68750a8c1";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -18,6 +18,8 @@ MODULE ROS_supervisor
     LOCAL VAR clock since_bell;
     LOCAL VAR clock since_halt;
     LOCAL VAR bool told := FALSE;
+    ! Rounds for which the tasks have shown different builds.
+    LOCAL VAR num rounds_mixed := 0;
 
     PROC main()
         ROS_start_task ROS_shown_supervisor_2, ROS_BUILD_SUPERVISOR;
@@ -35,6 +37,7 @@ MODULE ROS_supervisor
             IDisable;
             answer;
             watch;
+            watch_builds;
             IF ROS_latched_2 release;
             ROS_not_ready_2 := obstacle();
             IEnable;
@@ -80,6 +83,18 @@ MODULE ROS_supervisor
             ROS_interrupts_seen_2 := ROS_interrupts_2;
             halt ROS_REASON_PROGRAM_STOPPED;
         ENDIF
+    ENDPROC
+
+    ! Say so when tasks of different builds have run side by side for two seconds. Before the
+    ! program runs, the motion task shows the build of its last run.
+    LOCAL PROC watch_builds()
+        IF ROS_same_build() OR ROS_executing() = ROS_TRI_FALSE THEN
+            rounds_mixed := 0;
+            RETURN;
+        ENDIF
+        rounds_mixed := rounds_mixed + 1;
+        IF rounds_mixed = 20 ErrWrite "ROS: tasks of different builds", "No trajectory is taken."
+            \RL2:="Load all modules of one build and restart.";
     ENDPROC
 
     LOCAL PROC halt(num reason)

@@ -3,14 +3,14 @@ MODULE ROS_motionServer
     !
     ! Robot "irb2400-rw5", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds refuse to work together.
+    ! builds take no trajectory.
     !
     ! A trajectory comes as points -1, 1, 2, ..., -3. Each is checked when it comes; nothing
     ! is handed over before -3 has come and everything was right. Then the points go through
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "a55d6cbf3fe3";
+    CONST string ROS_BUILD_MOTION_SERVER := "5922417d6787";
 
     LOCAL CONST num PORT := 11000;
     LOCAL CONST num CAPACITY := 500;
@@ -370,6 +370,8 @@ MODULE ROS_motionServer
     LOCAL PROC begin_trajectory()
         end_session ROS_REASON_SUPERSEDED;
         new_trajectory;
+        ! What modules of different builds would make of it, nobody has tried.
+        IF NOT ROS_same_build() refuse ROS_REASON_BUILD_MISMATCH, -1;
     ENDPROC
 
     LOCAL PROC new_trajectory()

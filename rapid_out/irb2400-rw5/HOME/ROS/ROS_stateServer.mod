@@ -3,11 +3,11 @@ MODULE ROS_stateServer
     !
     ! Robot "irb2400-rw5", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds refuse to work together.
+    ! builds take no trajectory.
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "a55d6cbf3fe3";
+    CONST string ROS_BUILD_STATE := "5922417d6787";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;

@@ -3,14 +3,14 @@ MODULE ROS_motion
     !
     ! Robot "irb910sc-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
     ! Do not edit: change the configuration and build again. Modules of different
-    ! builds refuse to work together.
+    ! builds take no trajectory.
     !
     ! It takes points out of the ring and gives them to the path planner, nothing else: every
     ! check was made before a point was put in. A point with a successor is passed through its
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "f219331918eb";
+    CONST string ROS_BUILD_MOTION := "dad3ac85fde1";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
