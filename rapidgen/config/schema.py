@@ -284,7 +284,10 @@ class Trajectory(_Part):
         Rule("What happens to a segment that an axis cannot follow."),
     ] = "refuse"
     min_segment: Annotated[
-        float, Rule("Shortest segment that streaming accepts, s.", ge=0.01, le=2)
+        float,
+        Rule(
+            "Shortest segment, s, but for a trajectory's last: shorter is refused.", ge=0.01, le=2
+        ),
     ] = 0.1
     approach_speed: Annotated[
         float, Rule("Fraction of the axis speeds for an approach to the first point.", gt=0, le=1)
