@@ -1,6 +1,6 @@
 """Random programs with random stops: never a jump, never past a limit, always an end.
 
-RAPIDGEN_RANDOM_PROGRAMS sets how many (60 by default). 9,000 joint programs were run once.
+RAPIDGEN_RANDOM_PROGRAMS sets how many (60 by default). 7,500 joint programs were run once.
 """
 
 import os
