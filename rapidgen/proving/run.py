@@ -63,10 +63,14 @@ def prove(
     seeds: int = 200,
     jobs: int | None = None,
     only: Sequence[str] = (),
+    cases: bool = True,
     every_setting: bool = True,
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Report:
-    """Run the suite and the exploration. `only` names cases; `progress(what, done, total)`."""
+    """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration.
+
+    `progress(what, done, total)` is called for every piece of work.
+    """
     global _shared  # noqa: PLW0603 - workers inherit it by fork
     output = build(config)
     system = make_system(config, output)
@@ -78,7 +82,7 @@ def prove(
         _Job(number, setting)
         for setting in chosen
         for number, case in enumerate(CASES)
-        if not only or case.name in only
+        if cases and (not only or case.name in only)
     ]
     report.outcomes = _each(work, run_case, jobs, "cases", progress)
     if not only:

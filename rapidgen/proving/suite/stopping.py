@@ -81,8 +81,9 @@ def _new_trajectory_while_moving(bench: Bench) -> None:
     second = bench.wave(4)
     since = bench.now
     link.send(bench.download(second))
+    # The new one may begin only after the old one's path is gone.
+    bench.run(5)
     bench.wait_until_standing(20)
-    bench.run(0.5)
     reached = distance(bench.position, second[-1][0]) < 1e-4
     old = distance(bench.position, first[-1][0]) < 1e-4
     if old and not reached:

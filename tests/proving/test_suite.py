@@ -1,0 +1,155 @@
+"""The suite holds for every kind of robot, and sees defects when there are some."""
+
+from xml.etree import ElementTree
+
+import pytest
+
+from rapidgen.cli.app import main
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import Bench, with_module
+from rapidgen.proving.explore import explore
+from rapidgen.proving.model import Broken
+from rapidgen.proving.mutation import mutants
+from rapidgen.proving.run import prove, settings
+from rapidgen.proving.suite import CASES
+from rapidgen.rapid import parse
+
+KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
+BY_NAME = {case.name: case for case in CASES}
+# What depends on the joints of a robot ...
+OF_THE_ROBOT = (
+    "whole-trajectory",
+    "at-the-limits",
+    "outside-limits",
+    "start-too-far",
+    "padding",
+    "stop-on-path",
+    "e-stop",
+)
+# ... and what depends on when which task runs, and on what is assumed about controllers.
+OF_THE_CONTROLLER = (
+    "whole-trajectory",
+    "hole",
+    "stop-on-path",
+    "stop-any-moment",
+    "superseded",
+    "leaves-moving",
+    "newest-takes-over",
+    "program-stop",
+    "stop-pp-to-main",
+    "power-loss",
+    "not-executing",
+)
+
+
+def broken(config, names, setting=None):
+    """What did not hold, of the named cases."""
+    system = make_system(config, build(config))
+    found = {}
+    for name in names:
+        bench = Bench(config, system, setting)
+        try:
+            BY_NAME[name].prove(bench)
+        except Broken as error:
+            found[name] = str(error)
+        finally:
+            bench.close()
+    return found
+
+
+@pytest.mark.parametrize("group", dict.fromkeys(case.group for case in CASES))
+def test_everything_holds_for_six_axes(group):
+    names = [case.name for case in CASES if case.group == group]
+    assert broken(load_config("irb120"), names) == {}
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_what_depends_on_the_joints_holds_for_every_kind(name):
+    assert broken(load_config(name), OF_THE_ROBOT) == {}
+
+
+@pytest.mark.parametrize("setting", [name for name in settings() if name])
+def test_it_holds_whatever_is_assumed(setting):
+    assert broken(load_config("irb120"), OF_THE_CONTROLLER, settings()[setting]) == {}
+
+
+def test_no_schedule_breaks_the_invariant():
+    report = prove(
+        load_config("irb120"), seeds=12, jobs=1, only=(), every_setting=False, cases=False
+    )
+    assert report.schedules == 12
+    assert report.findings == []
+
+
+def generated():
+    config = load_config("irb120")
+    return config, make_system(config, build(config))
+
+
+def patched(system, module, old, new):
+    data = next(m.data for t in system.tasks for m in t.modules if m.name == module)
+    assert data.count(old.encode()) == 1, f"{module} no longer has: {old}"
+    return with_module(system, module, data.replace(old.encode(), new.encode()))
+
+
+DEFECTS = {
+    # The sequence check of the motion server, left out.
+    "hole": (
+        "ROS_motionServer",
+        "ELSEIF sequence = count OR sequence = ROS_SEQ_END OR count = 0 THEN",
+        "ELSEIF TRUE THEN",
+    ),
+    "too-many-points": ("ROS_motionServer", "refuse ROS_REASON_CAPACITY, count;", ""),
+    "padding": ("ROS_motionServer", "IF NOT (value = 0) refuse", "IF FALSE refuse"),
+    "newest-takes-over": (
+        "ROS_motionServer",
+        "taken_over := welcome(newcomer, 0.001);",
+        "",
+    ),
+    "leaves-moving": (
+        "ROS_motionServer",
+        "end_session ROS_REASON_CLIENT_LOST;\n    ENDPROC",
+        "ENDPROC",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", DEFECTS)
+def test_a_defect_turns_its_case_red(name):
+    config, system = generated()
+    bench = Bench(config, patched(system, *DEFECTS[name]))
+    with pytest.raises(Broken):
+        BY_NAME[name].prove(bench)
+    bench.close()
+
+
+def test_the_exploration_replays_exactly():
+    config, system = generated()
+    logs = []
+    for _ in range(2):
+        bench_log = explore(config.groups[0], system, 5, capacity=1000)
+        logs.append(bench_log)
+    assert logs[0] == logs[1]
+
+
+def test_a_mutant_differs_in_one_place_and_is_still_rapid():
+    _, system = generated()
+    data = next(m.data for t in system.tasks for m in t.modules if m.name == "ROS_motion")
+    found = list(mutants(data, "ROS_motion.mod"))
+    assert len(found) > 60
+    for mutant in found:
+        assert mutant.text != data
+        assert not parse(mutant.text).diagnostics, mutant.change
+
+
+def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
+    junit, html = tmp_path / "r.xml", tmp_path / "r.html"
+    words = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
+    assert main([*words, "--junit", str(junit), "--html", str(html)]) == 0
+    assert "everything held" in capsys.readouterr().out
+    suite = ElementTree.parse(junit).getroot()[0]
+    assert suite.get("failures") == "0"
+    assert "<svg" in html.read_text(encoding="utf-8")
+    assert main(["test", "irb120", "--case", "whole-trajectry"]) == 2
+    assert "whole-trajectory" in capsys.readouterr().err
