@@ -14,7 +14,7 @@ from rapidgen.protocol.mapping import mapping_hash
 from rapidgen.protocol.spec import Feature, ReplyCode, Wire
 
 RING = 128
-# The largest multiple of the ring's size that a num counts exactly [K §2.13], less a ring.
+# A multiple of the ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
 WRAP = 2**22
 FEATURES = Feature.PROGRESS
 _HEADER_AND_PREFIX = spec.PREFIX_BYTES + spec.HEADER_BYTES
@@ -22,6 +22,10 @@ _HEADER_AND_PREFIX = spec.PREFIX_BYTES + spec.HEADER_BYTES
 _SPEED_MARGIN = 1.001
 _DEFAULT_TCP_SPEED = 5.0
 _MM = 1000.0
+_FACTORS = (
+    {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
+    {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
+)
 
 
 def group_context(
@@ -30,6 +34,7 @@ def group_context(
     """What the modules of one motion group are rendered from."""
     x = layout.suffix(config, group)
     joints = [_joint(config, joint, n) for n, joint in enumerate(group.joints, 1)]
+    constants = used_constants(templates)
     roles = [
         {"role": role.name, "task": layout.task_name(config, group, role)} for role in layout.ROLES
     ]
@@ -41,10 +46,9 @@ def group_context(
         "build": build_id,
         "x": x,
         "tasks": roles,
-        "constants": used_constants(templates),
-        "reasons": [
-            {"value": int(reason), "text": text} for reason, text in spec.REASON_TEXTS.items()
-        ],
+        "constants": constants,
+        "reasons": _reasons(constants),
+        "factors": [f for f in _FACTORS if any(j["factor"] == f["name"] for j in joints)],
         "ring": RING,
         "wrap": WRAP,
         "joints": joints,
@@ -94,6 +98,13 @@ def used_constants(templates: Path) -> list[dict[str, object]]:
     ]
 
 
+def _reasons(constants: list[dict[str, object]]) -> list[dict[str, str]]:
+    """Reasons that the driver can give, with their texts."""
+    known = {constant["name"] for constant in constants}
+    named = [(f"ROS_REASON_{reason.name}", text) for reason, text in spec.REASON_TEXTS.items()]
+    return [{"name": name, "text": text} for name, text in named if name in known]
+
+
 def to_rapid(joint: Joint, value: float) -> float:
     """rad to deg, m to mm."""
     return math.degrees(value) if joint.kind == "revolute" else value * _MM
@@ -114,7 +125,6 @@ def _joint(config: RobotConfig, joint: Joint, n: int) -> dict[str, object]:
         "high": literal(inward(to_rapid(joint, joint.upper), up=False)),
         "speed": literal(round(to_rapid(joint, joint.speed) * _SPEED_MARGIN, 4)),
         "tolerance": literal(round(to_rapid(joint, tolerance), 4)),
-        "scale": "ROS_DEG" if revolute else "ROS_MM",
         "factor": "ROS_DEG" if revolute else "ROS_MM",
     }
 

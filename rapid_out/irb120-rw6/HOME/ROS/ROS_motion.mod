@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "9c5dffa00f58";
+    CONST string ROS_BUILD_MOTION := "e7616c852848";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];

@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "5cd68750a8c1";
+    CONST string ROS_BUILD_STATE := "54ebeb4c71f2";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;
@@ -147,7 +147,8 @@ MODULE ROS_stateServer
         ENDTEST
     ENDPROC
 
-    ! The state first: it must not be ahead of the counts.
+    ! The state is read before the counts, and what was reached before what was planned: none
+    ! is told that is ahead of what it follows from.
     LOCAL PROC look_at_motion(num trajectory)
         IF ROS_done_1 = trajectory THEN
             newest.state := ROS_TRAJ_DONE;
