@@ -4,12 +4,14 @@ import errno
 import logging
 import stat
 import struct
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 
 import paramiko
 
 from rapidgen.deploy.secrets import Credentials, redact
+from rapidgen.deploy.sftp_answers import CheckedClient
 from rapidgen.deploy.transport import (
     FILE_LIMIT,
     LISTING_LIMIT,
@@ -57,11 +59,7 @@ class SftpTransport:
         try:
             self._connect(host, port, timeout)
             with self._faults("opening SFTP"):
-                sftp = self._client.open_sftp()
-                channel = sftp.get_channel()
-                if channel is not None:
-                    channel.settimeout(timeout)
-                self._sftp = sftp
+                self._sftp = sftp = self._open(timeout)
             with self._faults(home or "the login folder"):
                 self._home = (sftp.normalize(home or ".")).rstrip("/")
                 if not stat.S_ISDIR(sftp.stat(self._home or "/").st_mode or 0):
@@ -111,9 +109,35 @@ class SftpTransport:
                 help="check address, cable and firewall; `rapidgen doctor` looks further",
             ) from None
 
+    def _open(self, timeout: float) -> CheckedClient:
+        line = self._client.get_transport()
+        if line is None:
+            raise EOFError
+        channel = line.open_session(timeout=timeout)
+        channel.settimeout(timeout)
+        # For the answer to this one request paramiko would wait without end.
+        late = threading.Event()
+
+        def give_up() -> None:
+            late.set()
+            line.close()
+
+        clock = threading.Timer(timeout, give_up)
+        clock.start()
+        try:
+            channel.invoke_subsystem("sftp")
+        except paramiko.SSHException:
+            if late.is_set():
+                raise TimeoutError("no answer to the request for SFTP") from None
+            raise
+        finally:
+            clock.cancel()
+        return CheckedClient(channel)
+
     def entries(self, folder: str) -> tuple[Entry, ...]:
         with self._faults(folder or "HOME"):
             found = []
+            self._sftp.names = 0
             for item in self._sftp.listdir_attr(f"{self._home}/{folder}".rstrip("/") or "/"):
                 name = item.filename
                 if name in (".", "..", "") or "/" in name or not name.isprintable():

@@ -9,6 +9,7 @@ import hmac
 import logging
 import os
 import socket
+import struct
 import threading
 from collections.abc import Callable
 from pathlib import Path
@@ -21,6 +22,14 @@ if TYPE_CHECKING:
 
 _TICK = 0.2
 """s between looks at the stop flag; connections are accepted at once."""
+
+
+_SENSELESS = (ValueError, IndexError, KeyError, TypeError, AttributeError, struct.error)
+"""What paramiko raises, besides its own exception, while it reads a senseless handshake.
+
+ValueError (text that is no UTF-8, keys that are none) is measured; the others are what indexing
+and unpacking such bytes can raise.
+"""
 
 
 def serve_sftp(
@@ -65,7 +74,7 @@ def serve_sftp(
         transport.set_subsystem_handler("sftp", paramiko.SFTPServer, _interface(), root)
         try:
             transport.start_server(server=_login(user, password))
-        except (paramiko.SSHException, EOFError, OSError):
+        except (paramiko.SSHException, EOFError, OSError, *_SENSELESS):
             # A peer that is no SSH client, or went away: its own affair.
             transport.close()
         transport.join()
