@@ -513,7 +513,8 @@ class VirtualController(ControllerState):
 
     def call(self, function: Callable[[], Any]) -> Any:  # noqa: ANN401
         """Run `function` on the controller's thread and return what it returns."""
-        if self._thread is None or threading.current_thread() is self._thread:
+        thread = self._thread
+        if thread is None or thread is threading.current_thread() or not thread.is_alive():
             return function()
         done = threading.Event()
         result: list[Any] = []
@@ -532,8 +533,8 @@ class VirtualController(ControllerState):
 
     def close(self) -> None:
         """Stop and give everything back: thread, sockets, files."""
+        self.call(lambda: self.kernel.close_processes(self.rapid_tasks.values()))
         self.stop()
-        self.kernel.close_processes()
         for name in self.rapid_tasks:
             self.sockets.close_task(name)
         self.network.shut_down()

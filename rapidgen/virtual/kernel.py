@@ -17,7 +17,7 @@ import random
 import selectors
 import time
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import count
 from typing import Literal, TypeAlias
 
@@ -105,6 +105,10 @@ class Process:
         self._greenlet = greenlet.greenlet(body)
         self._blocked = False
         self.kernel.ready.append(self)
+
+    def abandon(self) -> None:
+        """End the greenlet where it is; it can be launched again."""
+        self._greenlet = None
 
     @property
     def alive(self) -> bool:
@@ -265,11 +269,17 @@ class Kernel:
                 os.close(handle)
             self._pipe = None
 
-    def close_processes(self) -> None:
-        """Forget what is ready; greenlets end when they are collected."""
+    def close_processes(self, processes: Iterable[Process]) -> None:
+        """Forget what is ready and end the processes' greenlets, on the thread they ran on.
+
+        The collector does not see through a suspended greenlet: one that is left so keeps
+        everything that its frames refer to.
+        """
         self.ready.clear()
         self._front = None
         self._heap.clear()
+        for process in processes:
+            process.abandon()
 
     @property
     def preempted(self) -> Process | None:
