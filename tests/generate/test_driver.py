@@ -20,7 +20,7 @@ NO_REPLY = 0.3
 CAPACITY, GAP, NOT_FINITE, LIMIT, START, TOO_FAST = 1, 2, 3, 4, 5, 6
 BAD_DURATION, SHORT, NO_START, INCOMPLETE, FRAMING = 8, 9, 10, 11, 12
 PADDING, NOT_EXECUTING, MOTORS, E_STOP, MIXED = 14, 20, 21, 22, 24
-STOPPED, SUPERSEDED, CLIENT_LOST, PROGRAM, POWER, MODE = 40, 41, 42, 43, 46, 47
+STOPPED, SUPERSEDED, CLIENT_LOST, PROGRAM, COLLISION, POWER, MODE = 40, 41, 42, 43, 45, 46, 47
 RECEIVING, MOVING, DONE, REFUSED, FAILED, STOPPED_STATE = 1, 2, 3, 4, 5, 6
 
 
@@ -793,6 +793,14 @@ def statements_of(b, routine, module="ROS_motion"):
     return lines
 
 
+def line_with(b, module, words):
+    """Number of the only line of a module that contains these words."""
+    (file,) = [f for f in b.output.files if f.path.endswith(f"/{module}.mod")]
+    lines = file.data.decode("latin-1").splitlines()
+    (found,) = [n for n, line in enumerate(lines, 1) if words in line]
+    return found
+
+
 @pytest.mark.parametrize("pause", [0.001, 1.0])
 def test_a_program_stop_at_every_statement(bench, pause):
     """Also when main is just about to begin a move: nothing of the old path comes after Start.
@@ -848,6 +856,40 @@ def test_a_stop_at_every_statement(bench):
         assert b.joints() == here, line
         move_well(b, client)
     assert stopped > 10
+
+
+def test_a_move_that_fails_ends_its_trajectory(bench):
+    b = bench()
+    client, state = start_moving(b)
+    b.vc.tasks["T_ROB1"]["ROS_motion:fault"] = COLLISION
+    b.vc.run_for(3)
+    here = b.joints()
+    assert close_to(here, b.joints())
+    assert here[0] < 0.25
+    status = b.status(state)
+    assert status[2:5] == (COLLISION, 1, 0)
+    assert [e for e in b.vc.log if "ROS: trajectory ended early" in str(e)]
+    b.vc.run_for(3)
+    assert b.joints() == here
+    move_well(b, client)
+
+
+def test_a_move_that_fails_while_it_is_stopped(bench):
+    """The fault goes with its trajectory: it must not end the next one."""
+    b = bench()
+    client, _ = start_moving(b)
+    line = line_with(b, "ROS_motion", "asked := ROS_abort")
+
+    def fail():
+        b.vc.tasks["T_ROB1"]["ROS_motion:fault"] = COLLISION
+
+    b.vc.before_statement("T_ROB1", "ROS_motion", line, 1, fail)
+    client.send(STOP)
+    assert client.wait_frame() == struct.pack("<4i", 12, 11, 3, 1)
+    b.vc.run_for(1)
+    assert b.vc.tasks["T_ROB1"]["ROS_motion:fault"] == 0
+    assert not [e for e in b.vc.log if "ROS: trajectory ended early" in str(e)]
+    move_well(b, client)
 
 
 def mix(b, role, build="0123456789ab"):

@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "e0f2fbd74023";
+    CONST string ROS_BUILD_MOTION_SERVER := "2e61febe02c3";
 
     LOCAL CONST num PORT := 11000;
     LOCAL CONST num CAPACITY := 1000;

@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "54ebeb4c71f2";
+    CONST string ROS_BUILD_MOTION := "65bc8cfe7093";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1500,500,1500,1000];
@@ -95,6 +95,8 @@ MODULE ROS_motion
         drop_path reason;
         start_robot;
         bells := 0;
+        ! A fault of the trajectory that ends here must not end the next one.
+        fault := ROS_REASON_NONE;
         ROS_abort_done_2 := asked;
     ENDPROC
 

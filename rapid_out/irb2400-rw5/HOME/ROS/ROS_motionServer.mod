@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "0f4b58551b9e";
+    CONST string ROS_BUILD_MOTION_SERVER := "61003b065d3f";
 
     LOCAL CONST num PORT := 11000;
     LOCAL CONST num CAPACITY := 500;

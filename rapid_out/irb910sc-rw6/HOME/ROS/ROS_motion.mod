@@ -10,7 +10,7 @@ MODULE ROS_motion
     ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
     ! a corner.
 
-    CONST string ROS_BUILD_MOTION := "ba12e78e8fdf";
+    CONST string ROS_BUILD_MOTION := "21e460bca073";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -91,6 +91,8 @@ MODULE ROS_motion
         drop_path reason;
         start_robot;
         bells := 0;
+        ! A fault of the trajectory that ends here must not end the next one.
+        fault := ROS_REASON_NONE;
         ROS_abort_done := asked;
     ENDPROC
 
