@@ -16,14 +16,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
-from rapidgen.config import load_config  # noqa: E402
-from rapidgen.diagnostics import DiagnosticError  # noqa: E402
-from rapidgen.generate import build, make_system  # noqa: E402
-from rapidgen.proving.bench import Bench, with_module  # noqa: E402
-from rapidgen.proving.model import Broken  # noqa: E402
-from rapidgen.proving.mutation import mutants  # noqa: E402
-from rapidgen.proving.suite import CASES  # noqa: E402
-from rapidgen.virtual.controller import Deadlock  # noqa: E402
+from rapidgen.config import load_config
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import Bench, with_module
+from rapidgen.proving.model import Broken
+from rapidgen.proving.mutation import mutants
+from rapidgen.proving.suite import CASES
+from rapidgen.virtual.controller import Deadlock
 
 PATIENCE = 120
 """s of wall clock in which a mutant must have been judged; one that hangs the driver is seen."""
