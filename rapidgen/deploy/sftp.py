@@ -33,7 +33,11 @@ _GARBLED = (
     AttributeError,
     OverflowError,
 )
-"""What paramiko raises on answers that are no SFTP (measured with garbled ones)."""
+"""What paramiko raises on answers that are no SFTP.
+
+tests/deploy/test_hostile_sftp.py meets SSHException, SFTPError and ValueError (text that is no
+UTF-8); the others are what paramiko's indexing and unpacking could raise, and were not met.
+"""
 
 
 class SftpTransport:
