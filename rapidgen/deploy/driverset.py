@@ -54,7 +54,7 @@ class DriverSet:
         return tuple(parse_cfg(f.data, path=f.path) for f in self.files if f.kind == "cfg")
 
     def fences(self) -> dict[str, bytes]:
-        """Modules that, put in place, make every task refuse to serve and to move.
+        """Modules that, put in place, make every motion group refuse to move.
 
         They are as few modules as touch every task, with another BUILD_ID than all others have:
         ROS_common compares them when a task starts. Path to bytes.

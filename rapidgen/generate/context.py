@@ -164,7 +164,7 @@ def _hello(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, 
             + '"'
         ],
         "features": [str(int(FEATURES))],
-        "capacity": [str(policy.capacity)],
+        "capacity": ["ROS_CAPACITY"],
         "joint_count": [str(len(joints))],
         "prismatic": [str(sum(1 << i for i, j in enumerate(joints) if j.kind == "prismatic"))],
         "state_period": [literal(config.state_period)],

@@ -43,7 +43,7 @@ def test_check_and_diff(here, capsys):
     changed = ["build", "irb120", "-o", "x", "--set", "trajectory.capacity=5000"]
     assert main([*changed, "--diff"]) == 1
     out = capsys.readouterr().out
-    assert "-    LOCAL CONST num CAPACITY := 1000;\n+    LOCAL CONST num CAPACITY := 5000;" in out
+    assert "-    CONST num ROS_CAPACITY := 1000;\n+    CONST num ROS_CAPACITY := 5000;" in out
     assert main([*changed, "--check"]) == 1
     assert "RG104" in capsys.readouterr().err
     assert main(["build", "irb120", "-o", "x", "--check"]) == 0

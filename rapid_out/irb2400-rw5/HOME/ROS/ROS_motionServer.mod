@@ -10,10 +10,9 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "61003b065d3f";
+    CONST string ROS_BUILD_MOTION_SERVER := "e4c29d5abfcd";
 
     LOCAL CONST num PORT := 11000;
-    LOCAL CONST num CAPACITY := 500;
     ! s between two looks for bytes while the ring is being fed
     LOCAL CONST num LOOK_PERIOD := 0.008;
     ! s: longest duration of a point
@@ -81,7 +80,7 @@ MODULE ROS_motionServer
     LOCAL VAR rawbytes answer;
 
     ! The trajectory that is being received: its points, and whether it still may become one.
-    LOCAL VAR ROS_point points{500};
+    LOCAL VAR ROS_point points{ROS_CAPACITY};
     LOCAL VAR num count := 0;
     LOCAL VAR bool receiving := FALSE;
     ! The same array once it was handed over: points to put into the ring, and how many are.
@@ -403,7 +402,7 @@ MODULE ROS_motionServer
         VAR num joint_6 := 0;
         VAR dnum zeros;
 
-        IF count >= CAPACITY THEN
+        IF count >= ROS_CAPACITY THEN
             refuse ROS_REASON_CAPACITY, count;
             RETURN;
         ENDIF

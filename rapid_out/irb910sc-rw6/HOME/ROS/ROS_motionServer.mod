@@ -10,10 +10,9 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "21e460bca073";
+    CONST string ROS_BUILD_MOTION_SERVER := "a6501dae67f5";
 
     LOCAL CONST num PORT := 11000;
-    LOCAL CONST num CAPACITY := 1000;
     ! s between two looks for bytes while the ring is being fed
     LOCAL CONST num LOOK_PERIOD := 0.008;
     ! s: longest duration of a point
@@ -68,7 +67,7 @@ MODULE ROS_motionServer
     LOCAL VAR rawbytes answer;
 
     ! The trajectory that is being received: its points, and whether it still may become one.
-    LOCAL VAR ROS_point points{1000};
+    LOCAL VAR ROS_point points{ROS_CAPACITY};
     LOCAL VAR num count := 0;
     LOCAL VAR bool receiving := FALSE;
     ! The same array once it was handed over: points to put into the ring, and how many are.
@@ -391,7 +390,7 @@ MODULE ROS_motionServer
         VAR num joint_4 := 0;
         VAR dnum zeros;
 
-        IF count >= CAPACITY THEN
+        IF count >= ROS_CAPACITY THEN
             refuse ROS_REASON_CAPACITY, count;
             RETURN;
         ENDIF
