@@ -1,6 +1,6 @@
 """What a controller is made of, whatever it was read from: frozen data, no I/O.
 
-Names and values are those of ABB's cfg files (facts: the SYS and EIO domains).
+Names and values are those of ABB's cfg files (domains SYS and EIO).
 """
 
 from dataclasses import dataclass

@@ -155,7 +155,7 @@ def test_executes_to_the_end(fake, client, rapidgen):
 
 
 def test_a_loop_is_not_done_before_it_was_run(fake, client, rapidgen):
-    # users.md C6: a path that ends where it begins
+    # A path that ends where it begins
     with client(fake(rapidgen=rapidgen).address) as robot:
         assert robot.execute(LOOP).result().seconds > 0.2
 
