@@ -533,7 +533,13 @@ class VirtualController(ControllerState):
 
     def close(self) -> None:
         """Stop and give everything back: thread, sockets, files."""
-        self.call(lambda: self.kernel.close_processes(self.rapid_tasks.values()))
+
+        def end() -> None:
+            # In one go: nothing may run between the tasks' end and the thread's.
+            self._stopping = True
+            self.kernel.close_processes(self.rapid_tasks.values())
+
+        self.call(end)
         self.stop()
         for name in self.rapid_tasks:
             self.sockets.close_task(name)

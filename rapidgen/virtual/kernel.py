@@ -107,7 +107,8 @@ class Process:
         self.kernel.ready.append(self)
 
     def abandon(self) -> None:
-        """End the greenlet where it is; it can be launched again."""
+        """End the greenlet where it is; nothing wakes it any more. It can be launched again."""
+        self._blocked = False
         self._greenlet = None
 
     @property

@@ -385,10 +385,12 @@ def test_reconnects_as_told_and_never_moves_by_itself(fake, client):
 
 
 def test_nobody_there(client):
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
-    with pytest.raises(ConnectionFailed, match="refused"):
-        client(f"127.0.0.1:{port},{port}").__enter__()
+    # Taken, so that nobody else gets it, and not listened on.
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        port = taken.getsockname()[1]
+        with pytest.raises(ConnectionFailed, match="refused"):
+            client(f"127.0.0.1:{port},{port}").__enter__()
 
 
 def test_connected_but_silent(fake, client):
