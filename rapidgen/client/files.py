@@ -29,11 +29,12 @@ def _read(path: Path) -> str:
     except OSError as error:
         reason = os_reason(error)
         raise InvalidTrajectory(
-            fault("RG610", f"cannot read {path}: {reason}"), exit_code=2
+            fault("RG610", f"cannot read {path}: {reason}", "give the path of a CSV or JSON file"),
+            exit_code=2,
         ) from error
     except UnicodeDecodeError as error:
         raise InvalidTrajectory(
-            fault("RG610", f"{path} is not text in UTF-8"), exit_code=2
+            fault("RG610", f"{path} is not text in UTF-8", "save it as UTF-8"), exit_code=2
         ) from error
 
 

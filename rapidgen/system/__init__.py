@@ -91,5 +91,5 @@ def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "
         if is_backup(path):
             return read_backup(path, notes=notes)
     elif not path.exists():
-        raise refusal("RG704", f"there is no {path}")
+        raise refusal("RG704", f"there is no {path}", help="check the path for a slip")
     return read_files([path], name=path.resolve().stem)

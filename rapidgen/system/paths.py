@@ -27,7 +27,8 @@ def read_limited(path: Path) -> bytes:
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
     except OSError as error:
-        raise refusal("RG704", f"cannot read {path}: {error.strerror}") from error
+        mend = "give the path of a file or folder that exists and may be read"
+        raise refusal("RG704", f"cannot read {path}: {error.strerror}", help=mend) from error
     with open(descriptor, "rb") as file:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
