@@ -65,6 +65,7 @@ class _Writer:
         self.module = module
         self.source = module.source
         self.kinds = lexer.Kinds()
+        self.end = module.last + 1
         self.starts = line_starts(module)
         self.tight_before: set[int] = set()
         self.tight_after: set[int] = set()
@@ -102,7 +103,8 @@ class _Writer:
     def lines(self) -> list[str]:
         """All lines of the formatted text, without their ends."""
         self._lead()
-        tokens, gaps = self.source.tokens, self.source.gaps
+        # What stands behind ENDMODULE is no part of the module: it stays as it is.
+        tokens, gaps = self.source.tokens[: self.end], self.source.gaps
         level, continued = 0, False
         for i, token in enumerate(tokens):
             kind = self.kinds[token]
@@ -123,7 +125,9 @@ class _Writer:
                 self.in_aggregate -= 1
             self._gap(i, gaps[i], level + 1 if continued else level)
         self._flush()
-        while self.out and not self.out[-1]:
+        if self.end < len(self.source.tokens):
+            self.out += _LINE_END.split(self.source.text[self.source.starts[self.end] :])
+        while self.out and not self.out[-1].strip():
             self.out.pop()
         return self.out
 
@@ -156,7 +160,7 @@ class _Writer:
             self.line += " " + trailing.rstrip()
         if len(parts) == 1 and not trailing:
             return
-        inside = following is None and i + 1 < len(self.source.tokens)
+        inside = following is None and i + 1 < self.end
         self._flush()
         if inside:
             level = self._statement_level(i) + 1

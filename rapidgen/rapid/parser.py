@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic
+from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.rapid import faults, lexer, text
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.faults import GivenUp, SyntaxFault
@@ -38,15 +38,15 @@ class ModuleParser(RoutineParser):
 
     # -- module --------------------------------------------------------------------------
 
-    def module(self) -> tuple[str, tuple[str, ...], list[Declaration]]:
-        """Name, attributes and declarations of the whole text."""
+    def module(self) -> tuple[str, tuple[str, ...], list[Declaration], int]:
+        """Name, attributes and declarations of the text, and the index of its last token."""
         kinds = self.kinds
         declarations: list[Declaration] = []
         i = 0
         if kinds[0] != "MODULE":
             self.report(text.no_module(self.source, kinds))
             if "MODULE" not in kinds:
-                return "", (), declarations
+                return "", (), declarations, self._last()
             i = kinds.index("MODULE")
         self.open.append(("MODULE", i))
         name = ""
@@ -63,21 +63,29 @@ class ModuleParser(RoutineParser):
         if kinds[i] == "ENDMODULE":
             self.open.pop()
             self._behind_module(i + 1)
-        else:
-            self.fault(SyntaxFault(i, "ENDMODULE"))
-        return name, attributes, declarations
+            return name, attributes, declarations, i
+        self.fault(SyntaxFault(i, "ENDMODULE"))
+        return name, attributes, declarations, self._last()
+
+    def _last(self) -> int:
+        return max(0, len(self.texts) - 1)
 
     def _behind_module(self, i: int) -> None:
+        """Text behind the module: K derives modules, and leaves open what a file holds [K §9]."""
         if self.kinds[i] is EOF:
             return
         again = self.kinds[i] == "MODULE"
         self.report(
             faults.error(
                 "RG217",
-                "a second module in one file" if again else "there is text behind ENDMODULE",
+                "a second module in one file: it is not read"
+                if again
+                else "there is text behind ENDMODULE: it is not read",
                 faults.place(self.source, i),
-                label="not read",
+                label="not read from here on",
                 help="give each module a file of its own" if again else "remove it",
+                notes=("no manual says what a controller makes of it [K §9, 9.1]",),
+                severity=Severity.WARNING,
             )
         )
 
@@ -298,17 +306,17 @@ def _run(parser: ModuleParser, tokens: Tokens) -> Module:
     module_name = ""
     attributes: tuple[str, ...] = ()
     declarations: list[Declaration] = []
+    last = max(0, len(tokens.source.tokens) - 1)
     try:
         for finding in text.spellings(tokens):
             parser.report(finding)
-        module_name, attributes, declarations = parser.module()
+        module_name, attributes, declarations, last = parser.module()
     except GivenUp as reason:
         if reason.diagnostic.code == "RG214":
             parser.diagnostics.append(reason.diagnostic)
         else:
             parser.diagnostics[:] = [reason.diagnostic]
     found = sorted(parser.diagnostics, key=_position)
-    last = max(0, len(tokens.source.tokens) - 1)
     return Module(0, last, module_name, attributes, declarations, tokens.source, found)
 
 

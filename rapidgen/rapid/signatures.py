@@ -147,7 +147,7 @@ def _declarations(
     tokens = lexer.tokenize(
         f"MODULE builtins\n{text}\nENDMODULE", "<builtins>", "utf-8", radix=False
     )
-    _, _, found = ModuleParser(tokens, builtin=True).module()
+    _, _, found, _ = ModuleParser(tokens, builtin=True).module()
     return [
         d for d in found if isinstance(d, RecordDeclaration | AliasDeclaration | DataDeclaration)
     ]

@@ -2,8 +2,8 @@
 
 import pytest
 
-from rapidgen.diagnostics import DiagnosticError
-from rapidgen.rapid import format_source, parse
+from rapidgen.diagnostics import DiagnosticError, Severity
+from rapidgen.rapid import check, format_source, parse
 
 TEXT = 'MODULE größe\n    ! Maß\n    CONST string s := "Größe";\nENDMODULE\n'
 
@@ -103,3 +103,22 @@ endmodule"""
 ENDMODULE
 """
     )
+
+
+def test_text_behind_the_module_is_told_and_left_as_it_is():
+    text = "MODULE m\n  VAR num a;\nENDMODULE ! end\n\n  MoveL  p;\nendmodule\n"
+    module = parse(text)
+    told = [(d.code, d.severity, d.span.line) for d in module.diagnostics]
+    assert told == [("RG217", Severity.WARNING, 5)]
+    assert module.source.tokens[module.last] == "ENDMODULE"
+    formatted = format_source(text)
+    assert formatted == "MODULE m\n    VAR num a;\nENDMODULE ! end\n\nMoveL  p;\nendmodule\n"
+    assert format_source(formatted) == formatted
+
+
+def test_names_that_unread_text_could_declare_are_not_called_unknown():
+    one = "MODULE a\nPROC main()\nelsewhere;\nENDPROC\nENDMODULE\n"
+    behind = "MODULE b\nENDMODULE\nMODULE c\nPROC elsewhere()\nENDPROC\nENDMODULE\n"
+    other = "MODULE b\nENDMODULE\n"
+    assert [d.code for d in check([parse(one), parse(other)])] == ["RG301"]
+    assert [d.code for d in check([parse(one), parse(behind)])] == ["RG217"]

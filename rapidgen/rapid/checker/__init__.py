@@ -15,7 +15,7 @@ from rapidgen.rapid.nodes import Module
 from rapidgen.rapid.parser import parse
 from rapidgen.system import System
 
-_TREE_STANDS = frozenset(("RG213", "RG215", "RG216", "RG217", "RG220"))
+_TREE_STANDS = frozenset(("RG213", "RG215", "RG216", "RG220"))
 """Errors of the text that leave a tree whose meaning can be checked."""
 _LOADERS = frozenset(("load", "startload"))
 _SIGNAL_TYPES = {
@@ -164,7 +164,10 @@ def _installed(system: System) -> Mapping[str, Symbol]:
 
 
 def _unreadable(module: Module) -> bool:
-    return not module.name or any(d.severity is Severity.ERROR for d in module.diagnostics)
+    """Whether something of a file is not known that other modules may name."""
+    return not module.name or any(
+        d.severity is Severity.ERROR or d.code == "RG217" for d in module.diagnostics
+    )
 
 
 def _any_unreadable(modules: Iterable[Module]) -> bool:

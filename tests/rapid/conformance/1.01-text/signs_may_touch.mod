@@ -4,7 +4,7 @@ MODULE Demo
     VAR num a;
     VAR num b;
     PROC main()
-        a:=(1+2)*-3;  ! -> RG212
+        a:=(1+2)*-3;  ! -> RG212?
         b:=a{1};  ! -> RG318
     ENDPROC
 ENDMODULE

@@ -3,6 +3,6 @@
 MODULE Demo
     VAR num a;
     PROC main()
-        a := 16777217;  ! -> RG319
+        a := 16777217;  ! -> RG319?
     ENDPROC
 ENDMODULE

@@ -2,6 +2,6 @@
 ! source: [K §2.1, 2.7]
 MODULE Demo
     PROC main()
-        TPWrite "a	b";  ! -> RG206
+        TPWrite "a	b";  ! -> RG206?
     ENDPROC
 ENDMODULE

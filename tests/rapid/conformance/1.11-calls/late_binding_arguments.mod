@@ -6,7 +6,7 @@ MODULE Demo
         %"p"% "x";  ! -> RG307
         %"p"%;  ! -> RG311
         %NAME% 1;
-        %"f"%;  ! -> RG306
+        %"f"%;  ! -> RG306?
     ENDPROC
     PROC p(num n)
         TPWrite "" \Num:=n + f();

@@ -3,8 +3,8 @@
 ! given: system
 MODULE Demo
     PROC main()
-        %"nothing"%;  ! -> RG301
-        %":nothing"%;  ! -> RG301
+        %"nothing"%;  ! -> RG301?
+        %":nothing"%;  ! -> RG301?
         %"other:thing"%;
     ENDPROC
 ENDMODULE

@@ -9,7 +9,7 @@ MODULE Demo
     VAR bool b;
     VAR pose f;
     PROC main()
-        b := b AND NOT b;  ! -> RG212
+        b := b AND NOT b;  ! -> RG212?
         b := b AND (NOT b);
     ENDPROC
 ENDMODULE

@@ -9,8 +9,8 @@ MODULE Demo
     VAR bool b;
     VAR pose f;
     PROC main()
-        n := n * -n;  ! -> RG212
-        n := n + -n;  ! -> RG212
+        n := n * -n;  ! -> RG212?
+        n := n + -n;  ! -> RG212?
         n := n * (-n);
     ENDPROC
 ENDMODULE

@@ -3,7 +3,7 @@
 MODULE Demo
     PROC main()
         VAR intnum i;
-        CONNECT i WITH t;  ! -> RG326
+        CONNECT i WITH t;  ! -> RG326?
     ENDPROC
     TRAP t
     ENDTRAP

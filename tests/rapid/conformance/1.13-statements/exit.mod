@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         EXIT;
-        TPErase;  ! -> RG323
+        TPErase;  ! -> RG323?
     ENDPROC
 ENDMODULE

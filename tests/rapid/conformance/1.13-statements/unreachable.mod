@@ -3,6 +3,6 @@
 MODULE Demo
     PROC main()
         RETURN;
-        TPErase;  ! -> RG323
+        TPErase;  ! -> RG323?
     ENDPROC
 ENDMODULE

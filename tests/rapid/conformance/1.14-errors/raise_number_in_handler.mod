@@ -4,6 +4,6 @@ MODULE Demo
     PROC main()
         TPErase;
     ERROR
-        RAISE 5;  ! -> RG321
+        RAISE 5;  ! -> RG321?
     ENDPROC
 ENDMODULE
