@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.rapid import Dialect
     from rapidgen.rapid.nodes import Declaration, Module
+    from rapidgen.system import System
 
 _CONFIG_SUFFIXES = (".yaml", ".yml")
 _TASK_FOLDERS = ("PROGMOD", "SYSMOD")
@@ -170,6 +171,7 @@ def _name(declaration: "Declaration") -> str:
 
 
 def _system(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
+    from rapidgen.rapid import Dialect
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_generated, read_backup, read_folder
 
@@ -177,7 +179,31 @@ def _system(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
         return check_rapid(read_folder(path), dialect=dialect)
     notes: list[Diagnostic] = []
     system = read_backup(path, notes=notes)
-    return [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
+    found = [*notes, *check_rapid(system, dialect=dialect, gaps=bool(notes))]
+    return [*found, *_not_loaded(path, system, dialect or Dialect(system.robotware))]
+
+
+def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> "list[Diagnostic]":
+    """Errors in RAPID of a backup's HOME that no task loads: a program may, while it runs.
+
+    Each is judged as a lone file. Its warnings are left out: HOME keeps old copies.
+    """
+    from rapidgen.diagnostics import DiagnosticError, Severity
+    from rapidgen.system.paths import module_files
+
+    if system.home is None:
+        return []
+    loaded = {file.path for task in system.tasks for file in task.modules}
+    found: list[Diagnostic] = []
+    for folder in (system.home, *(f for f in sorted(system.home.rglob("*")) if f.is_dir())):
+        try:
+            files = [file for file in module_files(folder) if str(file) not in loaded]
+        except DiagnosticError as error:
+            found += error.diagnostics
+            continue
+        for file in files:
+            found += _files([file], dialect)
+    return [d for d in found if d.severity is Severity.ERROR]
 
 
 def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[Path]) -> None:

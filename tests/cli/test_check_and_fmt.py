@@ -115,3 +115,39 @@ def test_fmt_leaves_encoded_modules_alone(folder, capsys):
     (folder / "encoded.sys").write_bytes(b"\xfc\x00\x01\x02")
     assert main(["fmt", "encoded.sys"]) == 0
     assert "encoded" in capsys.readouterr().err
+
+
+@pytest.fixture
+def backup(tmp_path):
+    """A backup with one task, whose module loads, and a folder of other modules on HOME."""
+    folder = tmp_path / "backup"
+    (folder / "SYSPAR").mkdir(parents=True)
+    (folder / "SYSPAR" / "SYS.cfg").write_text(
+        'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name "T_ROB1" -Entry "main" -MotionTask\n'
+    )
+    (folder / "RAPID" / "TASK1" / "PROGMOD").mkdir(parents=True)
+    (folder / "RAPID" / "TASK1" / "PROGMOD" / "Good.mod").write_text(GOOD)
+    (folder / "HOME" / "parts").mkdir(parents=True)
+    return folder
+
+
+def test_modules_of_a_backup_that_no_task_loads_are_judged_alone(backup, capsys):
+    part = backup / "HOME" / "parts" / "part.mod"
+    part.write_text("MODULE part\n    PROC part1()\n        Helper;\n    ENDPROC\nENDMODULE\n")
+    assert main(["check", str(backup)]) == 0
+    capsys.readouterr()
+    part.write_text("MODULE 1part\nENDMODULE\n")
+    assert main(["check", str(backup), "--format", "json"]) == 1
+    found = json.loads(capsys.readouterr().out)
+    assert [(f["code"], f["path"]) for f in found if f["severity"] == "error"] == [
+        ("RG205", str(part))
+    ]
+
+
+def test_one_unreadable_file_of_home_does_not_hide_the_others(backup, capsys):
+    (backup / "HOME" / "bad.mod").write_text(BAD)
+    (backup / "HOME" / "parts" / "away.mod").symlink_to("/etc/hostname")
+    assert main(["check", str(backup), "--format", "concise"]) == 1
+    out = capsys.readouterr().out
+    assert "RG706" in out
+    assert "RG307" in out

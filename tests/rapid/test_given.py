@@ -159,3 +159,11 @@ def test_a_system_is_checked_for_its_own_robotware():
 def test_findings_of_the_parser_come_with_those_of_the_checker():
     text = module("a", "x := 1;\ny := 2;\nVAR num z;\nz := TRUE;", "VAR num x;\nVAR num y;")
     assert [c for _, c in found(text)] == ["RG213", "RG324", "RG307"]
+
+
+def test_a_module_that_is_there_twice_is_one_finding():
+    text = module("a", "x := y;", data="VAR num x;\nVAR num y;")
+    clashes = [d for d in check(system(text, text)) if d.code == "RG305"]
+    assert [(d.message, d.span.path) for d in clashes] == [
+        ("'a' is declared twice in this task", "m1.mod")
+    ]

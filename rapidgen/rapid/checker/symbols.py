@@ -237,5 +237,8 @@ def task_globals(scopes: Iterable[Scope]) -> tuple[dict[str, Symbol], list[tuple
             if first is None:
                 found[key] = symbol
             elif first.module is not scope or "MODULE" in (first.kind, symbol.kind):
-                clashes.append((first, symbol))
+                # Of a module that is there twice, the module's name says it all.
+                again = first.module and first.module.module.name.lower() == module.name.lower()
+                if symbol is module or first.kind == "MODULE" or not again:
+                    clashes.append((first, symbol))
     return found, clashes
