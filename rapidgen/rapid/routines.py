@@ -3,6 +3,7 @@
 from typing import Final, cast
 
 from rapidgen.rapid import faults
+from rapidgen.rapid.blocks import ROUTINE_END_WORDS
 from rapidgen.rapid.faults import CLOSER, SyntaxFault
 from rapidgen.rapid.lexer import EOF, HOLDER, NAME, Tokens
 from rapidgen.rapid.nodes import (
@@ -17,7 +18,7 @@ from rapidgen.rapid.nodes import (
     RoutineKind,
     Scope,
 )
-from rapidgen.rapid.statements import ROUTINE_END_WORDS, StatementParser
+from rapidgen.rapid.statements import StatementParser
 
 DATA: Final = ("VAR", "PERS", "CONST")
 ROUTINES: Final = ("PROC", "FUNC", "TRAP")
