@@ -31,11 +31,22 @@ class Dialect:
     retry_raised: bool = True
     """RETRY is allowed for an error made by RAISE. False: S4 datasys 2-RETRY-1."""
 
+    raise_in_handler: Literal["caller", "error"] = "caller"
+    """RAISE with a number in an ERROR handler: the caller gets that error (public modules that
+    run on controllers do it), or the task stops (K §4.8 forbids it)."""
+
     negative_mod: Literal["allow", "error"] = "allow"
     """A negative left operand of MOD. `error`: S4 overview 4-26."""
 
     cycle_resets_interrupts: bool = False
     """The next cycle of main keeps ordered interrupts (S4 overview 4-24); True deletes them."""
+
+    e_stop_routines: bool = True
+    """An emergency stop runs the routines of QSTOP [mem]. False: it runs none."""
+
+    fault_routines: bool = False
+    """The task that an error stopped runs its STOP routines [mem]. The NORMAL tasks that are
+    stopped with it always do."""
 
     wait_until: Literal["polled", "event"] = "polled"
     """WaitUntil looks every 0.1 s [S4 datasys 2-WaitUntil-1], or whenever a persistent or

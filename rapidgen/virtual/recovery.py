@@ -66,6 +66,7 @@ class Recovery(Process):
         self.skip_warning = False
         self.handler_level = 0
         self._stops = controller.dialect.unhandled_error == "stop"
+        self._instead: RapidError | None = None
         self.undo_level = 0
 
     # -- handlers --------------------------------------------------------------------------------
@@ -113,7 +114,8 @@ class Recovery(Process):
         if way in (TRYNEXT, RETURN):
             return way
         if way == RAISE:
-            known.target = self._recovery_point(frame, number)
+            known = self._handed_on(known)
+            known.target = self._recovery_point(frame, known.number)
             raise known
         if way == RETRY:
             return self._retry(handler, known, retries)
@@ -141,8 +143,17 @@ class Recovery(Process):
         if way in (TRYNEXT, RETURN):
             return way
         if way == RAISE:
-            raise last
+            raise self._handed_on(last)
         raise self.unhandled(last) from None
+
+    def _handed_on(self, error: RapidError) -> RapidError:
+        """What RAISE in the handler of an error gives the caller: the same one, or its own."""
+        other, self._instead = self._instead, None
+        if other is None:
+            return error
+        other.settled = True
+        other.__traceback__ = error.__traceback__
+        return other
 
     def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
         """Dialect: an error that came out of a routine without ERROR is nobody's."""
@@ -196,7 +207,17 @@ class Recovery(Process):
         return known
 
     def throw(self, number: float) -> NoReturn:
-        """RAISE n: 1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
+        """RAISE n."""
+        raise self._own_error(number)
+
+    def instead(self, number: float) -> None:
+        """RAISE n in an ERROR handler: the caller gets this error [code]; K §4.8 forbids it."""
+        if self.controller.dialect.raise_in_handler == "error":
+            raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
+        self._instead = self._own_error(number)
+
+    def _own_error(self, number: float) -> RapidError:
+        """1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
         whole = int(number) if number == number and abs(number) < 1e9 else 0
         allowed = whole == number and (
             1 <= whole <= LARGEST_USER_ERROR
@@ -205,7 +226,7 @@ class Recovery(Process):
         )
         error = RapidError(whole) if allowed else RapidError("ERR_ILLRAISE")
         error.raised = True
-        raise error
+        return error
 
     def _recovery_point(self, frame: FrameType, number: int) -> FrameType | None:
         """The nearest caller whose ERROR (list) has the number [K §7.2]."""

@@ -522,6 +522,14 @@ class Statements(Calls):
             w.emit("return 3")
             w.close()
             return
+        if self.handler == "ERROR":
+            number = self.value_of(node.number, NUM)
+            e = E(f"R.instead({number.code})", NUM).take(number)
+            e.effect, e.fails = CALLS, True
+            self.simple(e, [])
+            w.emit("return 3")
+            w.close()
+            return
         if self.handler:
             self.fault("RAISE with a number may not stand in a handler", node)
         number = self.value_of(node.number, NUM)
