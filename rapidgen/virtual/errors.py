@@ -99,6 +99,10 @@ class EndOfRun(Unwind):
     """EXIT, or PP was moved: the run is over."""
 
 
+class EventStopped(Unwind):
+    """Stop in an event routine: the routine is left, and the program stands."""
+
+
 # Python's own exceptions in compiled code, and what RAPID calls them.
 PYTHON_ERRORS: dict[type[Exception], str] = {
     ZeroDivisionError: "ERR_DIVZERO",

@@ -110,7 +110,7 @@ class Interrupts:
         task = self.task
         if interrupt.asleep or self.connected.get(interrupt.number) is not interrupt:
             return
-        if task.held and not interrupt.safe:
+        if task.stands and not interrupt.safe:
             return  # lost while the program is stopped [S4 overview 4-39]
         if interrupt.single:
             for cancel in interrupt.cancel:

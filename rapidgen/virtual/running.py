@@ -9,6 +9,7 @@ from rapidgen.virtual.compiler.program import Program, Shared
 from rapidgen.virtual.errors import (
     RECOVERABLE,
     EndOfRun,
+    EventStopped,
     ExitCycle,
     FatalError,
 )
@@ -17,6 +18,10 @@ from rapidgen.virtual.recovery import DEEPEST
 from rapidgen.virtual.task import Task
 
 State = Literal["ready", "running", "stopped", "finished", "error", "empty"]
+Event = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET"]
+_WHILE_STOPPED: frozenset[Event] = frozenset({"STOP", "QSTOP", "POWER_ON"})
+"""Their routines run at once, in a task that stands."""
+_AT_RESTART: frozenset[Event] = frozenset({"RESTART"})
 
 
 class RapidTask(Task):
@@ -45,40 +50,65 @@ class RapidTask(Task):
         self.fault: FatalError | None = None
         self._fresh = True
         """PP was set to main: variables are to be initialised."""
-        self._events: list[str] = []
+        self._start_asked = False
+        """A start came while routines were still being left for PP to main."""
+        self._events: list[Event] = []
+        """Whose routines are due, in order."""
 
     # -- from outside ----------------------------------------------------------------------------
 
+    def power_up(self) -> None:
+        """The routines of POWER_ON run, whether or not the program is started afterwards."""
+        self._events.insert(0, "POWER_ON")
+        if self.state == "stopped":
+            self.wake()
+        elif self.state in ("ready", "finished") and self._has_routines("POWER_ON"):
+            self.launch(self._body)
+
     def start(self) -> None:
         """Start from where the task stopped, or from main."""
-        if self.state == "stopped":
+        if self.leaving:
+            self._start_asked = True
+        elif self.state == "stopped":
             self._events.append("RESTART")
             self._set("running")
-            self.release()
+            if not self._stop_routines_due:
+                self.release()
         elif self.state in ("ready", "finished"):
             self._events.append("START")
             self._set("running")
-            self.launch(self._body)
+            if not self.alive:
+                self.launch(self._body)
 
-    def stop(self) -> None:
-        """Stop before the next statement or in the wait; `start()` goes on there."""
+    def stop(self, event: Literal["STOP", "QSTOP", ""] = "STOP") -> None:
+        """Stop before the next statement or in the wait; `start()` goes on there.
+
+        The routines of `event` run when the task stands.
+        """
+        self._start_asked = False
         if self.state == "running":
             self._set("stopped")
+            if event:
+                self._events.append(event)
             self.hold()
+
+    def hold(self) -> None:
+        """Stop before the next statement, or in the wait; not in what runs because of a stop."""
+        super().hold()
+        if self.while_stopped:
+            self.held = False
 
     def pp_to_main(self) -> None:
         """Leave everything (UNDO handlers run) and set PP to main."""
         self._fresh = True
+        self._start_asked = False
+        self._events = [e for e in self._events if e == "POWER_ON"]
         self._events.append("RESET")
         if self.state in ("running", "stopped") and self.alive:
             self.order(EndOfRun())
             self.held = False
         elif self.state != "empty":
             self._set("ready")
-
-    def due(self, event: str) -> None:
-        """An event routine is to run before the program goes on."""
-        self._events.append(event)
 
     @property
     def leaving(self) -> bool:
@@ -93,15 +123,22 @@ class RapidTask(Task):
 
     def _body(self) -> None:
         """The greenlet of one run."""
-        again = True
-        while again:
-            if self._fresh:
-                self._fresh = False
-                self._initialise()
-            again = self._cycle()
+        step = self._begin
+        # Whoever hears of a state may start the task again at once.
+        while self._guarded(step) or self.state == "running":
+            step = self._cycle
 
-    def _initialise(self) -> None:
-        """PP to main: variables, interrupts, ERRNO, sockets and files [S4 overview 4-24]."""
+    def _begin(self) -> bool:
+        """Routines of POWER_ON, which also run when nobody starts the program."""
+        self._prepare()
+        self._run_events(_WHILE_STOPPED)
+        return self.state in ("running", "stopped")
+
+    def _prepare(self) -> None:
+        """After PP to main: variables, interrupts, ERRNO, sockets and files [S4 overview 4-24]."""
+        if not self._fresh:
+            return
+        self._fresh = False
         self.program.reset_variables()
         self.interrupts.clear()
         self.errno = self.intno = 0
@@ -109,31 +146,50 @@ class RapidTask(Task):
 
     def _cycle(self) -> bool:
         """One pass of the entry routine; whether another one follows at once."""
+        self._prepare()
+        self.attend()
+        self.charge(self.controller.costs.statement)
+        self._run_events()
+        entry = self.program.globals.get(self.spec.entry.lower())
+        self.program.function(entry)()  # type: ignore[arg-type]
+        return self._next_cycle()
+
+    def _guarded(self, step: Callable[[], bool]) -> bool:
+        """Do a step of the run and deal with every way out of it; whether the run goes on."""
         try:
-            self.charge(self.controller.costs.statement)
-            self._run_events()
-            entry = self.program.globals.get(self.spec.entry.lower())
-            self.program.function(entry)()  # type: ignore[arg-type]
+            return step()
         except ExitCycle:
-            pass
+            return self._next_cycle()
         except EndOfRun:
-            self._set("ready" if self._fresh else "finished")
-            return False
+            return self._over()
         except FatalError as fatal:
             self._fail(fatal, fatal)
-            return False
         except RECOVERABLE as error:
             self._fail(self.unhandled(error), error)
-            return False
         except RecursionError as error:
             self._fail(FatalError(40027, "Stack overflow"), error)
-            return False
+        return False
+
+    def _next_cycle(self) -> bool:
         self.cycles += 1
         if self.controller.dialect.cycle_resets_interrupts:
             self.interrupts.clear()
         if self.controller.cycle == "forever":
             return True
         self._set("finished")
+        return False
+
+    def _over(self) -> bool:
+        """EXIT, or everything was left for PP to main: then a start may have come meanwhile."""
+        if not self._fresh:
+            self._set("finished")
+        elif self._start_asked:
+            self._start_asked = False
+            self._events.append("START")
+            self._set("running")
+            return True
+        else:
+            self._set("ready")
         return False
 
     def _fail(self, fatal: FatalError, raised: BaseException) -> None:
@@ -143,28 +199,74 @@ class RapidTask(Task):
         self.interrupts.clear()
         self.controller.task_failed(self, fatal)
         self._set("error")
+        if self.controller.dialect.fault_routines and not self.while_stopped:
+            self._events.append("STOP")
+            self._guarded(self._after_fault)
 
-    def _run_events(self) -> None:
-        while self._events:
-            event = self._events.pop(0)
-            for routine in self.controller.event_routines(self, event):
+    def _after_fault(self) -> bool:
+        """STOP routines of a task that an error stopped (dialect)."""
+        self._stop_routines()
+        return False
+
+    # -- event routines --------------------------------------------------------------------------
+
+    def _has_routines(self, event: Event) -> bool:
+        return any(self.controller.event_routines(self, event))
+
+    def _run_events(self, which: frozenset[Event] | None = None) -> None:
+        """Run the routines of the events that are due, of `which` only."""
+        while due := [e for e in self._events if which is None or e in which]:
+            self._events.remove(due[0])
+            for routine in self.controller.event_routines(self, due[0]):
                 found = self.program.find_routine(None, routine.lower())
                 if found is not None and found.node is not None:
-                    self.controller.event_under_way[self.name] = event
-                    try:
-                        self.program.function(found)()
-                    finally:
-                        self.controller.event_under_way.pop(self.name, None)
+                    self._run_event(due[0], self.program.function(found))
+
+    def _run_event(self, event: Event, routine: Callable[..., Any]) -> None:
+        """Execute a routine at user level: interrupts wait, errors are nobody's but its own."""
+        outer, self.event = self.event, event
+        try:
+            self.at_level(routine)
+        except EventStopped:
+            pass
+        finally:
+            self.event = outer
+        if not outer:
+            self.attend()
 
     def _park(self) -> None:
-        super()._park()
-        if not self.held and "RESTART" in self._events:
-            self._run_events()
+        if self._stop_routines_due:
+            self._stop_routines()
+        else:
+            super()._park()
+        if not self.held:
+            self._run_events(_AT_RESTART)
+
+    @property
+    def _stop_routines_due(self) -> bool:
+        return not self.while_stopped and any(e in _WHILE_STOPPED for e in self._events)
+
+    def _stop_routines(self) -> None:
+        self.while_stopped = True
+        self.held = False
+        try:
+            self._run_events(_WHILE_STOPPED)
+        finally:
+            self.while_stopped = False
+            self.held = self.state == "stopped" and not self.leaving
 
     def stop_here(self) -> None:
-        """Stop, Break: the program stops; a start goes on behind the instruction."""
+        """Stop, Break: the program stops; a start goes on behind the instruction.
+
+        In an event routine it ends the routine, which runs from its beginning at the next event
+        [S4 2-Stop-1]; then no STOP routine runs [mem].
+        """
         self._set("stopped")
         self.controller.program_stopped(self)
+        if self.event:
+            self.hold()
+            raise EventStopped
+        self._events.append("STOP")
         super().stop_here()
 
     def call(self, name: str, *arguments: Any) -> Any:  # noqa: ANN401

@@ -66,7 +66,6 @@ class ControllerState:
         """Error numbers that BookErrNo gave."""
         self.meetings: dict[object, object] = {}
         """Where tasks wait for each other (WaitSyncTask)."""
-        self.event_under_way: dict[str, str] = {}
         self.tracers: list[Tracer] = []
         self._breakpoints: dict[tuple[str, str, int], list[Breakpoint]] = {}
 
@@ -76,7 +75,7 @@ class ControllerState:
         """After switching on: outputs at their defaults, POWER_ON routines are due."""
         self.io.power_up()
         for task in self.rapid_tasks.values():
-            task.due("POWER_ON")
+            task.power_up()
         self.log.info(10_011, "Motors ON state")
         self._report()
 
@@ -103,11 +102,16 @@ class ControllerState:
             return "system failure state"
         return "a task halted the system" if self.halted else "motors are off"
 
-    def stop_program(self, *, quick: bool = False) -> None:
-        """Stop all NORMAL tasks and the robots; (semi)static tasks go on."""
+    def stop_program(
+        self, *, quick: bool = False, event: Literal["STOP", "QSTOP", ""] = "STOP"
+    ) -> None:
+        """Stop all NORMAL tasks and the robots; (semi)static tasks go on.
+
+        The routines of `event` run in every task that is stopped.
+        """
         for task in self.rapid_tasks.values():
             if task.spec.type == "NORMAL":
-                task.stop()
+                task.stop(event)
         for group in self.motion.groups.values():
             group.stop("program", quick=quick)
         self.log.info(10_125, "Program stopped")
@@ -122,8 +126,8 @@ class ControllerState:
             group.reset()
         self.log.info(10_002, "Program pointer has been reset")
 
-    def set_motors(self, on: bool) -> None:
-        """Motors on or off; off stops the program."""
+    def set_motors(self, on: bool, *, event: Literal["STOP", "QSTOP", ""] = "STOP") -> None:
+        """Motors on or off; off stops the program, and the routines of `event` run."""
         if on and (self.e_stop or self.failed):
             self.log.warning(10_126, "Motors on refused", self._why_not())
             return
@@ -135,7 +139,7 @@ class ControllerState:
             self.log.info(10_011, "Motors ON state")
         else:
             self.log.info(10_010, "Motors OFF state")
-            self.stop_program(quick=True)
+            self.stop_program(quick=True, event=event)
         self._report()
 
     def set_e_stop(self, pressed: bool) -> None:
@@ -145,7 +149,7 @@ class ControllerState:
         if pressed:
             self.log.error(10_013, "Emergency stop state")
             self.e_stop = True
-            self.set_motors(False)
+            self.set_motors(False, event="QSTOP" if self.dialect.e_stop_routines else "")
         else:
             self.e_stop = False
             self.log.info(10_010, "Motors OFF state")
@@ -175,7 +179,7 @@ class ControllerState:
             if task.spec.type == "SEMISTATIC":
                 task.pp_to_main()
             else:
-                task.stop()
+                task.stop("")
         for group in self.motion.groups.values():
             group.stop("program", quick=True)
         self.failed = self.halted = False
@@ -183,18 +187,10 @@ class ControllerState:
         self.motors_on = False
         self.io.power_up()
         for task in self.rapid_tasks.values():
-            task.due("POWER_ON")
-        self._start_background()
+            task.power_up()
+            if task.spec.type != "NORMAL":
+                task.start()
         self._report()
-
-    def _start_background(self) -> None:
-        """Start (semi)static tasks, once each has left what it was in."""
-        background = [t for t in self.rapid_tasks.values() if t.spec.type != "NORMAL"]
-        if any(t.leaving for t in background):
-            self.kernel.after(1_000_000, self._start_background)
-            return
-        for task in background:
-            task.start()
 
     def perform(self, action: str) -> None:
         """One action of a fault plan or of the control socket."""
@@ -229,11 +225,11 @@ class ControllerState:
                 self.start_program()
             case "StartMain":
                 self.pp_to_main()
-                self.kernel.after(0, self._start_later)
+                self.start_program()
             case "Stop" | "StopCycle" | "StopInstr":
                 self.stop_program()
             case "QuickStop":
-                self.stop_program(quick=True)
+                self.stop_program(quick=True, event="QSTOP")
             case "MotorOn" | "MotOn":
                 self.set_motors(True)
             case "MotorOff" | "MotOff":
@@ -250,13 +246,6 @@ class ControllerState:
                 self._report()
             case _:
                 self.log.warning(71_103, "System input not simulated", action, argument)
-
-    def _start_later(self) -> None:
-        """After PP to main: when every task has left its routines."""
-        if any(t.leaving for t in self.rapid_tasks.values()):
-            self.kernel.after(1_000_000, self._start_later)
-            return
-        self.start_program()
 
     # -- tasks tell ------------------------------------------------------------------------------
 

@@ -8,7 +8,7 @@ from rapidgen.virtual import unsupported
 from rapidgen.virtual.compiler.program import LoadedModule, Program
 from rapidgen.virtual.compiler.runtime import LateArgument
 from rapidgen.virtual.compiler.symbols import Parameter, Routine
-from rapidgen.virtual.errors import EndOfRun, FatalError, RapidError
+from rapidgen.virtual.errors import RECOVERABLE, EndOfRun, FatalError, RapidError
 from rapidgen.virtual.interrupts import Interrupts
 from rapidgen.virtual.kernel import Kernel, WaitSet
 from rapidgen.virtual.recovery import Recovery
@@ -27,6 +27,10 @@ class Task(Recovery):
         self.held = False
         """Stopped by Stop, an emergency stop, the operator: goes on when it is released."""
         self.in_trap = False
+        self.event = ""
+        """Event whose routine is being executed."""
+        self.while_stopped = False
+        """Executing what a stop or the power-up brought, while the program stands."""
         self.intno = 0
         self.trap_data: Any = None
         self.statements = 0
@@ -96,7 +100,7 @@ class Task(Recovery):
             self._obey()
         while self.held:
             self._park()
-        if self.interrupts.queue and not self.in_trap:
+        if self.interrupts.queue and not self.in_trap and not self.event:
             self._serve_traps()
 
     def _obey(self) -> None:
@@ -140,16 +144,24 @@ class Task(Recovery):
             self.intno = interrupt.number
             self.trap_data = data
             try:
-                self.program.function(interrupt.trap)()
-            except RapidError as error:
-                if error.target is not None:
-                    raise  # a long jump may leave the trap level [K §7.2]
-                raise self.unhandled(error) from error
-            except (ZeroDivisionError, KeyError, OverflowError) as error:
-                raise self.unhandled(error) from error
+                self.at_level(self.program.function(interrupt.trap))
             finally:
                 self.in_trap = False
                 self.trap_data = None
+
+    def at_level(self, routine: Callable[..., Any]) -> None:
+        """Execute a routine at trap or user level: only a long jump leaves it [K §7.2]."""
+        try:
+            routine()
+        except RECOVERABLE as error:
+            if isinstance(error, RapidError) and error.target is not None:
+                raise
+            raise self.unhandled(error) from error
+
+    @property
+    def stands(self) -> bool:
+        """Whether the program is stopped, even if something runs because of that."""
+        return self.held or self.while_stopped
 
     # -- called by compiled code -----------------------------------------------------------------
 

@@ -111,13 +111,13 @@ def call_by_var(task: RapidTask, name: str, number: float) -> None:
 def event_type(task: RapidTask) -> int:
     """EventType: which event routine is being executed."""
     names = ("", "POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP")
-    return names.index(task.controller.event_under_way.get(task.name, ""))
+    return names.index(task.event)
 
 
 @builtin("ExecLevel")
 def exec_level(task: RapidTask) -> int:
     """ExecLevel: 0 normal, 1 trap, 2 event routine."""
-    if task.name in task.controller.event_under_way:
+    if task.event:
         return 2
     return int(task.in_trap)
 
@@ -133,7 +133,7 @@ def exec_handler(task: RapidTask) -> int:
 @builtin("IsStopStateEvent")
 def is_stop_state_event(task: RapidTask, pp_moved: bool | None, pp_to_main: bool | None) -> bool:
     """IsStopStateEvent: whether PP was moved; here only a RESET event says so."""
-    return bool(task.controller.event_under_way.get(task.name) == "RESET")
+    return task.event == "RESET"
 
 
 # -- waiting -------------------------------------------------------------------------------------
