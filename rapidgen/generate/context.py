@@ -92,7 +92,7 @@ def used_constants(templates: Path) -> list[dict[str, object]]:
     for path in sorted(templates.glob("ROS_*.j2")):
         words.update(re.findall(r"\bROS_[A-Z_]+\b", path.read_text(encoding="utf-8")))
     return [
-        {"name": constant.name, "value": constant.value}
+        {"name": constant.name, "value": constant.value, "type": constant.type}
         for constant in rapid.rapid_constants()
         if constant.name in words
     ]
@@ -174,6 +174,11 @@ def _hello(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, 
         "lower": [literal(v) for v in [*(j.lower for j in joints), *filled]],
         "upper": [literal(v) for v in [*(j.upper for j in joints), *filled]],
         "speed": [literal(v) for v in [*(j.speed for j in joints), *filled]],
+        "control_port": ["0"],
+        "ring": [str(RING)],
+        "preload": ["0"],
+        "batch": ["0"],
+        "signals": ["0"],
     }
     forms = {Wire.INT32: "\\IntX:=DINT", Wire.FLOAT32: "\\Float4", Wire.CHAR: "\\ASCII"}
     reply = next(r for r in spec.HELLO.replies if r.code is ReplyCode.SUCCESS)

@@ -4,15 +4,18 @@ from typing import cast
 
 from rapidgen.protocol import messages, spec
 from rapidgen.protocol.frames import ContentError, Frame
-from rapidgen.protocol.layout import Layout, Value
+from rapidgen.protocol.layout import Layout, OpenLayout, Value
 from rapidgen.protocol.messages import Content
 from rapidgen.protocol.spec import Comm, ReplyCode
 
-_LAYOUTS = {m.number: Layout(m.fields) for m in spec.MESSAGES}
-_BY_CLASS = {kind: (number, _LAYOUTS[number]) for number, kind in messages.CONTENTS.items()}
-_DECODERS = {
-    number: (_LAYOUTS[number].size, _LAYOUTS[number], kind)
+_LAYOUTS = {m.number: Layout(m.fields) for m in spec.MESSAGES if m.is_fixed}
+_OPEN = {m.number: OpenLayout(m.fields) for m in spec.MESSAGES if not m.is_fixed}
+_BY_CLASS = {
+    kind: (number, _LAYOUTS.get(number) or _OPEN[number])
     for number, kind in messages.CONTENTS.items()
+}
+_DECODERS = {
+    number: (layout.size, layout, messages.CONTENTS[number]) for number, layout in _LAYOUTS.items()
 }
 
 # The path of every message: no enum is asked there.
@@ -34,8 +37,9 @@ def _reply_layouts() -> dict[tuple[int, int, int], tuple[Layout, type[Content]]]
 
 _REPLIES = _reply_layouts()
 _REPLY_BY_CLASS = {
-    kind: (number, code, layout) for (number, code, _), (layout, kind) in _REPLIES.items()
+    (number, kind): (code, layout) for (number, code, _), (layout, kind) in _REPLIES.items()
 }
+_HELLO_VERSION = Layout(spec.HELLO.replies[0].fields[:1])
 
 
 def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
@@ -50,9 +54,10 @@ def encode_reply(number: int, content: Content) -> bytes:
         return Frame(number, Comm.REPLY, ReplyCode.SUCCESS, b"").to_bytes()
     if isinstance(content, messages.Failure):
         return Frame(number, Comm.REPLY, ReplyCode.FAILURE, b"").to_bytes()
-    of, code, layout = _REPLY_BY_CLASS[type(content)]
-    if of != number:
+    known = _REPLY_BY_CLASS.get((number, type(content)))
+    if known is None:
         raise ContentError(f"{type(content).__name__} does not answer message {number}")
+    code, layout = known
     return Frame(number, Comm.REPLY, code, layout.pack(_values(content))).to_bytes()
 
 
@@ -66,17 +71,27 @@ def decode(frame: Frame) -> Content:
     if comm == _REPLY:
         return _decode_reply(frame)
     known = _DECODERS.get(number)
-    if known is None:
+    if known is None and number not in _OPEN:
         raise ContentError(f"message type {number} is not known")
     if comm not in _ASKING:
         raise ContentError(f"comm_type is {comm}, must be 1, 2 or 3")
     if reply != _NO_REPLY:
         raise ContentError(f"reply_code of a topic or request is {reply}, must be 0")
+    if known is None:
+        return _decode_open(frame)
     size, layout, kind = known
     if len(data) != size:
         name = spec.BY_NUMBER[number].name
         raise ContentError(f"{name} has {len(data)} bytes of data, must have {size}")
     return _make(kind, layout.unpack(data))
+
+
+def _decode_open(frame: Frame) -> Content:
+    number, _, _, data = frame
+    layout = _OPEN[number]
+    if not layout.fits(len(data)):
+        raise ContentError(f"{spec.BY_NUMBER[number].name} has {len(data)} bytes of data")
+    return _make(messages.CONTENTS[number], layout.unpack(data))
 
 
 def _decode_reply(frame: Frame) -> Content:
@@ -89,6 +104,9 @@ def _decode_reply(frame: Frame) -> Content:
     if not data:
         return messages.Acknowledged() if reply == ReplyCode.SUCCESS else messages.Failure()
     known = _REPLIES.get((number, reply, len(data)))
+    if known is None and message is spec.HELLO and len(data) >= _HELLO_VERSION.size:
+        # Of another version, which its first field still tells.
+        return _make(messages.HelloRefusal, _HELLO_VERSION.unpack(data))
     if known is None:
         raise ContentError(f"reply to {message.name} has {len(data)} bytes of data")
     layout, kind = known

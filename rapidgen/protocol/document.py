@@ -16,9 +16,9 @@ Written from `rapidgen/protocol/spec.py` by `python -m rapidgen.protocol.documen
 
 A rapidgen driver speaks ROS-Industrial's simple_message, so that its C++ nodes work unchanged,
 and adds messages in ABB's range 1300 to 1399 for the paired client. Everything is little endian;
-`int32` and `float32` have four bytes. Joints are values of the **controller's axes**, in rad and
-m, in the order of `joints:` in the configuration, padded with zeros to ten. Sign, offset and
-coupling of joint 2 and 3 are the client's business.
+`int32` and `float32` have four bytes, `uint64` and `pair` eight. Joints are values of the
+**controller's axes**, in rad and m, in the order of `joints:` in the configuration, padded with
+zeros to ten. Sign, offset and coupling of joint 2 and 3 are the client's business.
 """
 
 _RULES = """\
@@ -36,6 +36,39 @@ _RULES = """\
   topics; PROGRESS follows only on a connection that subscribed to it.
 """
 
+_STREAMS = f"""\
+## Streams
+
+- A `pair` is two fixed-point numbers of 26 bits in one uint64, `(round(a * 1e6) + 2^25) * 2^26 +
+  round(b * 1e6) + 2^25`: steps of 1e-6 s, rad or m, magnitudes up to {spec.PAIR_LIMIT}. It is
+  below 2^52 and cannot be NaN.
+- A point is its duration and its joints, two numbers a pair; with an even number of joints the
+  last second number is 0. A message holds {spec.batch_points(6)} points of six or seven axes,
+  {spec.batch_points(10)} of ten.
+- The checksum goes over the uint64 words of the data before it, stream and flags being the first,
+  first and points the second: `c := 0`, then for each word `c := (2 * c + word) MOD (2^51 - 129)`.
+  Every step is exact in 64-bit floats.
+- BEGIN belongs to a first batch, whose `first` is 0; it supersedes what is under way, as sequence
+  -1 does, and it belongs to its connection. After END nothing follows. A batch without points is
+  a question for the reply, and carries END or FLUSH.
+- A client sends no more points than `room` of the last reply, at the beginning than `ring` of
+  HELLO. `first` is the number of points that the driver has accepted. Motion begins when
+  `preload` seconds are there, or the ring is full, or END or FLUSH came.
+- A batch with a wrong checksum, a length that does not fit, a hole or more points than room is
+  refused as a whole. At a fault in one point those before it are accepted. Either way the stream
+  is cut: accepted points are executed in order, the last as a stop point, then it has FAILED with
+  the reason and the point. Later batches of this stream are answered with the same refusal.
+- Without a next point the robot stops at the last one, on its path: STARVED. It goes on when
+  `preload` seconds are there again, or END or FLUSH came.
+
+## Control connection
+
+Where HELLO tells a control port, STOP, PAUSE, SPEED, HEARTBEAT and SIGNAL have a connection of
+their own, which no point delays. STOP is JOINT_TRAJ_PT with the sequence number -4 there too; its
+reply says that the stop was taken, STOPPED where the robot stands then. PAUSE keeps the path;
+everything that halts a motion halts a paused one. Nothing starts again by itself.
+"""
+
 
 def protocol_markdown() -> str:
     """The whole page."""
@@ -49,11 +82,14 @@ def protocol_markdown() -> str:
         *(_message(message) for message in sorted(spec.MESSAGES, key=lambda m: m.number)),
         _reserved(),
         _RULES,
+        _STREAMS,
         _enum_section("Special sequence numbers", spec.Sequence),
         _enum_section("Tri-states", spec.TriState),
         _enum_section("Modes", spec.Mode),
         _enum_section("Bits of valid_fields", spec.Valid),
         _enum_section("Bits of features and subscribe", spec.Feature),
+        _enum_section("Flags of POINTS", spec.StreamFlag),
+        _enum_section("Types of events", spec.EventType),
         _enum_section("Trajectory states", spec.TrajectoryState),
         _reasons(),
         _versions(),
@@ -96,7 +132,7 @@ def _overview() -> str:
             message.name,
             message.sender,
             ", ".join(port.name.lower() for port in message.ports),
-            message.length,
+            message.length if message.is_fixed else f"{message.length} and more",
             message.since or "standard",
         )
         for message in sorted(spec.MESSAGES, key=lambda m: m.number)
@@ -117,11 +153,15 @@ def _message(message: spec.Message) -> str:
 
 def _fields(fields: Sequence[spec.Field]) -> str:
     rows = []
+    more = ""
     at = spec.PREFIX_BYTES + spec.HEADER_BYTES
     for field in fields:
-        kind = field.type.value if field.count == 1 else f"{field.count} x {field.type.value}"
-        rows.append((at, field.name, kind, field.unit, field.text))
+        count = "n" if field.count == spec.ANY else str(field.count)
+        kind = field.type.value if count == "1" else f"{count} x {field.type.value}"
+        rows.append((f"{at}{more}", field.name, kind, field.unit, field.text))
         at += field.size
+        if field.count == spec.ANY:
+            more = f" + {field.type.size} n"
     return _table(("byte", "field", "type", "unit", "meaning"), rows)
 
 
@@ -144,8 +184,20 @@ def _reasons() -> str:
 
 
 def _versions() -> str:
-    rows = [("1", "HELLO, PROGRESS, data in the replies to an end frame", "none")]
-    return "## Versions\n\n" + _table(("version", "new", "breaks"), rows)
+    rows = [
+        ("1", "HELLO, PROGRESS, data in the replies to an end frame", "none"),
+        (
+            "2",
+            "POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT; HELLO on the control port; "
+            "JOINT_FEEDBACK; reasons 15 to 19, states 7 and 8",
+            "the reply to HELLO is longer: a driver refuses a client of version 1, a client of "
+            "version 2 a driver of version 1",
+        ),
+    ]
+    return (
+        "## Versions\n\nHELLO carries it; client and driver must have the same. The standard "
+        "messages have none and do not change.\n\n" + _table(("version", "new", "breaks"), rows)
+    )
 
 
 if __name__ == "__main__":

@@ -5,16 +5,34 @@ from struct import Struct
 from struct import error as StructError
 
 from rapidgen.protocol.frames import ContentError
-from rapidgen.protocol.spec import Field, Wire
+from rapidgen.protocol.spec import ANY, PAIR_BASE, PAIR_LIMIT, PAIR_SCALE, PAIR_ZERO, Field, Wire
 
 Value = int | float | str | tuple[int, ...] | tuple[float, ...]
-"""One field's value: a scalar, a text, or a tuple of `count` numbers."""
+"""One field's value: a scalar, a text, or a tuple of `count` numbers (two for each PAIR)."""
 
-_CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s"}
+_CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.UINT64: "Q", Wire.PAIR: "Q"}
+
+
+def word_of(first: float, second: float) -> int:
+    """A PAIR as the number of the wire. Raises ContentError beyond PAIR_LIMIT, and for NaN."""
+    word = 0
+    for value in (first, second):
+        if not -PAIR_LIMIT <= value <= PAIR_LIMIT:
+            raise ContentError(f"{value} does not fit a pair: at most {PAIR_LIMIT} in magnitude")
+        word = word * PAIR_BASE + round(value * PAIR_SCALE) + PAIR_ZERO
+    return word
+
+
+def pair_of(word: int) -> tuple[float, float]:
+    """The two numbers of a PAIR. Raises ContentError when it is none."""
+    first, second = divmod(word, PAIR_BASE)
+    if first >= PAIR_BASE:
+        raise ContentError(f"{word} is no pair of fixed-point numbers")
+    return (first - PAIR_ZERO) / PAIR_SCALE, (second - PAIR_ZERO) / PAIR_SCALE
 
 
 class Layout:
-    """Packs and unpacks the values of some fields, in their order."""
+    """Packs and unpacks the values of some fields, in their order; none of any count."""
 
     def __init__(self, fields: Sequence[Field]) -> None:
         self.fields = tuple(fields)
@@ -70,6 +88,43 @@ class Layout:
 
     def _names(self) -> str:
         return ", ".join(field.name for field in self.fields)
+
+
+class OpenLayout:
+    """The same with one field of PAIRs whose count follows from the length of the data."""
+
+    def __init__(self, fields: Sequence[Field]) -> None:
+        (place,) = (i for i, f in enumerate(fields) if f.count == ANY)
+        if fields[place].type is not Wire.PAIR:
+            raise ValueError(f"{fields[place].name}: only pairs may be of any count")
+        self._name = fields[place].name
+        self._place = place
+        self._head = Layout(fields[:place])
+        self._tail = Layout(fields[place + 1 :])
+        self.size = self._head.size + self._tail.size
+        """Bytes without any pair."""
+
+    def fits(self, size: int) -> bool:
+        """Whether data may have so many bytes."""
+        return size >= self.size and (size - self.size) % Wire.PAIR.size == 0
+
+    def pack(self, values: Sequence[Value]) -> bytes:
+        """The values as bytes. Raises ContentError when one does not fit its field."""
+        numbers = values[self._place]
+        if not isinstance(numbers, tuple) or len(numbers) % 2:
+            raise ContentError(f"{self._name}: an even number of values is needed")
+        words = [word_of(*numbers[i : i + 2]) for i in range(0, len(numbers), 2)]
+        middle = Struct(f"<{len(words)}Q").pack(*words)
+        tail = self._tail.pack(values[self._place + 1 :])
+        return self._head.pack(values[: self._place]) + middle + tail
+
+    def unpack(self, data: bytes) -> tuple[Value, ...]:
+        """The values in `data`, whose length `fits`. Raises ContentError for a wrong pair."""
+        count = (len(data) - self.size) // Wire.PAIR.size
+        words = Struct(f"<{count}Q").unpack_from(data, self._head.size)
+        numbers = tuple(number for word in words for number in pair_of(word))
+        tail = self._tail.unpack(data, len(data) - self._tail.size)
+        return (*self._head.unpack(data), numbers, *tail)
 
 
 def _numbers(field: Field, value: Value) -> Sequence[object]:

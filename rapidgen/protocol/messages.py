@@ -89,6 +89,11 @@ class HelloReply(NamedTuple):
     lower: Joints
     upper: Joints
     speed: Joints
+    control_port: int
+    ring: int
+    preload: float
+    batch: int
+    signals: int
 
 
 class HelloRefusal(NamedTuple):
@@ -108,6 +113,107 @@ class Progress(NamedTuple):
     reason: int
     point: int
     joint: int
+
+
+class Points(NamedTuple):
+    """POINTS: a batch of a stream; `bulk` makes and reads whole ones.
+
+    `pairs` are the numbers of all points in turn (s, rad or m), an even count of each.
+    """
+
+    stream: int
+    flags: int
+    first: int
+    points: int
+    pairs: tuple[float, ...]
+    checksum: int
+
+
+class Stopped(NamedTuple):
+    """STOPPED: where the robot stands after a halt."""
+
+    trajectory: int
+    reached: int
+    reason: int
+    joints: Joints
+
+
+class Pause(NamedTuple):
+    """PAUSE: 1 hold, 0 go on."""
+
+    paused: int
+
+
+class Speed(NamedTuple):
+    """SPEED: percent of the programmed speed, 1 to 100."""
+
+    percent: float
+
+
+class Heartbeat(NamedTuple):
+    """HEARTBEAT: s until the next one must come; 0 ends the watch."""
+
+    timeout: float
+
+
+class Signal(NamedTuple):
+    """SIGNAL: read, or with `write` 1 write, the configuration's signal, from 0."""
+
+    signal: int
+    write: int
+    value: float
+
+
+class Event(NamedTuple):
+    """EVENT of the controller's log."""
+
+    domain: int
+    number: int
+    type: int
+    title: str
+
+
+class PointsAccepted(NamedTuple):
+    """Reply to POINTS: all of them are in; counts of points are modulo 2^23."""
+
+    stream: int
+    trajectory: int
+    accepted: int
+    room: int
+    planned: int
+    reached: int
+    state: int
+
+
+class PointsRefused(NamedTuple):
+    """Reply to POINTS: those from `accepted` on are not executed; `joint` from 1."""
+
+    stream: int
+    trajectory: int
+    accepted: int
+    reason: int
+    point: int
+    joint: int
+
+
+class NotDone(NamedTuple):
+    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL: it was not done."""
+
+    reason: int
+
+
+class HeartbeatReply(NamedTuple):
+    """Reply to HEARTBEAT: the newest trajectory and its state."""
+
+    trajectory: int
+    state: int
+
+
+class SignalReply(NamedTuple):
+    """Reply to SIGNAL: the value as it was read, after any writing."""
+
+    signal: int
+    value: float
 
 
 class Accepted(NamedTuple):
@@ -143,6 +249,18 @@ Content = (
     | HelloReply
     | HelloRefusal
     | Progress
+    | Points
+    | Stopped
+    | Pause
+    | Speed
+    | Heartbeat
+    | Signal
+    | Event
+    | PointsAccepted
+    | PointsRefused
+    | NotDone
+    | HeartbeatReply
+    | SignalReply
     | Accepted
     | Refused
     | Acknowledged
@@ -158,13 +276,28 @@ CONTENTS: dict[int, type[Content]] = {
     spec.JOINT_FEEDBACK.number: JointFeedback,
     spec.HELLO.number: Hello,
     spec.PROGRESS.number: Progress,
+    spec.POINTS.number: Points,
+    spec.STOPPED.number: Stopped,
+    spec.PAUSE.number: Pause,
+    spec.SPEED.number: Speed,
+    spec.HEARTBEAT.number: Heartbeat,
+    spec.SIGNAL.number: Signal,
+    spec.EVENT.number: Event,
 }
 """Topics and requests by message number."""
 
 REPLIES: dict[tuple[int, spec.ReplyCode, int], type[Content]] = {
     (spec.JOINT_TRAJ_PT.number, spec.ReplyCode.SUCCESS, 1): Accepted,
     (spec.JOINT_TRAJ_PT.number, spec.ReplyCode.FAILURE, 3): Refused,
-    (spec.HELLO.number, spec.ReplyCode.SUCCESS, 15): HelloReply,
+    (spec.HELLO.number, spec.ReplyCode.SUCCESS, 20): HelloReply,
     (spec.HELLO.number, spec.ReplyCode.FAILURE, 1): HelloRefusal,
+    (spec.POINTS.number, spec.ReplyCode.SUCCESS, 7): PointsAccepted,
+    (spec.POINTS.number, spec.ReplyCode.FAILURE, 6): PointsRefused,
+    (spec.PAUSE.number, spec.ReplyCode.FAILURE, 1): NotDone,
+    (spec.SPEED.number, spec.ReplyCode.FAILURE, 1): NotDone,
+    (spec.HEARTBEAT.number, spec.ReplyCode.SUCCESS, 2): HeartbeatReply,
+    (spec.HEARTBEAT.number, spec.ReplyCode.FAILURE, 1): NotDone,
+    (spec.SIGNAL.number, spec.ReplyCode.SUCCESS, 2): SignalReply,
+    (spec.SIGNAL.number, spec.ReplyCode.FAILURE, 1): NotDone,
 }
 """Replies with data by message number, reply code and number of fields."""

@@ -7,11 +7,13 @@ from rapidgen.protocol import spec
 
 @dataclass(frozen=True, slots=True)
 class RapidConstant:
-    """`CONST num <name> := <value>;` with what it means."""
+    """`CONST <type> <name> := <value>;` with what it means."""
 
     name: str
     value: int
     text: str
+    type: str = "num"
+    """dnum for what enters the arithmetic of 64-bit words."""
 
 
 def rapid_constants() -> tuple[RapidConstant, ...]:
@@ -21,6 +23,11 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
         RapidConstant("ROS_MAX_LENGTH", spec.MAX_LENGTH, "largest length field"),
         RapidConstant("ROS_MAX_JOINTS", spec.MAX_JOINTS, "joints of a message"),
         RapidConstant("ROS_PROTOCOL", spec.PROTOCOL_VERSION, "version of messages from 1300 on"),
+        RapidConstant("ROS_INDEX_WRAP", spec.INDEX_WRAP, "points of a stream count modulo this"),
+        RapidConstant("ROS_PAIR_BASE", spec.PAIR_BASE, "first number of a pair x this", "dnum"),
+        RapidConstant("ROS_PAIR_ZERO", spec.PAIR_ZERO, "stands for 0 in a pair", "dnum"),
+        RapidConstant("ROS_PAIR_SCALE", spec.PAIR_SCALE, "steps of a pair in 1", "dnum"),
+        RapidConstant("ROS_CHECKSUM_MODULUS", spec.CHECKSUM_MODULUS, "of a checksum", "dnum"),
     ]
     for message in spec.MESSAGES:
         name = message.name
@@ -35,5 +42,7 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
     found += [
         RapidConstant(f"ROS_TRAJ_{s.name}", s, "trajectory state") for s in spec.TrajectoryState
     ]
+    found += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
+    found += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
     found += [RapidConstant(f"ROS_REASON_{r.name}", r, spec.REASON_TEXTS[r]) for r in spec.Reason]
-    return tuple(RapidConstant(c.name, int(c.value), c.text) for c in found)
+    return tuple(RapidConstant(c.name, int(c.value), c.text, c.type) for c in found)

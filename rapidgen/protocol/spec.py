@@ -9,7 +9,7 @@ ROS-Industrial nodes for what they really send.
 from dataclasses import dataclass
 from enum import IntEnum, IntFlag, StrEnum
 
-PROTOCOL_VERSION = 1
+PROTOCOL_VERSION = 2
 """Version of the messages in ABB's range. The standard messages have none: `since` 0."""
 
 PREFIX_BYTES = 4
@@ -20,6 +20,21 @@ MAX_MESSAGE_BYTES = 1024
 """Largest message, length field included: more than this crashes a ROS-Industrial node."""
 MAX_LENGTH = MAX_MESSAGE_BYTES - PREFIX_BYTES
 MAX_JOINTS = 10
+
+INDEX_WRAP = 2**23
+"""Streams, trajectories and the points of a stream count modulo this: a num holds it exactly."""
+PAIR_SCALE = 1_000_000
+"""Steps of a fixed-point number in one rad, m or s."""
+PAIR_BITS = 26
+PAIR_ZERO = 2 ** (PAIR_BITS - 1)
+"""What stands for the value 0."""
+PAIR_BASE = 2**PAIR_BITS
+PAIR_LIMIT = (PAIR_ZERO - 1) / PAIR_SCALE
+"""Largest magnitude of a fixed-point number, rad, m or s."""
+CHECKSUM_MODULUS = 2**51 - 129
+"""A prime: with words below 2^52 every step is exact in a RAPID dnum, a 64-bit float."""
+FEEDBACK_WRAP = 1000.0
+"""s after which the time stamp of JOINT_FEEDBACK begins again at 0."""
 
 
 class Port(IntEnum):
@@ -97,6 +112,25 @@ class Feature(IntFlag):
     FEEDBACK = 32
 
 
+class StreamFlag(IntFlag):
+    """What a batch of points says about its stream."""
+
+    BEGIN = 1
+    """A new trajectory begins with it, in the place of what is under way."""
+    END = 2
+    """Nothing follows; the last point is a stop point."""
+    FLUSH = 4
+    """Start with what is there, though it is less than the driver likes to have."""
+
+
+class EventType(IntEnum):
+    """Kind of an event of the controller's log."""
+
+    STATE_CHANGE = 1
+    WARNING = 2
+    ERROR = 3
+
+
 class TrajectoryState(IntEnum):
     """State of the newest trajectory, told in PROGRESS."""
 
@@ -111,6 +145,10 @@ class TrajectoryState(IntEnum):
     """Ended before its last point; what was executed is a prefix."""
     STOPPED = 6
     """Ended by a STOP."""
+    STARVED = 7
+    """Stands at the last point of a stream that came, and waits for more."""
+    PAUSED = 8
+    """Stands on its path by request."""
 
 
 class Reason(IntEnum):
@@ -131,6 +169,11 @@ class Reason(IntEnum):
     FRAMING = 12
     UNKNOWN_MESSAGE = 13
     BAD_PADDING = 14
+    OVERRUN = 15
+    CHECKSUM = 16
+    NO_SIGNAL = 17
+    READ_ONLY = 18
+    BAD_VALUE = 19
     NOT_EXECUTING = 20
     MOTORS_OFF = 21
     EMERGENCY_STOP = 22
@@ -166,6 +209,11 @@ REASON_TEXTS: dict[Reason, str] = {
     Reason.FRAMING: "the length of a message does not fit its type",
     Reason.UNKNOWN_MESSAGE: "the message type is not known on this port",
     Reason.BAD_PADDING: "a joint that the robot does not have is not zero",
+    Reason.OVERRUN: "more points than there is room for",
+    Reason.CHECKSUM: "the checksum of a batch is wrong",
+    Reason.NO_SIGNAL: "the driver does not have this signal",
+    Reason.READ_ONLY: "this signal may not be written",
+    Reason.BAD_VALUE: "a value is outside its range",
     Reason.NOT_EXECUTING: "the motion task is not executing",
     Reason.MOTORS_OFF: "the motors are off",
     Reason.EMERGENCY_STOP: "an emergency stop is active",
@@ -204,18 +252,30 @@ class Wire(StrEnum):
 
     INT32 = "int32"
     FLOAT32 = "float32"
+    UINT64 = "uint64"
+    PAIR = "pair"
+    """Two fixed-point numbers (a, b) in one uint64, each in steps of 1 / PAIR_SCALE from
+    PAIR_ZERO: `a * PAIR_BASE + b`. Below 2^52, so that a RAPID dnum holds it exactly."""
     CHAR = "char"
     """One byte of ASCII; a text is filled up with zero bytes."""
 
     @property
     def size(self) -> int:
         """Bytes of one value."""
-        return 1 if self is Wire.CHAR else 4
+        return _WIRE_SIZES.get(self, 4)
+
+
+_WIRE_SIZES = {Wire.CHAR: 1, Wire.UINT64: 8, Wire.PAIR: 8}
+ANY = 0
+"""Count of a field that has as many values as the length of the message says."""
 
 
 @dataclass(frozen=True, slots=True)
 class Field:
-    """One field: `count` values of `type`; a CHAR field of any count is one text."""
+    """One field: `count` values of `type`; a CHAR field of any count is one text.
+
+    At most one field of a message has the count ANY.
+    """
 
     name: str
     type: Wire
@@ -225,7 +285,7 @@ class Field:
 
     @property
     def size(self) -> int:
-        """Bytes on the wire."""
+        """Bytes on the wire; of a field with the count ANY, those of no value."""
         return self.type.size * self.count
 
 
@@ -257,13 +317,18 @@ class Message:
 
     @property
     def size(self) -> int:
-        """Bytes of the data."""
+        """Bytes of the data; the fewest where a field has any number of values."""
         return sum(field.size for field in self.fields)
 
     @property
     def length(self) -> int:
-        """Value of the length field."""
+        """Value of the length field; the smallest where a field has any number of values."""
         return HEADER_BYTES + self.size
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the length is always the same."""
+        return all(field.count != ANY for field in self.fields)
 
 
 def _int(name: str, text: str = "", count: int = 1) -> Field:
@@ -364,21 +429,22 @@ JOINT_FEEDBACK = Message(
     "controller",
     (Port.STATE,),
     (
-        _int("robot_id"),
+        _int("robot_id", "0"),
         _int("valid_fields", "bits: 1 time, 2 position, 4 velocity, 8 acceleration"),
-        _real("time", "s"),
+        _real("time", "s", "of the controller's clock, 0 to 1000, then again from 0"),
         _POSITIONS,
         _real("velocities", "rad/s, m/s", count=MAX_JOINTS),
         _real("accelerations", "rad/s2, m/s2", count=MAX_JOINTS),
     ),
-    text="Where the axes are, with time and derivatives.",
+    text="Where the axes are, with time and derivatives. Only on connections that asked for it "
+    "in HELLO.",
 )
 HELLO = Message(
     "HELLO",
     1300,
     1,
     "client",
-    (Port.STATE,),
+    (Port.STATE, Port.CONTROL),
     (
         _int("protocol", "newest protocol version of the client"),
         _int("client", "version of the client: major, minor, patch", 3),
@@ -403,6 +469,11 @@ HELLO = Message(
                 _real("lower", "rad, m", "limits of the controller axes", MAX_JOINTS),
                 _real("upper", "rad, m", "", MAX_JOINTS),
                 _real("speed", "rad/s, m/s", "", MAX_JOINTS),
+                _int("control_port", "TCP port of the control connection, 0 none"),
+                _int("ring", "points of a stream that the driver takes ahead"),
+                _real("preload", "s", "that it likes to have before it starts"),
+                _int("batch", "points of one POINTS, 0 when it does not stream"),
+                _int("signals", "signals that SIGNAL reaches"),
             ),
             "a rapidgen driver of a version that fits",
         ),
@@ -413,7 +484,9 @@ HELLO = Message(
         ),
     ),
     text="Who is there? Sent as a request on the state port, where abb_driver reads nothing and "
-    "so is not disturbed; no reply within a second means a plain simple_message driver.",
+    "so is not disturbed; no reply within a second means a plain simple_message driver. On the "
+    "control port it tells whose port that is. A reply of another length is one of another "
+    "version: its first field still says which.",
 )
 PROGRESS = Message(
     "PROGRESS",
@@ -431,6 +504,137 @@ PROGRESS = Message(
     ),
     text="How far the newest trajectory is. Only on connections that asked for it in HELLO.",
 )
+POINTS = Message(
+    "POINTS",
+    1302,
+    2,
+    "client",
+    (Port.MOTION,),
+    (
+        _int("stream", "the client's number of the stream, 1 to 2^23 - 1"),
+        _int("flags", "bits: 1 BEGIN, 2 END, 4 FLUSH"),
+        _int("first", "index of the first point, from 0, modulo 2^23"),
+        _int("points", "how many follow, from 0"),
+        Field("pairs", Wire.PAIR, ANY, "s, rad, m", "per point: duration, joints, then 0 if odd"),
+        Field("checksum", Wire.UINT64, 1, "", "of all words before it, see below"),
+    ),
+    replies=(
+        Reply(
+            ReplyCode.SUCCESS,
+            (
+                _int("stream"),
+                _int("trajectory", "its number, as in PROGRESS"),
+                _int("accepted", "points accepted, modulo 2^23"),
+                _int("room", "points that may follow"),
+                _int("planned", "points given to the path planner, modulo 2^23"),
+                _int("reached", "points that the robot has reached, modulo 2^23"),
+                _int("state", "see the table of trajectory states"),
+            ),
+            "all points of the batch are accepted",
+        ),
+        Reply(
+            ReplyCode.FAILURE,
+            (
+                _int("stream"),
+                _int("trajectory", "its number, as in PROGRESS; 0 when there is none"),
+                _int("accepted", "points accepted, modulo 2^23"),
+                *_REFUSAL,
+            ),
+            "points from `accepted` on are refused, and so is what follows them",
+        ),
+    ),
+    text="Points of a trajectory without end. As a topic it is not answered.",
+)
+STOPPED = Message(
+    "STOPPED",
+    1303,
+    2,
+    "controller",
+    (Port.CONTROL,),
+    (
+        _int("trajectory", "as in PROGRESS"),
+        _int("reached", "points that the robot has reached"),
+        _int("reason", "see the table of reasons"),
+        _real("joints", "rad, m", "where the axes stand", MAX_JOINTS),
+    ),
+    text="Where the robot stands after a halt, when its path is gone. Sent by itself.",
+)
+_REASON = _int("reason", "see the table of reasons")
+_NOT_DONE = Reply(ReplyCode.FAILURE, (_REASON,), "it was not done")
+PAUSE = Message(
+    "PAUSE",
+    1304,
+    2,
+    "client",
+    (Port.CONTROL,),
+    (_int("paused", "1 stop on the path and keep it, 0 go on"),),
+    replies=(Reply(ReplyCode.SUCCESS), _NOT_DONE),
+    text="Holds a motion on its path, or lets it go on.",
+)
+SPEED = Message(
+    "SPEED",
+    1305,
+    2,
+    "client",
+    (Port.CONTROL,),
+    (_real("percent", "1", "1 to 100 % of the programmed speed"),),
+    replies=(Reply(ReplyCode.SUCCESS), _NOT_DONE),
+    text="Speed override; 100 again with every new trajectory.",
+)
+HEARTBEAT = Message(
+    "HEARTBEAT",
+    1306,
+    2,
+    "client",
+    (Port.CONTROL,),
+    (_real("timeout", "s", "until the next one must come; 0: none is awaited any more"),),
+    replies=(
+        Reply(
+            ReplyCode.SUCCESS,
+            (
+                _int("trajectory", "number of the newest trajectory"),
+                _int("state", "see the table of trajectory states"),
+            ),
+        ),
+        _NOT_DONE,
+    ),
+    text="A sign of life of the client. When the next one is late, or the connection breaks while "
+    "one is awaited, the robot is stopped (CLIENT_LOST).",
+)
+SIGNAL = Message(
+    "SIGNAL",
+    1307,
+    2,
+    "client",
+    (Port.CONTROL,),
+    (
+        _int("signal", "of the configuration, from 0"),
+        _int("write", "1 write `value`, 0 read"),
+        _real("value", "1"),
+    ),
+    replies=(
+        Reply(
+            ReplyCode.SUCCESS,
+            (_int("signal"), _real("value", "1", "as it was read, after any writing")),
+        ),
+        _NOT_DONE,
+    ),
+    text="Reads or writes one of the signals that the configuration exposes.",
+)
+EVENT = Message(
+    "EVENT",
+    1308,
+    2,
+    "controller",
+    (Port.STATE,),
+    (
+        _int("domain", "of the event's number: 1 to 14"),
+        _int("number", "within the domain"),
+        _int("type", "1 state change, 2 warning, 3 error"),
+        Field("title", Wire.CHAR, 80, "", "in the controller's language"),
+    ),
+    text="An event of the controller's log. Only on connections that asked for it in HELLO.",
+)
 
 MESSAGES: tuple[Message, ...] = (
     PING,
@@ -441,8 +645,31 @@ MESSAGES: tuple[Message, ...] = (
     JOINT_FEEDBACK,
     HELLO,
     PROGRESS,
+    POINTS,
+    STOPPED,
+    PAUSE,
+    SPEED,
+    HEARTBEAT,
+    SIGNAL,
+    EVENT,
 )
 BY_NUMBER: dict[int, Message] = {message.number: message for message in MESSAGES}
+
+
+def point_pairs(joint_count: int) -> int:
+    """PAIRs of one point in POINTS: a duration and the joints, two by two."""
+    return (2 + joint_count) // 2
+
+
+def points_length(count: int, joint_count: int) -> int:
+    """Value of the length field of a POINTS with so many points."""
+    return POINTS.length + count * point_pairs(joint_count) * Wire.PAIR.size
+
+
+def batch_points(joint_count: int) -> int:
+    """Points that fit in one POINTS: 30 for six axes, 20 for ten."""
+    return (MAX_LENGTH - POINTS.length) // (point_pairs(joint_count) * Wire.PAIR.size)
+
 
 RESERVED: tuple[tuple[str, int], ...] = (
     ("JOINT_TRAJ", 12),

@@ -43,7 +43,7 @@ class Script:
     joints: int = 6
     rapidgen: bool = True
     mapping: str = ""
-    protocol: int = 1
+    protocol: int = 2
     capacity: int = 1000
     state_period: float = 0.01
     speed: float = 1.0
@@ -294,12 +294,12 @@ class FakeController:
 
     def _hello(self):
         script = self.script
-        if script.protocol != 1:
+        if script.protocol != 2:
             return frame(1300, 3, 2, struct.pack("<i", script.protocol))
         limits = [3.0] * script.joints + [0.0] * (10 - script.joints)
         data = struct.pack(
-            "<4i12s12s4i4f10f10f10f",
-            1,
+            "<4i12s12s4i4f10f10f10fiifii",
+            2,
             0,
             1,
             0,
@@ -316,5 +316,10 @@ class FakeController:
             *[-v for v in limits],
             *limits,
             *[4.0] * 10,
+            0,
+            128,
+            0.0,
+            0,
+            0,
         )
         return frame(1300, 3, 1, data)

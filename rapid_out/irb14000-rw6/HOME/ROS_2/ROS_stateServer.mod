@@ -7,7 +7,7 @@ MODULE ROS_stateServer
     !
     ! This task may hang in a send while its client does not read; nobody waits for it.
 
-    CONST string ROS_BUILD_STATE := "ebd6e5d40612";
+    CONST string ROS_BUILD_STATE := "c18628cb0e56";
 
     LOCAL CONST num PORT := 12002;
     LOCAL CONST num PERIOD := 0.05;
