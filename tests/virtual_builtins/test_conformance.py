@@ -1,7 +1,7 @@
 """Programs in RAPID that say what they expect: see tests/virtual_core/test_conformance.py.
 
 `! source:`, `! expect:` (one TPWrite, in order), `! fault: NUMBER LINE`, `! signal: NAME TYPE`,
-`! task: NAME ENTRY`, `! robot: SHIPPED NAME`.
+`! task: NAME ENTRY` (a ROB in the name: it has a robot), `! robot: SHIPPED NAME`.
 """
 
 import re
@@ -29,7 +29,7 @@ def _execute(path):
     tasks = [TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", modules)]
     for line in _marks(text, "task"):
         name, entry = line.split()
-        tasks.append(TaskSpec(name, "NORMAL", "SysFail", entry, False, "", modules))
+        tasks.append(TaskSpec(name, "NORMAL", "SysFail", entry, "ROB" in name, "", modules))
     printed = []
     system = System(path.stem, tuple(tasks), signals)
     robots = [g for name in _marks(text, "robot") for g in groups_for(system, load_config(name))]

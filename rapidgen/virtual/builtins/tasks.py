@@ -1,11 +1,8 @@
-"""What a task may ask about itself, the others and the controller; meeting other tasks."""
+"""What a task may ask about itself, the others and the controller."""
 
-from dataclasses import dataclass, field
 from typing import Any
 
-from rapidgen.virtual.builtins.control import wait_standing
 from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.kernel import WaitSet
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.running import RapidTask
 from rapidgen.virtual.values import Ref
@@ -102,71 +99,3 @@ def task_is_active(task: RapidTask, reference: Any, name: str | None) -> bool:  
 def task_is_executing(task: RapidTask, reference: Any, name: str | None) -> bool:  # noqa: ANN401
     """TaskIsExecuting: whether its program runs."""
     return _task(task, reference, name).state == "running"
-
-
-# -- meeting -----------------------------------------------------------------------------------
-
-
-@dataclass
-class Meeting:
-    """Tasks that have come to one synchronisation point."""
-
-    members: frozenset[str]
-    arrived: set[str] = field(default_factory=set)
-    changed: WaitSet = field(default_factory=WaitSet)
-    complete: bool = False
-
-
-@builtin("WaitSyncTask")
-def wait_sync_task(
-    task: RapidTask, in_pos: bool | None, identity: Ref, tasks: Ref, time_out: float | None
-) -> None:
-    """WaitSyncTask: until every task of the list waits at the point of that name.
-
-    \\TimeOut: ERR_WAITSYNCTASK. A task that is not in its own list is an error.
-    """
-    if in_pos:
-        wait_standing(task)
-    members = frozenset(entry.taskname.lower() for entry in tasks.get().values())
-    own = task.name.lower()
-    known = {t.name.lower() for t in task.controller.rapid_tasks.values()}
-    if own not in members or not members <= known:
-        raise RapidError("ERR_TASKNAME", ", ".join(sorted(members - known)) or task.name)
-    key = _sync_name(task, identity)
-    meetings: dict[tuple[str, frozenset[str]], Meeting] = task.controller.meetings
-    meeting = meetings.setdefault((key, members), Meeting(members))
-    meeting.arrived.add(own)
-    if meeting.arrived == meeting.members:
-        meeting.complete = True
-        del meetings[key, members]
-        meeting.changed.notify()
-        return
-    try:
-        met = task.wait_for(lambda: meeting.complete, on=(meeting.changed,), timeout=time_out)
-    finally:
-        if not meeting.complete:
-            meeting.arrived.discard(own)
-    if not met:
-        raise RapidError("ERR_WAITSYNCTASK")
-
-
-def _sync_name(task: RapidTask, identity: Any) -> str:  # noqa: ANN401 - an opaque syncident
-    """A syncident is known by the name of its variable, the same in each task."""
-    program = task.program
-    for module in program.modules.values():
-        for key in module.declarations:
-            if program.value(module, key) is identity:
-                return key
-    return ""
-
-
-@builtin("TasksInSync")
-def tasks_in_sync(task: RapidTask, tasks: Ref) -> bool:
-    """TasksInSync: whether the listed tasks move synchronously; they never do here."""
-    return False
-
-
-@builtin("IsSyncMoveOn")
-def is_sync_move_on(task: RapidTask) -> bool:
-    """IsSyncMoveOn: synchronised movements are not available."""
-    return False
