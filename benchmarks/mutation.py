@@ -1,93 +1,109 @@
 """Which share of all mutants of the generated modules does the suite notice?
 
-    python benchmarks/mutation.py [--every N] [--jobs N] [ROBOT]
+    python benchmarks/mutation.py [--every N] [--jobs N] [--output FILE] [ROBOT]
 
-One fixed operator list (rapidgen/proving/mutation.py); every place where an operator fits is a
-mutant. `--every N` takes each N-th. Survivors are listed: each is a missing case, or the same
-program in other words.
+One fixed operator list (rapidgen/proving/mutation.py); every place in a routine where an operator
+fits is a mutant, equivalent ones included. `--every N` takes each N-th. A mutant is judged by the
+cases of `rapidgen test` that execute its statement, until one notices it.
+
+Verdicts go to FILE (JSON lines) as they come; a run that was broken off goes on there. Survivors
+are listed: each is a missing case, or the same program in other words. `--again` judges the
+survivors of FILE once more, for cases that have been added since.
 """
 
 import argparse
-import signal
+import hashlib
+import json
 import sys
-from concurrent.futures import ProcessPoolExecutor
+import time
+from collections import Counter
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from multiprocessing import get_context
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
-from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.model import Broken
+from rapidgen.proving.judging import Judge
 from rapidgen.proving.mutation import mutants
 from rapidgen.proving.suite import CASES
-from rapidgen.virtual.controller import Deadlock
-
-PATIENCE = 120
-"""s of wall clock in which a mutant must have been judged; one that hangs the driver is seen."""
 
 
-class Hung(Exception):
-    """The mutant makes no progress."""
+def key_of(mutant):
+    """The same for the same mutant of the same modules."""
+    content = b"\0".join((SYSTEM.build_id.encode(), mutant.path.encode(), mutant.text))
+    return hashlib.sha256(content).hexdigest()[:20]
 
 
-def hang(*_):
-    raise Hung
+def judged(number):
+    mutant = FOUND[number]
+    return number, JUDGE.judge(mutant)
 
 
-def judge(mutant):
-    """Name of the case that notices the mutant, or an empty text."""
-    signal.signal(signal.SIGALRM, hang)
-    signal.alarm(PATIENCE)
-    try:
-        for case in CASES:
-            bench = Bench(CONFIG, with_module(SYSTEM, mutant.module, mutant.text))
-            try:
-                case.prove(bench)
-            except (Broken, Deadlock):
-                return case.name
-            finally:
-                bench.close()
-    except DiagnosticError:
-        return "(not loaded)"
-    except Hung:
-        return "(hangs)"
-    finally:
-        signal.alarm(0)
-    return ""
+def known():
+    """Verdicts of an earlier run, by key."""
+    if ARGUMENTS.output is None or not ARGUMENTS.output.exists():
+        return {}
+    rows = map(json.loads, ARGUMENTS.output.read_text(encoding="utf-8").splitlines())
+    return {r["key"]: r for r in rows if r["by"] or not ARGUMENTS.again}
 
 
 def main():
-    found = [
-        mutant
-        for name, data in sorted({m.name: m.data for t in SYSTEM.tasks for m in t.modules}.items())
-        for mutant in mutants(data, name)
-    ]
-    chosen = found[:: ARGUMENTS.every]
-    print(f"{len(chosen)} of {len(found)} mutants")
-    killed = {}
+    verdicts = known()
+    keys = {number: key_of(mutant) for number, mutant in enumerate(FOUND)}
+    chosen = list(range(0, len(FOUND), ARGUMENTS.every))
+    left = [number for number in chosen if keys[number] not in verdicts]
+    print(f"{len(chosen)} of {len(FOUND)} mutants, {len(left)} to be judged", flush=True)
+    started = time.monotonic()
     with ProcessPoolExecutor(ARGUMENTS.jobs, mp_context=get_context("fork")) as pool:
-        for mutant, by in zip(chosen, pool.map(judge, chosen), strict=True):
-            own = killed.setdefault(mutant.module, [0, 0])
-            own[0] += bool(by)
-            own[1] += 1
-            if not by:
-                change = " ".join(mutant.change.split())
-                print(f"  survives: {mutant.module}:{mutant.line} {change[:90]}", flush=True)
-    for module, (dead, of) in killed.items():
-        print(f"{module:18} {dead:4} of {of:4}")
-    dead, of = (sum(pair[i] for pair in killed.values()) for i in (0, 1))
-    print(f"{'all':18} {dead:4} of {of:4} = {dead / of:.1%}")
+        for done in as_completed([pool.submit(judged, number) for number in left]):
+            number, verdict = done.result()
+            mutant = FOUND[number]
+            row = {
+                "key": keys[number],
+                "path": mutant.path,
+                "line": mutant.line,
+                "change": " ".join(mutant.change.split()),
+                "by": verdict.by,
+                "seconds": round(verdict.seconds, 3),
+                "tried": verdict.tried,
+            }
+            verdicts[row["key"]] = row
+            if ARGUMENTS.output is not None:
+                with ARGUMENTS.output.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(row) + "\n")
+    show([verdicts[keys[number]] for number in chosen], time.monotonic() - started)
+
+
+def show(rows, seconds):
+    for row in rows:
+        if not row["by"]:
+            reached = "" if row["tried"] else " (no case gets there)"
+            print(f"  survives: {row['path']}:{row['line']} {row['change'][:100]}{reached}")
+    for path in dict.fromkeys(row["path"] for row in rows):
+        own = [row for row in rows if row["path"] == path]
+        print(f"{path:36} {sum(bool(r['by']) for r in own):4} of {len(own):4}")
+    dead = sum(bool(row["by"]) for row in rows)
+    print(f"{'all':36} {dead:4} of {len(rows):4} = {dead / len(rows):.1%}")
+    spent = sum(row["seconds"] for row in rows)
+    hung = sum(row["by"].endswith("(hangs)") for row in rows)
+    print(f"{spent:.0f} s of CPU, {spent / len(rows):.2f} a mutant; {hung} hang; {seconds:.0f} s")
+    killers = Counter(row["by"] for row in rows if row["by"])
+    print("noticed by", ", ".join(f"{name} {count}" for name, count in killers.most_common(12)))
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("robot", nargs="?", default="irb120")
     parser.add_argument("--every", type=int, default=1)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--output", type=Path)
+    parser.add_argument("--again", action="store_true")
     ARGUMENTS = parser.parse_args()
     CONFIG = load_config(ARGUMENTS.robot)
     SYSTEM = make_system(CONFIG, build(CONFIG))
+    FILES = {m.path: m.data for t in SYSTEM.tasks for m in t.modules}
+    FOUND = [mutant for path, data in sorted(FILES.items()) for mutant in mutants(data, path)]
+    JUDGE = Judge(CONFIG, SYSTEM, CASES)
     main()

@@ -26,8 +26,16 @@ def test(
         bool, typer.Option("--quick", help="Only the default of every assumption.")
     ] = False,
     replay: Annotated[
-        int | None, typer.Option(help="One schedule again, exactly.", metavar="SEED")
+        int | None,
+        typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SEED"),
     ] = None,
+    trace: Annotated[
+        Path | None,
+        typer.Option(help="With --replay: every statement of RAPID.", metavar="FILE"),
+    ] = None,
+    uncovered: Annotated[
+        bool, typer.Option("--uncovered", help="List the lines of RAPID that no case reaches.")
+    ] = False,
     junit: Annotated[Path | None, typer.Option(help="Write JUnit XML.", metavar="FILE")] = None,
     html: Annotated[
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
@@ -48,8 +56,10 @@ def test(
 
     model = load_config(config, overrides=overrides or ())
     if replay is not None:
-        return _replay(model, replay)
+        return _replay(model, replay, trace)
     _check_names(case or [])
+    for path in (junit, html):
+        _check_writable(path)
     with _Progress() as progress:
         report = prove(
             model,
@@ -63,7 +73,7 @@ def test(
         write_junit(report, junit)
     if html is not None:
         write_html(report, html)
-    _show(report)
+    _show(report, uncovered)
     return 0 if report.passed else 1
 
 
@@ -83,6 +93,25 @@ def _check_names(names: list[str]) -> None:
             )
             for name in wrong
         )
+
+
+def _check_writable(path: Path | None) -> None:
+    """Say before a long run that its report has nowhere to go."""
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    if path is None:
+        return
+    try:
+        path.open("a").close()
+    except OSError as error:
+        raise DiagnosticError(
+            Diagnostic(
+                "RG803",
+                Severity.ERROR,
+                f"{path} cannot be written: {error.strerror}",
+                help="name a file in a folder that exists and may be written",
+            )
+        ) from error
 
 
 class _Progress:
@@ -108,9 +137,11 @@ class _Progress:
         self._bars.update(self._tasks[what], completed=done)  # type: ignore[arg-type]
 
 
-def _show(report: "Report") -> None:
+def _show(report: "Report", uncovered: bool) -> None:
     from rich.console import Console
     from rich.table import Table
+
+    from rapidgen.proving.report import missed
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
@@ -122,7 +153,13 @@ def _show(report: "Report") -> None:
     if report.schedules:
         held = report.schedules - len(report.findings)
         table.add_row("schedules", str(held), str(report.schedules), "R1 R5 R7 R12")
+    reached, of = report.covered
+    if of:
+        table.add_row("lines of RAPID", str(reached), str(of), f"{reached / of:.1%} covered")
     console.print(table)
+    if uncovered:
+        for path, lines in missed(report):
+            console.print(f"not reached: {path}: {lines}", markup=False, soft_wrap=True)
     for outcome in report.outcomes:
         if not outcome.passed:
             setting = f" [{outcome.setting}]" if outcome.setting else ""
@@ -137,14 +174,19 @@ def _show(report: "Report") -> None:
     )
 
 
-def _replay(config: "RobotConfig", seed: int) -> int:
+def _replay(config: "RobotConfig", seed: int, trace: Path | None) -> int:
     from rapidgen.proving.run import replay
 
-    finding = replay(config, seed)
-    if finding is None:
+    _check_writable(trace)
+    if trace is None:
+        explored = replay(config, seed)
+    else:
+        with trace.open("w", encoding="utf-8") as file:
+            explored = replay(config, seed, file)
+    typer.echo(explored.plan)
+    if explored.finding is None:
         typer.echo(f"seed {seed}: the invariant held")
         return 0
-    typer.echo(f"seed {seed}: {finding.detail}")
-    typer.echo(finding.plan)
-    typer.echo("\n".join(finding.log))
+    typer.echo("\n".join(explored.finding.log))
+    typer.echo(f"seed {seed}: {explored.finding.detail}")
     return 1

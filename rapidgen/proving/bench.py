@@ -5,40 +5,51 @@ client. Positions are the controller's axes, rad and m, in wire order.
 """
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from rapidgen.config.model import MotionGroup, RobotConfig
-from rapidgen.protocol import Frame, FrameSplitter, decode, encode, messages, spec
+from rapidgen.protocol import Frame, FrameSplitter, WireError, decode, encode, messages, spec
 from rapidgen.proving.model import Broken, Series
 from rapidgen.system.model import System
-from rapidgen.virtual.controller import VirtualController
+from rapidgen.virtual.controller import Deadlock, VirtualController
 from rapidgen.virtual.dialect import Dialect
+from rapidgen.virtual.errors import FatalError
 from rapidgen.virtual.faults import FaultPlan
 from rapidgen.virtual.network.interface import Endpoint, NetworkFault
+from rapidgen.virtual.tracing import Coverage
 
 Position: TypeAlias = tuple[float, ...]
 Point: TypeAlias = tuple[Position, float]
 """Joints and the seconds from the point before."""
+Lines: TypeAlias = dict[str, dict[int, int]]
+"""How often each line of RAPID with a statement was reached, by module file."""
+
+FAILURES = (Broken, Deadlock, FatalError, WireError)
+"""What a driver's fault looks like from here; anything else is a fault of ours."""
 
 SAMPLE = 4_000_000
 """ns between two samples of the record while the robot moves ..."""
 SAMPLE_STANDING = 100_000_000
 """... and while it stands and says so."""
+PLOTTED = 200
+"""Samples of one series in a plot, about."""
 SETTLED = 1e-4
 """rad or m: as far as a standing robot may be from a point that it has reached."""
 
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """How the controller under the driver behaves: schedule, switches, faults."""
+    """How the controller under the driver behaves, and which of its groups is driven."""
 
     seed: int = 0
+    group: int = 0
     random_schedule: bool = False
     switch_at_pers: bool = False
     dialect: Dialect = field(default_factory=Dialect)
     faults: FaultPlan = field(default_factory=FaultPlan)
+    coverage: bool = False
 
 
 class Link:
@@ -55,6 +66,8 @@ class Link:
         self.sent = 0
         self.lost = False
         self._taken = 0
+        self._said: FrameSplitter | None = FrameSplitter()
+        self._trajectory: list[Point] = []
         self.endpoint: Endpoint = self._network.connect("127.0.0.1", port)
         if reading:
             self.endpoint.changed.add(self._receive)
@@ -69,9 +82,32 @@ class Link:
                 self.lost = True
                 return
             self.sent += taken
+            self._listen(data[:taken])
             data = data[taken:]
             if data:
                 self._bench.run(0.01)
+
+    def _listen(self, data: bytes) -> None:
+        """Keep what a well-formed download asks for, for the plots."""
+        if self._said is None:
+            return
+        self._said.feed(data)
+        try:
+            while (frame := self._said.next()) is not None:
+                content = decode(frame)
+                if isinstance(content, messages.TrajectoryPoint):
+                    self._keep(content)
+        except WireError:
+            self._said = None
+
+    def _keep(self, point: messages.TrajectoryPoint) -> None:
+        if point.sequence == spec.Sequence.START_DOWNLOAD:
+            self._trajectory = []
+        joints = tuple(point.joints[: len(self._bench.group.joints)])
+        self._trajectory.append((joints, point.duration))
+        if point.sequence == spec.Sequence.END:
+            self._bench.commanded.append((self._bench.now, self._trajectory))
+            self._trajectory = []
 
     def read(self) -> list[Frame]:
         """Frames that have arrived since the last call."""
@@ -119,9 +155,13 @@ class Bench:
         self.config = config
         self.system = system
         self.setting = setting if setting is not None else Setting()
+        self._beside: list[Bench] = []
         self.controller = self._boot()
-        self.group: MotionGroup = config.groups[0]
+        self._coverage = Coverage(self.controller) if self.setting.coverage else None
+        self.group: MotionGroup = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
+        self.commanded: list[tuple[float, list[Point]]] = []
+        """Downloads that were sent to their end, and when."""
         self._next = self.controller.kernel.after(0, self._sample)
         self.controller.motion.group(self.group.name).changed.add(self._sample)
 
@@ -133,9 +173,25 @@ class Bench:
             schedule="random" if self.setting.random_schedule else "round-robin",
             switch_at_pers=self.setting.switch_at_pers,
             dialect=self.setting.dialect,
-            network=None,
+            faults=self.setting.faults,
+            # A schedule must be the same when it is traced, which is done by statement.
+            accounting="statement" if self.setting.random_schedule else "block",
+            tracing=self.setting.coverage,
         )
         return controller
+
+    def beside(self, system: System) -> "Bench":
+        """Another controller with another system, under the same setting; close it."""
+        other = Bench(self.config, system, self.setting)
+        self._beside.append(other)
+        return other
+
+    def lines(self) -> Lines:
+        """Lines of RAPID that were reached here and beside; empty without `coverage`."""
+        found = self._coverage.lines() if self._coverage is not None else {}
+        for other in self._beside:
+            add_lines(found, other.lines())
+        return found
 
     def _sample(self) -> None:
         """Keep the position when it has changed; look less often while the robot stands."""
@@ -303,23 +359,50 @@ class Bench:
                 return seen
         return self.track[0][1] if self.track else self.position
 
-    def series(self, points: Iterable[Point] = (), since: float = 0.0) -> tuple[Series, ...]:
-        """Executed joints, and commanded ones if given, for a plot."""
-        track = [(t, p) for t, p in self.track if t >= since][::5]
+    def series(self) -> tuple[Series, ...]:
+        """Executed and commanded joints, for a plot; none when nothing moved.
+
+        A download is drawn from the moment in which the robot began to move for it.
+        """
+        if len(self.track) < 2:
+            return ()
+        thinner = max(1, len(self.track) // PLOTTED)
+        track = [*self.track[::thinner], self.track[-1]]
         found = [Series("executed", tuple(t for t, _ in track), tuple(p for _, p in track))]
-        times, rows, at = [], [], since
-        for number, (joints, duration) in enumerate(points):
-            at += duration if number else 0.0
-            times.append(at)
-            rows.append(joints)
-        if rows:
-            found.append(Series("commanded", tuple(times), tuple(rows)))
+        for number, (sent, points) in enumerate(self.commanded):
+            over = self.commanded[number + 1][0] if number + 1 < len(self.commanded) else self.now
+            begun = [t for t, _ in self.track if sent < t <= over]
+            if not begun:
+                continue
+            times, at = [], begun[0]
+            for index, (_, duration) in enumerate(points):
+                at += duration if index else 0.0
+                times.append(at)
+            shown = max(1, len(points) // PLOTTED)
+            rows = tuple(joints for joints, _ in points[::shown])
+            found.append(Series("commanded", tuple(times[::shown]), rows))
         return tuple(found)
 
+    def healthy(self) -> None:
+        """Broken when a task has ended with an error: nothing that happens may do that."""
+        for name, task in self.controller.tasks.items():
+            if task.state == "error":
+                raise Broken(f"task {name} ended with an error: {task.fault}")
+
     def log(self) -> tuple[str, ...]:
-        """Event log and program positions, for a failure's report."""
+        """Event log and program positions with their statements, for a failure's report."""
         events = [str(event) for event in self.controller.log]
-        return (*events[-40:], *self.controller.where())
+        texts = {m.path: m.data for task in self.system.tasks for m in task.modules}
+        places = []
+        for name, task in self.controller.tasks.items():
+            text = ""
+            if task.stack:
+                at = task.stack[-1]
+                lines = texts.get(at.span.path, b"").decode("latin-1").splitlines()
+                statement = lines[at.span.line - 1].strip() if at.span.line <= len(lines) else ""
+                text = f" at {at.span.path}:{at.span.line} ({at.routine}): {statement}"
+            places.append(f"{name} is {task.state}{text}")
+        return (*events[-40:], *places)
 
 
 def point_frame(
@@ -362,16 +445,23 @@ def off(seen: Position, start: Position, end: Position) -> float:
     return distance(seen, tuple(s + share * a for s, a in zip(start, along, strict=True)))
 
 
-def with_module(system: System, name: str, data: bytes) -> System:
-    """The system with one module's text replaced in every task."""
+def add_lines(to: Lines, more: Lines) -> None:
+    """Add up how often lines were reached."""
+    for path, lines in more.items():
+        own = to.setdefault(path, {})
+        for line, hits in lines.items():
+            own[line] = own.get(line, 0) + hits
+
+
+def with_module(system: System, path: str, data: bytes) -> System:
+    """The system with the text of one module file replaced, in every task that loads it."""
     return replace(
         system,
         tasks=tuple(
             replace(
                 task,
                 modules=tuple(
-                    replace(m, data=data, origin=()) if m.name.casefold() == name.casefold() else m
-                    for m in task.modules
+                    replace(m, data=data, origin=()) if m.path == path else m for m in task.modules
                 ),
             )
             for task in system.tasks

@@ -15,12 +15,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
+from typing import TextIO
 
 from rapidgen.config.model import MotionGroup, RobotConfig, TrajectoryPolicy
-from rapidgen.proving.bench import STOP, Bench, Link, Point, Position, Setting, distance, off
+from rapidgen.proving.bench import (
+    FAILURES,
+    STOP,
+    Bench,
+    Link,
+    Point,
+    Position,
+    Setting,
+    distance,
+    off,
+)
 from rapidgen.proving.model import Broken, Finding
 from rapidgen.system.model import System
-from rapidgen.virtual.controller import Deadlock
+from rapidgen.virtual.tracing import Trace
 
 _CORNER = 0.08
 """rad or m by which zones and a change of trajectory may lead off the straight way."""
@@ -31,6 +42,7 @@ class Explored:
     """What one seed did; `finding` when it broke the invariant."""
 
     seed: int
+    plan: str
     finding: Finding | None
 
 
@@ -42,8 +54,13 @@ def explore(
     capacity: int = 1000,
     takes_over: bool = True,
     silence: float = 4.0,
+    trace: TextIO | None = None,
 ) -> Explored:
-    """Run one seed. `silence`: s after which a new client may expect to be served."""
+    """Run one seed; the same one gives the same history.
+
+    `silence`: s after which a new client may expect to be served. `trace` gets a line for each
+    statement of RAPID and for each step of the history.
+    """
     config = RobotConfig(
         name=system.name,
         path=Path("-"),
@@ -53,27 +70,37 @@ def explore(
         trajectory=replace(TrajectoryPolicy(), capacity=capacity),
     )
     setting = Setting(seed=seed, random_schedule=True, switch_at_pers=seed % 2 == 0)
-    bench = Bench(config, system, setting)
-    walk = _Walk(bench, random.Random(f"{seed} walk"), takes_over, silence)
+    bench = Bench(config, system, replace(setting, coverage=trace is not None))
+    if trace is not None:
+        Trace(bench.controller, trace)
+    walk = _Walk(bench, random.Random(f"{seed} walk"), takes_over, silence, trace)
     try:
         walk.go()
-    except (Broken, Deadlock) as error:
-        return Explored(seed, Finding(seed, str(error), "\n".join(walk.plan), bench.log()))
+        bench.healthy()
+    except FAILURES as error:
+        found = Finding(seed, str(error), "\n".join(walk.plan), bench.log())
+        return Explored(seed, "\n".join(walk.plan), found)
     finally:
         bench.close()
-    return Explored(seed, None)
+    return Explored(seed, "\n".join(walk.plan), None)
 
 
 class _Walk:
     """One random history of clients and controller."""
 
     def __init__(
-        self, bench: Bench, chance: random.Random, takes_over: bool, silence: float
+        self,
+        bench: Bench,
+        chance: random.Random,
+        takes_over: bool,
+        silence: float,
+        trace: TextIO | None = None,
     ) -> None:
         self.bench = bench
         self.chance = chance
         self.takes_over = takes_over
         self.silence = silence
+        self.trace = trace
         self.plan: list[str] = []
         self.link: Link | None = None
 
@@ -97,7 +124,9 @@ class _Walk:
         self._good_client()
 
     def _say(self, text: str) -> None:
-        self.plan.append(f"{self.bench.now:9.4f} s  {text}")
+        self.plan.append(f"{self.bench.now:12.6f} {text}")
+        if self.trace is not None:
+            self.trace.write(f"{self.plan[-1]}\n")
 
     # -- steps ----------------------------------------------------------------------------------
 

@@ -42,8 +42,11 @@ class Outcome:
     setting: str = ""
     simulated: float = 0.0
     elapsed: float = 0.0
+    """s of CPU."""
     log: tuple[str, ...] = ()
     series: tuple[Series, ...] = ()
+    lines: dict[str, dict[int, int]] = field(default_factory=dict)
+    """How often lines of RAPID were reached, by file; where coverage was asked for."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +69,14 @@ class Report:
     findings: list[Finding] = field(default_factory=list)
     schedules: int = 0
     elapsed: float = 0.0
+    lines: dict[str, dict[int, int]] = field(default_factory=dict)
+    """Lines of RAPID by file, and how often the cases reached them; empty: not the whole suite."""
+
+    @property
+    def covered(self) -> tuple[int, int]:
+        """Lines that were reached, and all lines with a statement."""
+        hits = [hit for lines in self.lines.values() for hit in lines.values()]
+        return sum(1 for hit in hits if hit), len(hits)
 
     @property
     def passed(self) -> bool:

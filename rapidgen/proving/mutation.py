@@ -22,6 +22,7 @@ from rapidgen.rapid.nodes import (
     TryNext,
     While,
 )
+from rapidgen.virtual.tracing import STATEMENTS
 
 _SWAPS = {
     "<": "<=",
@@ -45,15 +46,20 @@ _TALK = frozenset({"tpwrite", "tperase", "errwrite", "skipwarn"})
 
 @dataclass(frozen=True, slots=True)
 class Mutant:
-    """One changed text of a module. `line` is where; `change` says what was done."""
+    """One changed text of a module file.
 
-    module: str
+    `line` is where, `statement` the line in which the statement around it begins (0: none, as
+    in a declaration); `change` says what was done.
+    """
+
+    path: str
     line: int
+    statement: int
     change: str
     text: bytes
 
 
-def mutants(data: bytes, path: str = "") -> Iterator[Mutant]:
+def mutants(data: bytes, path: str) -> Iterator[Mutant]:
     """All mutants of a module's text, in the order of the text, one operator after another.
 
     Operators: a relation, an arithmetic or logical operator or a truth value swapped; a number
@@ -62,9 +68,12 @@ def mutants(data: bytes, path: str = "") -> Iterator[Mutant]:
     module = parse(data, path=path)
     source = module.source
 
-    def mutant(start: int, end: int, new: str, change: str) -> Mutant:
+    around = _statements(module)
+
+    def mutant(start: int, end: int, new: str, change: str, token: int) -> Mutant:
         text = source.text[:start] + new + source.text[end:]
-        return Mutant(module.name, source.position(start)[0], change, text.encode(source.encoding))
+        line = source.position(start)[0]
+        return Mutant(path, line, around.get(token, 0), change, text.encode(source.encoding))
 
     def of(node: Node) -> tuple[int, int]:
         return source.starts[node.first], source.starts[node.last] + len(source.tokens[node.last])
@@ -72,22 +81,36 @@ def mutants(data: bytes, path: str = "") -> Iterator[Mutant]:
     for node in _inside_routines(module):
         start, end = of(node)
         if isinstance(node, NumberLiteral):
-            yield mutant(start, end, f"{node.value + 1:g}", f"{node.text} -> {node.value + 1:g}")
+            more = f"{node.value + 1:g}"
+            yield mutant(start, end, more, f"{node.text} -> {more}", node.first)
         elif isinstance(node, Branch | While | CompactIf):
             first, last = of(node.condition)
             inner = source.text[first:last]
-            yield mutant(first, last, f"(NOT ({inner}))", f"condition negated: {inner}")
+            token = node.condition.first
+            yield mutant(first, last, f"(NOT ({inner}))", f"condition negated: {inner}", token)
         if isinstance(node, Assignment | ProcedureCall | Connect | Raise | Retry | TryNext):
             if isinstance(node, ProcedureCall) and node.name.casefold() in _TALK:
                 continue
-            yield mutant(start, end, _nothing(module, node), f"left out: {source.text[start:end]}")
+            change = f"left out: {source.text[start:end]}"
+            yield mutant(start, end, _nothing(module, node), change, node.first)
     for first, last in _bodies(module):
         for token in range(first, last + 1):
             word = source.tokens[token]
             swapped = _SWAPS.get(word.upper())
             if swapped is not None and not _is_sign(source.tokens, token):
                 at = source.starts[token]
-                yield mutant(at, at + len(word), swapped, f"{word} -> {swapped}")
+                yield mutant(at, at + len(word), swapped, f"{word} -> {swapped}", token)
+
+
+def _statements(module: Module) -> dict[int, int]:
+    """For each token inside a statement, the line in which the innermost one begins."""
+    found: dict[int, int] = {}
+    for node in _inside_routines(module):
+        # Outer statements come first, so inner ones overwrite.
+        if isinstance(node, STATEMENTS):
+            line = module.source.line(node.first)
+            found.update(dict.fromkeys(range(node.first, node.last + 1), line))
+    return found
 
 
 def _nothing(module: Module, node: Node) -> str:

@@ -76,6 +76,7 @@ def write_html(report: Report, path: Path) -> None:
 <h1>{html.escape(report.name)}: {verdict}</h1>
 <p>BUILD_ID {html.escape(report.build_id)} · {len(report.outcomes)} cases ·
 {report.schedules} schedules explored · on the virtual controller; no real controller was asked.</p>
+{_coverage(report)}
 <table><tr><th>case<th>what must hold<th>answers<th>simulated<th>verdict</tr>
 {rows}</table>
 {"<h2>Schedules that broke the invariant</h2>" + findings if findings else ""}
@@ -84,6 +85,37 @@ def write_html(report: Report, path: Path) -> None:
 """,
         encoding="utf-8",
     )
+
+
+def _coverage(report: Report) -> str:
+    reached, of = report.covered
+    if not of:
+        return ""
+    rows = "".join(f"<li>{html.escape(path)}: {lines}</li>" for path, lines in missed(report))
+    return f"<p>RAPID lines that the cases reached: {reached} of {of}, {reached / of:.1%}.</p>" + (
+        f"<details><summary>lines that none did</summary><ul>{rows}</ul></details>" if rows else ""
+    )
+
+
+def missed(report: Report) -> list[tuple[str, str]]:
+    """By file, the lines that no case reached, as `12, 15-17`."""
+    found = []
+    for path, lines in report.lines.items():
+        # Lines without a statement do not part a range.
+        ranges: list[list[int]] = []
+        open_range = False
+        for line in sorted(lines):
+            if lines[line]:
+                open_range = False
+            elif open_range:
+                ranges[-1][1] = line
+            else:
+                ranges.append([line, line])
+                open_range = True
+        if ranges:
+            texts = [f"{a}" if a == b else f"{a}-{b}" for a, b in ranges]
+            found.append((path, ", ".join(texts)))
+    return found
 
 
 def _name(outcome: Outcome) -> str:
@@ -119,8 +151,8 @@ def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> st
     left, low = min(times), min(values)
     across, up = max(times) - left, (max(values) - low) or 1.0
     lines = []
-    for number, one in enumerate(series):
-        dash = ' stroke-dasharray="5 4"' if number else ""
+    for one in series:
+        dash = ' stroke-dasharray="5 4"' if one.label == "commanded" else ""
         for joint in range(len(one.values[0]) if one.values else 0):
             points = " ".join(
                 f"{(t - left) / across * width:.1f},{height - (row[joint] - low) / up * height:.1f}"
@@ -128,11 +160,8 @@ def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> st
             )
             colour = _COLOURS[joint % len(_COLOURS)]
             lines.append(f'<polyline fill="none" stroke="{colour}"{dash} points="{points}"/>')
-    legend = ", ".join(
-        f"{'dashed' if number else 'solid'}: {html.escape(s.label)}"
-        for number, s in enumerate(series)
-    )
     return (
         f'<svg viewBox="0 0 {width} {height}" width="{width}" height="{height}">'
-        f"{''.join(lines)}</svg><p>{legend}; rad (m) over {across:.2f} s</p>"
+        f"{''.join(lines)}</svg><p>solid: executed, dashed: commanded; one colour a joint; "
+        f"{low:.3f} to {low + up:.3f} rad (m) over {across:.2f} s</p>"
     )

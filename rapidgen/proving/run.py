@@ -6,18 +6,16 @@ from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, fields, replace
 from multiprocessing import get_context
-from typing import Any, TypeVar
+from typing import Any, TextIO, TypeVar
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench, Setting
+from rapidgen.proving.bench import FAILURES, Bench, Setting, add_lines
 from rapidgen.proving.explore import Explored, explore
-from rapidgen.proving.model import Broken, Case, Finding, Outcome, Report
+from rapidgen.proving.model import Case, Outcome, Report
 from rapidgen.proving.suite import CASES
 from rapidgen.system.model import System
-from rapidgen.virtual.controller import Deadlock
 from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.errors import FatalError
 
 R = TypeVar("R")
 
@@ -25,23 +23,26 @@ R = TypeVar("R")
 @dataclass(frozen=True, slots=True)
 class _Job:
     case: int
-    setting: str
+    name: str
+    setting: Setting
 
 
 # What a worker needs, inherited by fork: the configuration and its generated system.
 _shared: tuple[RobotConfig, System] | None = None
 
 
-def settings() -> dict[str, Setting]:
-    """The default, random schedules, a switch at every PERS access, and every switch inverted.
+def settings(config: RobotConfig) -> dict[str, Setting]:
+    """The default for every motion group, two hostile schedules, and every switch inverted.
 
     A controller's behaviour that is only remembered must not decide whether the driver works.
     """
     found = {
-        "": Setting(),
+        "": Setting(coverage=True),
         "random schedule": Setting(seed=1, random_schedule=True),
         "switch at PERS": Setting(seed=1, random_schedule=True, switch_at_pers=True),
     }
+    for number, group in enumerate(config.groups[1:], 1):
+        found[group.name] = Setting(group=number, coverage=True)
     for name, value in _inverted():
         found[f"{name}={value}"] = Setting(dialect=replace(Dialect(), **{name: value}))
     return found
@@ -77,15 +78,19 @@ def prove(
     _shared = (config, system)
     started = time.monotonic()
     report = Report(config.name, output.build_id)
-    chosen = settings() if every_setting else {"": Setting()}
+    chosen = settings(config)
+    if not every_setting:
+        chosen = {name: setting for name, setting in chosen.items() if setting.coverage}
     work = [
-        _Job(number, setting)
-        for setting in chosen
+        _Job(number, name, setting)
+        for name, setting in chosen.items()
         for number, case in enumerate(CASES)
         if cases and (not only or case.name in only)
     ]
-    report.outcomes = _each(work, run_case, jobs, "cases", progress)
+    report.outcomes = _each(work, _attempt, jobs, "cases", progress)
     if not only:
+        for outcome in report.outcomes:
+            add_lines(report.lines, outcome.lines)
         explored = _each(list(range(seeds)), _explore, jobs, "schedules", progress)
         report.schedules = len(explored)
         report.findings = [e.finding for e in explored if e.finding is not None]
@@ -116,30 +121,35 @@ def _each(
     return results
 
 
-def run_case(job: _Job) -> Outcome:
-    """One case under one setting; faults of the driver are outcomes, faults of ours fly."""
+def _attempt(job: _Job) -> Outcome:
     assert _shared is not None
-    config, system = _shared
-    case: Case = CASES[job.case]
-    started = time.monotonic()
-    bench = Bench(config, system, settings()[job.setting])
+    outcome = attempt(CASES[job.case], *_shared, job.setting)
+    return replace(outcome, setting=job.name)
+
+
+def attempt(case: Case, config: RobotConfig, system: System, setting: Setting) -> Outcome:
+    """One case under one setting; faults of the driver are outcomes, faults of ours fly."""
+    started = time.process_time()
+    bench = Bench(config, system, setting)
     detail = ""
     try:
         case.prove(bench)
-    except (Broken, Deadlock, FatalError) as error:
+        bench.healthy()
+    except FAILURES as error:
         detail = str(error) or type(error).__name__
-    outcome = Outcome(
-        case=case,
-        passed=not detail,
-        detail=detail,
-        setting=job.setting,
-        simulated=bench.now,
-        elapsed=time.monotonic() - started,
-        log=bench.log() if detail else (),
-        series=bench.series() if detail or case.name == "whole-trajectory" else (),
-    )
-    bench.close()
-    return outcome
+    try:
+        return Outcome(
+            case=case,
+            passed=not detail,
+            detail=detail,
+            simulated=bench.now,
+            elapsed=time.process_time() - started,
+            log=bench.log() if detail else (),
+            series=bench.series() if detail or setting.coverage else (),
+            lines=bench.lines(),
+        )
+    finally:
+        bench.close()
 
 
 def _explore(seed: int) -> Explored:
@@ -148,9 +158,8 @@ def _explore(seed: int) -> Explored:
     return explore(config.groups[0], system, seed, capacity=config.trajectory.capacity)
 
 
-def replay(config: RobotConfig, seed: int) -> Finding | None:
-    """One schedule again, exactly; what it broke, or None."""
-    output = build(config)
-    system = make_system(config, output)
-    found = explore(config.groups[0], system, seed, capacity=config.trajectory.capacity)
-    return found.finding
+def replay(config: RobotConfig, seed: int, trace: TextIO | None = None) -> Explored:
+    """One schedule again, exactly; every statement of RAPID goes to `trace`."""
+    system = make_system(config, build(config))
+    capacity = config.trajectory.capacity
+    return explore(config.groups[0], system, seed, capacity=capacity, trace=trace)

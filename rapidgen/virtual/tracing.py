@@ -103,6 +103,24 @@ class Coverage:
     def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
         self._hits[id(node)] += 1
 
+    def lines(self) -> dict[str, dict[int, int]]:
+        """By module file: every line that begins a statement, and how often it was reached."""
+        found: dict[str, dict[int, int]] = {}
+        for module in self._modules():
+            if module.file.path not in found:
+                found[module.file.path] = self._lines(module)
+        return found
+
+    def _lines(self, module: LoadedModule) -> dict[int, int]:
+        source = module.tree.source
+        lines: Counter[int] = Counter()
+        for routine in module.tree.routines:
+            for node in walk(routine):
+                if isinstance(node, STATEMENTS):
+                    line = source.line(node.first)
+                    lines[line] = max(lines[line], self._hits[id(node)])
+        return lines
+
     def lcov(self) -> str:
         """The tracefile. A module that several tasks load counts once, all tasks together."""
         records: dict[str, list[str]] = {}
@@ -117,7 +135,7 @@ class Coverage:
 
     def _record(self, module: LoadedModule) -> Iterator[str]:
         source = module.tree.source
-        lines: Counter[int] = Counter()
+        lines = self._lines(module)
         branches: list[str] = []
         yield f"SF:{module.file.path}"
         for routine in module.tree.routines:
@@ -126,9 +144,7 @@ class Coverage:
             for node in walk(routine):
                 if not isinstance(node, STATEMENTS):
                     continue
-                line = source.line(node.first)
-                lines[line] = max(lines[line], self._hits[id(node)])
-                branches += self._branches(node, line)
+                branches += self._branches(node, source.line(node.first))
             if routine.body:
                 hit = self._hits[id(routine.body[0])]
             yield f"FNDA:{hit},{routine.name}"

@@ -16,6 +16,7 @@ from rapidgen.proving.suite import CASES
 from rapidgen.rapid import parse
 
 KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
+SIX_AXES = load_config("irb120")
 BY_NAME = {case.name: case for case in CASES}
 # What depends on the joints of a robot ...
 OF_THE_ROBOT = (
@@ -69,9 +70,9 @@ def test_what_depends_on_the_joints_holds_for_every_kind(name):
     assert broken(load_config(name), OF_THE_ROBOT) == {}
 
 
-@pytest.mark.parametrize("setting", [name for name in settings() if name])
+@pytest.mark.parametrize("setting", [name for name in settings(SIX_AXES) if name])
 def test_it_holds_whatever_is_assumed(setting):
-    assert broken(load_config("irb120"), OF_THE_CONTROLLER, settings()[setting]) == {}
+    assert broken(SIX_AXES, OF_THE_CONTROLLER, settings(SIX_AXES)[setting]) == {}
 
 
 def test_no_schedule_breaks_the_invariant():
@@ -88,9 +89,9 @@ def generated():
 
 
 def patched(system, module, old, new):
-    data = next(m.data for t in system.tasks for m in t.modules if m.name == module)
-    assert data.count(old.encode()) == 1, f"{module} no longer has: {old}"
-    return with_module(system, module, data.replace(old.encode(), new.encode()))
+    file = next(m for t in system.tasks for m in t.modules if m.name == module)
+    assert file.data.count(old.encode()) == 1, f"{module} no longer has: {old}"
+    return with_module(system, file.path, file.data.replace(old.encode(), new.encode()))
 
 
 DEFECTS = {

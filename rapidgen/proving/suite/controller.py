@@ -117,7 +117,7 @@ def _half_speed(bench: Bench) -> None:
 
 def _without_signals(bench: Bench) -> None:
     bare = replace(bench.system, signals=(), outputs=(), cross=())
-    other = Bench(bench.config, bare, bench.setting)
+    other = bench.beside(bare)
     try:
         state, link = other.state(), other.motion()
         status = other.status(state)
@@ -130,18 +130,23 @@ def _without_signals(bench: Bench) -> None:
 
 def _mixed_builds(bench: Bench) -> None:
     build = bench.system.build_id.encode()
-    names = {m.name for task in bench.system.tasks for m in task.modules if build in m.data}
-    for name in sorted(names):
-        data = next(m.data for task in bench.system.tasks for m in task.modules if m.name == name)
-        mixed = with_module(bench.system, name, data.replace(build, b"0123456789ab"))
-        other = Bench(bench.config, mixed, bench.setting)
+    mine = {t.name: t for t in bench.system.tasks}[bench.group.task].mechanical_unit_group
+    files = {
+        module.path: module.data
+        for task in bench.system.tasks
+        for module in task.modules
+        if task.mechanical_unit_group == mine and build in module.data
+    }
+    for path, data in sorted(files.items()):
+        mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
+        other = bench.beside(mixed)
         try:
             state, link = other.state(), other.motion()
             link.send(other.download(other.wave(4)))
-            other.stays(4, f"{name} is of another build")
+            other.stays(4, f"{path} is of another build")
             status = other.status(state)
             if status.motion_possible != 0:
-                raise Broken(f"with {name} of another build STATUS says that motion is possible")
+                raise Broken(f"with {path} of another build STATUS says that motion is possible")
         finally:
             other.close()
 
