@@ -1088,7 +1088,7 @@ def test_a_state_client_that_does_not_read_harms_nobody(bench):
 def test_hello_and_progress(bench):
     b = bench()
     state = b.state_client()
-    state.send(struct.pack("<4i5i", 32, 1300, 2, 0, 1, 0, 1, 0, 1))
+    state.send(struct.pack("<4i5i", 32, 1300, 2, 0, 2, 0, 1, 0, 1))
     reply = None
     while reply is None or struct.unpack_from("<i", reply, 4)[0] != 1300:
         reply = state.wait_frame()
@@ -1112,7 +1112,7 @@ def test_hello_and_progress(bench):
 def ask_progress(b):
     """A state client that gets PROGRESS."""
     state = b.state_client()
-    state.send(struct.pack("<4i5i", 32, 1300, 2, 0, 1, 0, 1, 0, 1))
+    state.send(struct.pack("<4i5i", 32, 1300, 2, 0, 2, 0, 1, 0, 1))
     b.vc.run_for(0.3)
     state.frames()
     return state
