@@ -15,6 +15,7 @@ from rapidgen.system.model import (
     CrossConnection,
     EventRoutine,
     MechanicalUnitGroup,
+    ModuleFile,
     SignalSpec,
     SignalType,
     System,
@@ -40,6 +41,7 @@ class ModuleEntry:
     all_tasks: bool = False
     all_motion_tasks: bool = False
     line: int = 0
+    installed: bool = False
 
     def loads_into(self, task: TaskSpec) -> bool:
         """Whether `task` loads this file (a shared module is seen by every task)."""
@@ -90,6 +92,7 @@ def modules_of(cfg: CfgText) -> tuple[ModuleEntry, ...]:
             instance.flag("AllTask"),
             instance.flag("AllMotionTask"),
             instance.line,
+            instance.flag("Install"),
         )
         for instance in cfg.instances("CAB_TASK_MODULES")
     )
@@ -191,20 +194,20 @@ def crosses_of(cfg: CfgText) -> tuple[CrossConnection, ...]:
 def sys_cfg(system: System) -> CfgText:
     """The SYS domain: tasks, their modules, event routines and mechanical unit groups."""
     modules: dict[str, list[str]] = {}
-    names: dict[str, str] = {}
+    files: dict[str, ModuleFile] = {}
     for task in system.tasks:
         for module in task.modules:
             if module.target:
                 modules.setdefault(module.target, []).append(task.name)
-                names[module.target] = module.name
+                files[module.target] = module
     sections = [
         _section("CAB_TASKS", map(_task, system.tasks)),
         _section(
             "CAB_TASK_MODULES",
             (
-                _instance(("File", target), ("ModName", names[target]), ("Task", task))
+                instance
                 for target, tasks in modules.items()
-                for task in tasks
+                for instance in _module(files[target], tasks)
             ),
         ),
         _section(
@@ -270,6 +273,15 @@ def _task(task: TaskSpec) -> Instance:
     if task.motion:
         attributes.append(("MotionTask",))
     return _instance(*attributes)
+
+
+def _module(file: ModuleFile, tasks: Iterable[str]) -> list[Instance]:
+    """One instance for each task, but one for all of a shared module."""
+    head = (("File", file.target), ("ModName", file.name))
+    built_in = (("Install",),) if file.installed else ()
+    if file.shared:
+        return [_instance(*head, ("Shared",), *built_in)]
+    return [_instance(*head, ("Task", task), *built_in) for task in tasks]
 
 
 def _unit_group(group: MechanicalUnitGroup) -> Instance:

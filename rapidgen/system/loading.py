@@ -21,10 +21,18 @@ def module_name(data: bytes, fallback: str) -> str:
     return found[1].decode("latin-1") if found else fallback
 
 
-def load_module(path: Path, *, target: str = "", origin: Origin = ()) -> ModuleFile:
+def load_module(
+    path: Path,
+    *,
+    target: str = "",
+    origin: Origin = (),
+    shared: bool = False,
+    installed: bool = False,
+) -> ModuleFile:
     """One module file. Raises RG704 or RG705."""
     data = read_limited(path)
-    return ModuleFile(module_name(data, path.stem), str(path), data, target, origin)
+    name = module_name(data, path.stem)
+    return ModuleFile(name, str(path), data, target, origin, shared, installed)
 
 
 def expand(path: Path) -> list[Path]:
@@ -84,7 +92,13 @@ def load_entries(
             notes.append(missing)
             continue
         origin = (origins or {}).get(f"HOME/{path.relative_to(home).as_posix()}", ())
-        module = load_module(path, target=entry.file, origin=origin)
+        module = load_module(
+            path,
+            target=entry.file,
+            origin=origin,
+            shared=entry.shared,
+            installed=entry.installed,
+        )
         if module.name.casefold() not in known:
             known.add(module.name.casefold())
             modules.append(module)

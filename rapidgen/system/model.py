@@ -22,6 +22,10 @@ class ModuleFile:
     target: str = ""
     origin: tuple[tuple[int, str, int], ...] = ()
     """Line map of a generated file: (RAPID line, template, template line), ascending."""
+    shared: bool = False
+    """Installed once for all tasks, which have its data in common [K §14]."""
+    installed: bool = False
+    """Built in: outermost scope, data outlive PP to main [K §13]. Shared modules are, too."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -99,7 +99,8 @@ class ModuleTable:
     def erase(self, task: "Task", module: str) -> None:
         """Remove a module by its name; ERR_MODULE when there is none, or it is being executed."""
         running = any(place.module.lower() == module.lower() for place in task.stack())
-        if running or module.lower() not in task.program.modules:
+        loaded = task.program.modules.get(module.lower())
+        if running or loaded is None or loaded.installed:  # not for installed ones [manual]
             raise RapidError("ERR_MODULE", module)
         task.program.unload(module)
         self._origins.pop((task.name, module.lower()), None)
@@ -107,7 +108,7 @@ class ModuleTable:
     def save(self, task: "Task", module: str, words: str) -> None:
         """Write a module to a file, with the current values of its persistents."""
         loaded = task.program.modules.get(module.lower())
-        if loaded is None:
+        if loaded is None or loaded.installed:
             raise RapidError("ERR_MODULE", module)
         if not words:
             origin = self.origin(task, module)

@@ -286,6 +286,17 @@ class Cell(WaitSet):
             self.notify()
 
 
+class SharedVariable(Cell):
+    """One VAR that all tasks have in common: of a shared module [K §14.2]. No persistent."""
+
+    __slots__ = ()
+
+    @property
+    def cell(self) -> None:  # type: ignore[override]
+        """What tells a PERS from a variable."""
+        return None
+
+
 class Ref:
     """A datum that a built-in or a VAR parameter may read and write.
 

@@ -270,3 +270,26 @@ def test_model_to_text_and_back():
     assert outputs_of(eio_text) == system.outputs
     assert inputs_of(eio_text) == system.inputs
     assert crosses_of(eio_text) == system.cross
+
+
+def test_shared_and_installed_modules(backup):
+    """-Shared, -Install [code]; one instance stands for all tasks [K §14.3]."""
+    cfg = backup / "SYSPAR/SYS.cfg"
+    text = cfg.read_text()
+    put(backup / "HOME/tools.sys", MODULE % b"Tools")
+    put(
+        cfg,
+        text.replace('"HOME:/Shared.sys" -AllTask', '"HOME:/Shared.sys" -Shared').replace(
+            '"RELEASE:/options/dispense.sys"', '"HOME:/tools.sys" -Install'
+        ),
+    )
+    system = read_backup(backup)
+    robot, back = ({m.name: (m.shared, m.installed) for m in t.modules} for t in system.tasks)
+    plain = (False, False)
+    assert robot == {"user": plain, "Work": plain, "Shared": (True, False), "Tools": (False, True)}
+    assert back == {"Back": plain, "Shared": (True, False)}
+    again = modules_of(parse_cfg(write_cfg(sys_cfg(system))))
+    assert [(e.file, e.tasks, e.shared, e.installed) for e in again] == [
+        ("HOME:/Shared.sys", (), True, False),
+        ("HOME:/tools.sys", ("T_ROB1",), False, True),
+    ]

@@ -14,7 +14,7 @@ from rapidgen.virtual.compiler.evaluate import evaluate
 from rapidgen.virtual.compiler.routine import Compiled, compile_routine
 from rapidgen.virtual.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
 from rapidgen.virtual.errors import RECOVERABLE, FatalError
-from rapidgen.virtual.values import NUM, Cell, Type, make_array, make_record
+from rapidgen.virtual.values import NUM, Cell, SharedVariable, Type, make_array, make_record
 
 if TYPE_CHECKING:
     from rapidgen.virtual.task import Task
@@ -43,6 +43,11 @@ class LoadedModule:
     types: dict[str, TypeDeclaration] = field(default_factory=dict)
     """Declarations of its types."""
 
+    @property
+    def installed(self) -> bool:
+        """Whether it is built in: it does not see the program, which may hide its names."""
+        return self.file.installed or self.file.shared
+
     def span(self, node: n.Node) -> Span:
         """Place of a node."""
         return self.tree.source.span(node.first, node.last)
@@ -55,6 +60,8 @@ class Shared:
         self.cells: dict[str, Cell] = {}
         self.bare: set[str] = set()
         """Cells whose declarations so far had no initial value."""
+        self.common: dict[tuple[str, str], Any] = {}
+        """Data of shared modules by module and name: cells of atoms, else the object itself."""
         self.records: dict[tuple[object, ...], Type] = {}
         self.configured = configured if configured is not None else {}
         """Signals, mechanical units and taskids by lower-case name."""
@@ -69,6 +76,8 @@ class Program:
         self.options = options
         self.modules: dict[str, LoadedModule] = {}
         self.globals: dict[str, Symbol] = {}
+        self.installed: dict[str, Symbol] = {}
+        """Global names of built-in modules: the outermost scope [K §13.1]."""
         self.codes: dict[str, Compiled] = {}
         self.missing: set[str] = set()
         self.faults: list[Diagnostic] = []
@@ -79,6 +88,7 @@ class Program:
         self._predefined: dict[str, Data] = {}
         self._evaluating: set[int] = set()
         self._global_types: dict[str, tuple[LoadedModule, TypeDeclaration]] = {}
+        self._installed_types: dict[str, tuple[LoadedModule, TypeDeclaration]] = {}
         self.space: dict[str, Any] = {
             **runtime.NAMESPACE,
             "R": task,
@@ -104,12 +114,13 @@ class Program:
             module = LoadedModule(tree.name, self._serial, tree, file)
             loaded.append(module)
             self.modules[tree.name.lower()] = module
-            types: list[TypeDeclaration] = [*tree.records, *tree.aliases]
-            for declaration in types:
+            declared: list[TypeDeclaration] = [*tree.records, *tree.aliases]
+            for declaration in declared:
                 key = declaration.name.lower()
                 module.types[key] = declaration
                 if declaration.scope != "LOCAL":
-                    self._global_types.setdefault(key, (module, declaration))
+                    types = self._installed_types if module.installed else self._global_types
+                    types.setdefault(key, (module, declaration))
         for module in loaded:
             for own in module.types.values():
                 self._declare_type(module, own)
@@ -155,7 +166,7 @@ class Program:
         if kind is not None:
             module.symbols[key] = kind
             if d.scope != "LOCAL":
-                self.globals.setdefault(key, kind)
+                self._outside(module).setdefault(key, kind)
 
     def _record(self, module: LoadedModule, d: n.RecordDeclaration) -> Type | None:
         components = []
@@ -177,13 +188,13 @@ class Program:
             module.declarations[d.name.lower()] = d
             if d.scope != "LOCAL":
                 # The module's own entry is made when it is evaluated; this one finds it.
-                self.globals.setdefault(d.name.lower(), Pending(module))
+                self._outside(module).setdefault(d.name.lower(), Pending(module))
         elif isinstance(d, n.RoutineDeclaration):
             routine = self._routine(module, d)
             module.symbols[d.name.lower()] = routine
             self.space[routine.code] = self._stub(routine)
             if d.scope != "LOCAL":
-                self.globals.setdefault(d.name.lower(), routine)
+                self._outside(module).setdefault(d.name.lower(), routine)
 
     def _routine(self, module: LoadedModule, d: n.RoutineDeclaration) -> Routine:
         parameters = []
@@ -230,10 +241,15 @@ class Program:
             self._evaluating.discard(id(d))
         data = self._place(module, d, kind, dims, value)
         module.symbols[key] = data
-        pending = self.globals.get(key)
+        scope = self._outside(module)
+        pending = scope.get(key)
         if isinstance(pending, Pending) and pending.module is module:
-            self.globals[key] = data
+            scope[key] = data
         return data
+
+    def _outside(self, module: LoadedModule) -> dict[str, Symbol]:
+        """The scope that gets the global names of a module."""
+        return self.installed if module.installed else self.globals
 
     def _place(
         self,
@@ -249,6 +265,12 @@ class Program:
         if d.kind == "PERS":
             self.space[code] = self._cell(module, d, kind, dims, value)
             return Data(d.name, "PERS", kind, dims, "cell", code)
+        if d.kind == "VAR" and module.file.shared and d.scope != "TASK":
+            atom = not dims and kind.kind in _ATOMIC
+            made = SharedVariable(d.name, kind, dims, value) if atom else value
+            key = (module.name.lower(), d.name.lower())
+            self.space[code] = self.shared.common.setdefault(key, made)
+            return Data(d.name, "VAR", kind, dims, "cell" if atom else "global", code)
         self.space[code] = value
         readonly = d.kind == "CONST"
         return Data(d.name, d.kind, kind, dims, "global", code, readonly=readonly)
@@ -265,6 +287,10 @@ class Program:
 
         The first declaration with an initial value gives the value [K §14.4].
         """
+        if module.file.shared and d.scope != "TASK":
+            place = (module.name.lower(), d.name.lower())
+            own: Cell = self.shared.common.setdefault(place, Cell(d.name, kind, dims, value))
+            return own
         if d.scope:
             return Cell(d.name, kind, dims, value)
         key = d.name.lower()
@@ -320,9 +346,14 @@ class Program:
         return size
 
     def reset_variables(self) -> None:
-        """Give every module VAR its initial value: PP to main [S4 overview 4-24]."""
+        """Give every module VAR its initial value: PP to main [S4 overview 4-24].
+
+        Data of built-in modules keep theirs, but for what a shared one has for each task [K §13.2].
+        """
         for module in self.modules.values():
             for key, d in module.declarations.items():
+                if module.installed and not (module.file.shared and d.scope == "TASK"):
+                    continue
                 data = module.symbols.get(key)
                 if d.kind == "VAR" and isinstance(data, Data):
                     _, _, value = self._evaluate(module, {}, d)
@@ -332,7 +363,7 @@ class Program:
 
     def find_type(self, module: LoadedModule, key: str) -> Type | None:
         """A type by lower-case name, as seen from a module."""
-        for scope in (module.symbols, self.globals):
+        for scope in self._scopes(module):
             found = scope.get(key)
             if isinstance(found, Type):
                 return found
@@ -340,12 +371,22 @@ class Program:
         place = module.types.get(key)
         owner = module
         if place is None or key in module.symbols:
-            owner, place = self._global_types.get(key, (module, None))
+            owner, place = self._installed_types.get(key, (module, None))
+            if not module.installed:
+                owner, place = self._global_types.get(key, (owner, place))
         if place is not None and key not in owner.symbols:
             self._declare_type(owner, place)
             found = owner.symbols.get(key)
             return found if isinstance(found, Type) else None
         return predefined.find_type(key)
+
+    def _scopes(self, module: LoadedModule | None) -> tuple[dict[str, Symbol], ...]:
+        """Where a name used in a module is looked for, from the inside out [K §13.1, 14.1]."""
+        if module is None:
+            return {}, self.globals, self.installed
+        if module.installed:
+            return module.symbols, self.installed
+        return module.symbols, self.globals, self.installed
 
     def find_data(self, module: LoadedModule | None, key: str) -> Data | None:
         """A datum by lower-case name, as seen from a module (None: from outside)."""
@@ -355,11 +396,12 @@ class Program:
                 own = self._datum(module, key)
             if own is not None:
                 return own if isinstance(own, Data) else None
-        found = self.globals.get(key)
-        if isinstance(found, Pending):
-            found = self._datum(found.module, key)
-        if found is not None:
-            return found if isinstance(found, Data) else None
+        for scope in self._scopes(module)[1:]:
+            found = scope.get(key)
+            if isinstance(found, Pending):
+                found = self._datum(found.module, key)
+            if found is not None:
+                return found if isinstance(found, Data) else None
         return predefined.constant(key) or self._predefined_data(key)
 
     def _predefined_data(self, key: str) -> Data | None:
@@ -402,9 +444,10 @@ class Program:
             own = module.symbols.get(key)
             if isinstance(own, Routine):
                 return own
-        found = self.globals.get(key)
-        if isinstance(found, Routine):
-            return found
+        for scope in self._scopes(module)[1:]:
+            found = scope.get(key)
+            if isinstance(found, Routine):
+                return found
         builtin = predefined.routine(key)
         if builtin is not None and builtin.builtin is not None and builtin.code not in self.space:
             self.space[builtin.code] = builtin.builtin.function
