@@ -145,7 +145,7 @@ def test_stop_start_and_is_standing(cell, joint):
 def test_a_quick_stop_is_shorter_and_stays_on_the_path(make_cell, joint):
     way = []
     for quick in (False, True):
-        cell = make_cell()
+        cell = make_cell(settings=MotionSettings(ramp_time=0.0))
         group = cell.group
         cell.at(0.5, lambda group=group, quick=quick: group.stop("x", quick=quick))
         cell.at(0.5, lambda group=group: way.append(group.positions()[0]))

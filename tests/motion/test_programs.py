@@ -136,7 +136,19 @@ def test_speed_arguments_and_settings(rapid, settings, argument, expected):
         'TPWrite "" \\Num:=ClkRead(c);',
         DATA + "VAR clock c;\n",
     ).run()
-    assert float(out[0]) == pytest.approx(expected, abs=0.05)
+    ramp = 0.0 if "\\T" in argument else MotionSettings().ramp_time
+    assert float(out[0]) == pytest.approx(expected + ramp, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("settings", "ramp"),
+    [("AccSet 100, 100;", 0.05), ("AccSet 100, 50;", 0.1), ("AccSet 100, 5;", 0.5)],
+)
+def test_acc_set_ramp_is_the_rate_at_which_acceleration_builds_up(rapid, settings, ramp):
+    # S4 datasys 2-AccSet-1: percent of the normal rate; below 10 counts as 10
+    cell = rapid(HOME + f"{settings} MoveL Offs(p,0,100,0), v100, fine, tool0;", DATA)
+    cell.run()
+    assert cell.group.motion.ramp == pytest.approx(ramp)
 
 
 def test_trigg_io_sets_a_signal_at_its_place(rapid):
@@ -261,7 +273,7 @@ def test_path_acc_lim_slows_the_ramps(rapid):
             'TPWrite "" \\Num:=ClkRead(c);',
             DATA + "VAR clock c;\n",
         ).run()
-        times.append(float(out[0]))
+        times.append(float(out[0]) - MotionSettings().ramp_time)
     assert times[1] - 1.0 == pytest.approx(0.1 / 0.2, abs=0.01)
     assert times[0] < 1.1
 

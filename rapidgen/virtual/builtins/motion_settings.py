@@ -38,11 +38,15 @@ def vel_set(task: Task, override: float, limit: float) -> None:
 
 @builtin("AccSet")
 def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) -> None:
-    """Percent; acceleration below 20 counts as 20. Without jerk the ramp has no effect."""
+    """Percent of acceleration and of the rate at which it builds up; at least 20 and 10.
+
+    Source: S4 datasys 2-AccSet-1. \\FinePointRamp has no effect: ramps are the same all over.
+    """
     if not 0 <= acceleration <= 100 or not 0 <= ramp <= 100:
         raise RapidError("ERR_ARGVALERR", f"AccSet {acceleration:g}, {ramp:g}")
     modal = group_of(task).modal
     modal.acceleration = max(acceleration, 20) / 100
+    modal.ramp = max(ramp, 10) / 100
 
 
 @builtin("SpeedRefresh")

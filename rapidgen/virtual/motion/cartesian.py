@@ -78,8 +78,9 @@ class CartesianWay:
         if move.time is None:
             self.duration = max(nominal_time(self.measure, move.speed), SHORTEST)
         else:
-            ramps = (from_rest + move.zone.fine) / 2
-            self.duration = timed(move.time, fastest, acceleration, ramps)
+            rests = from_rest + move.zone.fine
+            total = move.time - rests * limits.ramp / 2
+            self.duration = timed(total, fastest, acceleration, rests / 2)
 
     @property
     def tcp(self) -> float:

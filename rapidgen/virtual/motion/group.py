@@ -18,28 +18,18 @@ from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion import events, ways
 from rapidgen.virtual.motion.corners import zone_entry
+from rapidgen.virtual.motion.drive import Drive
 from rapidgen.virtual.motion.legs import Leg
 from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.motion import Motion
-from rapidgen.virtual.motion.moves import (
-    NO_WAY,
-    From,
-    Move,
-    PathEvent,
-    Posture,
-)
+from rapidgen.virtual.motion.moves import Move, Posture
 from rapidgen.virtual.motion.path import Path
-from rapidgen.virtual.motion.pieces import AxisLimits, Piece
+from rapidgen.virtual.motion.pathevents import PathEvents
+from rapidgen.virtual.motion.pieces import AxisLimits
 from rapidgen.virtual.motion.punctuality import Punctuality
 from rapidgen.virtual.motion.settings import MotionSettings
-from rapidgen.virtual.motion.timelaw import TimeLaw, brake, plan
+from rapidgen.virtual.motion.timelaw import TimeLaw
 from rapidgen.virtual.values import Record
-
-MANUAL_REDUCED = 0.25
-"""m/s of the TCP in manual mode with reduced speed."""
-
-
-_NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
 
 
 class Waiter(Protocol):
@@ -61,7 +51,7 @@ class _Level:
 
     path: Path
     motion: Motion
-    events: list[tuple[Leg, PathEvent]]
+    events: PathEvents
 
 
 class MotionGroup:
@@ -77,7 +67,6 @@ class MotionGroup:
     ) -> None:
         self.config = config
         self.name = config.name
-        self.settings = settings
         self.map = JointMap.of(config)
         self.kinematics = Kinematics.of(config)
         """None: the model has no geometry, so it moves in joints only."""
@@ -87,19 +76,16 @@ class MotionGroup:
         self._log = log
         self._io = io
         self._stops: dict[str, None] = {}
-        self._override = 1.0
-        self._refresh = 1.0
-        self._reduced = False
         self._timer: Timer | None = None
-        self._due = inf
         self._commit = inf
-        self._events: list[tuple[Leg, PathEvent]] = []
+        self._events = PathEvents()
         self._stored: list[_Level] = []
         self._release = inf
         self._was_standing = True
         self._punctuality = Punctuality()
         self._concurrent = 0
         self._settled = 0
+        """Start of the motion whose settling was told."""
         self.modal = ModalSettings()
         self.inactive: set[str] = set()
         """External axes of deactivated units (DeactUnit)."""
@@ -107,35 +93,37 @@ class MotionGroup:
         """tooldata of the last move, None before the first."""
         self.work_object: Record | None = None
         """wobjdata of the last move, None before the first or when it had none."""
-        self.observers: list[Callable[[Motion], None]] = []
-        """Called with every new motion (the recorder)."""
         self.listeners: list[Callable[[Move], None]] = []
         """Called with every move that the program asks for."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
         self._path = Path(start)
-        self._motion = Motion(kernel.now, kernel.now, TimeLaw(0.0), (), start)
-        self._history: list[Motion] = []
-        self._planned = _NOT_PLANNED
-        """The law found last: appending asks for it twice."""
+        self._drive = Drive(kernel, settings, start)
         self._report(True)
         io.report("MechUnitActive", 1, config.mechanical_unit)
 
     # -- where it is ------------------------------------------------------------------------
 
+    @property
+    def settings(self) -> MotionSettings:
+        """Assumptions that are switches."""
+        return self._drive.settings
+
+    @settings.setter
+    def settings(self, value: MotionSettings) -> None:
+        self._drive.settings = value
+
+    @property
+    def observers(self) -> list[Callable[[Motion], None]]:
+        """Called with every new motion (the recorder)."""
+        return self._drive.observers
+
     def positions(self) -> Posture:
         """Axis values now, as measured: controller axes, rad and m, wire order."""
-        now = self._kernel.now
-        if not self._history:
-            return self._motion.posture(now)
-        then = now - round(self.settings.servo_lag * S)
-        for motion in reversed((*self._history, self._motion)):
-            if motion.since <= then:
-                return motion.posture(then)
-        return self._history[0].posture(then)
+        return self._drive.measured()
 
     def commanded(self) -> Posture:
         """Axis values now, as planned: ahead of `positions` by the servo lag."""
-        return self._motion.posture(self._kernel.now)
+        return self._drive.commanded()
 
     def joint_target(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """`robax` and `extax` now, deg and mm, 9E9 where there is no axis."""
@@ -164,24 +152,22 @@ class MotionGroup:
     def jump(self, posture: Posture) -> None:
         """Put the standing robot elsewhere (a test, a restored state). The path is dropped."""
         self._finish(self._path.cut(self._path.end), cleared=True)
-        self._path = Path(tuple(posture))
-        self._set_motion(TimeLaw(0.0), self._kernel.now)
-        self._settle()
+        self._begin(Path(tuple(posture)))
 
     @property
     def motion(self) -> Motion:
         """The motion under way, or the last one."""
-        return self._motion
+        return self._drive.motion
 
     @property
     def is_standing(self) -> bool:
         """Whether no axis moves."""
-        return self._kernel.now >= self._end
+        return self._kernel.now >= self._drive.motion.end
 
     @property
     def is_settled(self) -> bool:
         """Whether it stands and the settling time is over too."""
-        return self._kernel.now >= self._end + round(self.settings.settle * S)
+        return self._kernel.now >= self._drive.settled
 
     @property
     def legs(self) -> tuple[Leg, ...]:
@@ -189,48 +175,44 @@ class MotionGroup:
         self._settle()
         return tuple(self._path.legs)
 
-    @property
-    def _end(self) -> int:
-        return self._motion.start + ceil(self._motion.law.duration * S)
-
     # -- speed ------------------------------------------------------------------------------
 
     @property
     def override(self) -> float:
         """Speed override of the controller, 0 to 1."""
-        return self._override
+        return self._drive.override
 
     @override.setter
     def override(self, value: float) -> None:
         if not 0.0 <= value <= 1.0:
             raise ValueError("the speed override is 0 to 1")
-        self._override = value
+        self._drive.override = value
         self._change_speed()
 
     @property
     def refresh(self) -> float:
         """Speed override of the program (SpeedRefresh), 0 to 1."""
-        return self._refresh
+        return self._drive.refresh
 
     @refresh.setter
     def refresh(self, value: float) -> None:
-        self._refresh = value
+        self._drive.refresh = value
         self._change_speed()
 
     @property
     def reduced(self) -> bool:
         """Manual mode with reduced speed: the TCP moves at 250 mm/s at most."""
-        return self._reduced
+        return self._drive.reduced
 
     @reduced.setter
     def reduced(self, value: bool) -> None:
-        if value != self._reduced:
-            self._reduced = value
+        if value != self._drive.reduced:
+            self._drive.reduced = value
             self._change_speed()
 
     def _change_speed(self) -> None:
-        self._planned = _NOT_PLANNED
-        if self._override * self._refresh == 0.0:
+        self._drive.forget()
+        if self._drive.override * self._drive.refresh == 0.0:
             self.stop("override")
         elif "override" in self._stops:
             self.start("override")
@@ -293,16 +275,17 @@ class MotionGroup:
         waits = self.settings.zero_length == "wait" and move.time is not None
         if ways.goes_nowhere(self.config, self.kinematics, move, path.target) and not waits:
             return self._stay(move)
-        place, _ = self._state()
-        fixed = place
+        fixed, _ = self._drive.planned()
         if self._braking():
-            fixed = max(fixed, self._motion.law.place)
-        path.prune(place)
+            fixed = max(fixed, self.motion.law.place)
+        path.prune(self._drive.place())
+        if self.is_standing:
+            self._drive.ramp = self._ramp()
         limits = self._limits()
         make = ways.make(self.config, self.kinematics, self.settings, limits)
         standing = self.is_standing
-        leg, failed = path.extend(move, make, self._law, limits, fixed, self.kinematics)
-        self._events += [(leg, event) for event in move.events]
+        leg, failed = path.extend(move, make, self._drive.law, limits, fixed, self.kinematics)
+        self._events.add(leg)
         if standing and not self._stops:
             leg.began = self._kernel.now / S
         if failed:
@@ -330,7 +313,12 @@ class MotionGroup:
             [j.acceleration * modal.acceleration for j in joints],
             self.settings.corner_share,
             modal.path_acceleration,
+            self._drive.ramp,
         )
+
+    def _ramp(self) -> float:
+        """s in which acceleration builds up under AccSet of now."""
+        return self.settings.ramp_time * self.modal.acceleration / self.modal.ramp
 
     def geometry(self) -> Kinematics:
         """The group's kinematics. FatalError: its model has none."""
@@ -347,9 +335,8 @@ class MotionGroup:
         """Brake on the path and stay until `start` of the same reason. The path is kept."""
         self._settle()
         self._stops[reason] = None
-        place, speed = self._state()
-        if speed > 0.0:
-            self._brake(place, speed, quick)
+        if self._drive.planned()[1] > 0.0:
+            self._brake(quick)
         self._settle()
 
     def start(self, reason: str) -> None:
@@ -363,11 +350,12 @@ class MotionGroup:
     def clear_path(self) -> None:
         """Drop what is left of the path; a moving robot brakes on it first."""
         self._settle()
-        place, speed = self._state()
-        if speed > 0.0 and not self._braking():
-            self._brake(place, speed, False)
-        lost = self._path.cut(self._motion.law.place)
-        self._move_by(self._motion.law, self._motion.start, self._path.target)
+        if self._drive.planned()[1] > 0.0 and not self._braking():
+            self._brake(False)
+        motion, path = self.motion, self._path
+        lost = path.cut(motion.law.place)
+        self._drive.put(motion.law, motion.start, path, path.target)
+        self._rearm()
         self._finish(lost, cleared=True)
         self._settle()
 
@@ -386,14 +374,11 @@ class MotionGroup:
             task.wait_for(lambda: self.is_settled, on=(self.changed,))
         else:
             self.wait_standing(task)
-        place, _ = self._state()
-        self._path.prune(place)
-        self._stored.append(_Level(self._path, self._motion, self._events))
-        self._path = Path(self._motion.rest)
-        self._events = []
+        self._path.prune(self._drive.place())
+        self._stored.append(_Level(self._path, self.motion, self._events))
+        self._events = PathEvents()
         self._stops.pop(reason, None)
-        self._set_motion(TimeLaw(0.0), self._kernel.now)
-        self._settle()
+        self._begin(Path(self.motion.rest))
 
     def restore_path(self, reason: str) -> None:
         """Bring the stored path back; nothing moves until `start(reason)`.
@@ -411,7 +396,8 @@ class MotionGroup:
         place = level.motion.law.place
         if self._path.regain(here, level.motion.rest, place, self._limits()):
             place = self._path.pieces[0].start
-        self._move_by(TimeLaw(place), self._kernel.now, here)
+        self._drive.put(TimeLaw(place), self._kernel.now, self._path, here)
+        self._rearm()
         self._settle()
 
     def reset(self) -> None:
@@ -423,82 +409,37 @@ class MotionGroup:
         for reason in ("move task", "other task"):
             self._stops.pop(reason, None)
         self.modal = ModalSettings()
-        self._refresh = 1.0
+        self._drive.refresh = 1.0
         self._concurrent = 0
         self._change_speed()
 
     def _braking(self) -> bool:
         """Whether the law that runs is a way to a stop that may lie short of the path's end."""
-        return bool(self._stops) or self._motion.law.place < self._path.end - 1e-9
+        return bool(self._stops) or self.motion.law.place < self._path.end - 1e-9
 
-    def _brake(self, place: float, speed: float, quick: bool) -> None:
-        factor = self.settings.quick_factor if quick else 1.0
-        self._path.prune(place)
-        self._set_motion(brake(self._path.pieces, place, speed, factor), self._kernel.now)
-
-    # -- time laws --------------------------------------------------------------------------
-
-    def _state(self) -> tuple[float, float]:
-        return self._motion.law.state((self._kernel.now - self._motion.start) / S)
-
-    def _law(self, pieces: tuple[Piece, ...]) -> TimeLaw | None:
-        now = self._kernel.now
-        planned_at, planned, law = self._planned
-        if planned is pieces and planned_at == now:
-            return law
-        place, speed = self._state()
-        limit = MANUAL_REDUCED if self._reduced else inf
-        law = plan(pieces, place, speed, self._override * self._refresh, limit)
-        self._planned = now, pieces, law
-        return law
+    def _brake(self, quick: bool) -> None:
+        self._punctuality.look(self._path.legs, self.motion, self._kernel.now)
+        self._drive.brake(self._path, quick)
+        self._rearm()
 
     def _replan(self) -> None:
         """Go from the present state to the end of the path."""
-        place, _ = self._state()
-        path = self._path
-        path.prune(place)
-        if not path.pieces or path.end <= place:
-            self._rearm()
-            return
-        law = self._law(path.pieces)
-        if law is None:
-            # It brakes to a stop that cannot be taken back; then on from there.
-            self._set_motion(self._motion.law.then(self._law_from_rest()), self._motion.start)
-        else:
-            self._set_motion(law, self._kernel.now)
-
-    def _law_from_rest(self) -> TimeLaw:
-        limit = MANUAL_REDUCED if self._reduced else inf
-        place = self._motion.law.place
-        law = plan(self._path.pieces, place, 0.0, self._override * self._refresh, limit)
-        assert law is not None  # from rest every limit can be kept
-        return law
-
-    def _set_motion(self, law: TimeLaw, start: int) -> None:
-        path = self._path
-        self._punctuality.look(self._path.legs, self._motion, self._kernel.now)
-        rest = path.target if law.place >= path.end else path.at(law.place)
-        self._move_by(law, start, rest)
-
-    def _move_by(self, law: TimeLaw, start: int, rest: Posture) -> None:
-        now = self._kernel.now
-        self._planned = _NOT_PLANNED
-        if self.settings.servo_lag > 0:
-            old = now - round(self.settings.servo_lag * S)
-            later = [m for m in self._history if m.since > old]
-            kept = self._history[-len(later) - 1 :] if self._history else []
-            self._history = [*kept, self._motion]
-        legs = tuple((leg.end, leg.move) for leg in self._path.legs)
-        self._motion = Motion(now, start, law, self._path.pieces, rest, legs)
-        for observer in self.observers:
-            observer(self._motion)
+        self._punctuality.look(self._path.legs, self.motion, self._kernel.now)
+        self._drive.replan(self._path)
         self._rearm()
+
+    def _begin(self, path: Path) -> None:
+        """A path that begins where the robot stands."""
+        self._path = path
+        self._drive.put(TimeLaw(0.0), self._kernel.now, path)
+        self._rearm()
+        self._settle()
 
     # -- deadlines --------------------------------------------------------------------------
 
     def _rearm(self) -> None:
         """Find out what happens next on the present motion, and ask for that event."""
-        start, law = self._motion.start / S, self._motion.law
+        start, law = self.motion.start / S, self.motion.law
         tail = self._path.tail
         self._commit = self._release = inf
         if tail is not None and not (tail.stops or tail.finished or self._stops):
@@ -507,12 +448,8 @@ class MotionGroup:
         self._schedule()
 
     def _schedule(self) -> None:
-        now = self._kernel.now
-        start, law = self._motion.start, self._motion.law
-        times = [self._end] if now < self._end else []
-        settled = self._end + round(self.settings.settle * S)
-        if now < settled:
-            times.append(settled)
+        now, motion = self._kernel.now, self.motion
+        times = [motion.end, self._drive.settled]
         tail = self._path.tail
         if tail is not None and not (tail.stops or tail.finished or self._stops):
             if not tail.released:
@@ -520,9 +457,9 @@ class MotionGroup:
             times.append(ceil(self._commit * S))
         for leg in self._path.legs:
             if leg.stops:
-                times.append(start + ceil(law.time_at(leg.end) * S))
+                times.append(ceil(motion.time_at(leg.end) * S))
                 break
-        times += [ceil(when * S) for when in map(self._when, self._events) if when < inf]
+        times += [ceil(when * S) for when in self._events.times(motion)]
         ahead = [time for time in times if time > now]
         due = min(ahead, default=None)
         if self._timer is not None:
@@ -542,10 +479,8 @@ class MotionGroup:
             if now >= self._commit:
                 tail.committed = tail.released = changed = True
                 self._corner_failure(tail)
-        if self._events:
-            self._fire_events()
-        place, _ = self._state()
-        done = self._path.passed(place)
+        self._events.fire(self.motion, now)
+        done = self._path.passed(self._drive.place())
         if done:
             self._finish(done, cleared=False)
             changed = True
@@ -556,41 +491,19 @@ class MotionGroup:
             if standing:
                 self._punctuality.report(self._log, self.name)
             changed = True
-        if standing and self._settled != self._motion.start:
-            self._settled = self._motion.start
+        if standing and self._settled != self.motion.start:
+            self._settled = self.motion.start
             changed = True
         self._schedule()
         if changed:
             self.changed.notify()
-
-    def _when(self, entry: tuple[Leg, PathEvent]) -> float:
-        """Kernel time (s) of an event on the present motion; infinite when it stops short."""
-        leg, event = entry
-        law, start = self._motion.law, self._motion.start / S
-        place = leg.end
-        if event.where in (From.END, From.START):
-            length = leg.way.measure.tcp
-            share = min(1.0, event.amount / length) if length > NO_WAY else 0.0
-            way = share * (leg.end - leg.begin)
-            place = leg.begin + way if event.where is From.START else leg.end - way
-        early = event.lag + (event.amount if event.where is From.BEFORE_END else 0.0)
-        if law.place < place - 1e-9:
-            return inf
-        return start + law.time_at(place) - early
-
-    def _fire_events(self) -> None:
-        now = self._kernel.now / S
-        due = [entry for entry in self._events if self._when(entry) <= now]
-        self._events = [e for e in self._events if e not in due and not e[0].cleared]
-        for _, event in due:
-            event.act()
 
     def _finish(self, legs: list[Leg], *, cleared: bool) -> None:
         for leg in legs:
             leg.finished = not cleared
             leg.cleared = cleared
             if not cleared:
-                self._punctuality.finished(leg, self._motion)
+                self._punctuality.finished(leg, self.motion)
         if legs and cleared:
             self.changed.notify()
 

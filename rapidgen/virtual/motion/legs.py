@@ -123,11 +123,13 @@ def joint_way(
     if move.time is None:
         duration = max(fastest, nominal_time(measure[0], move.speed), SHORTEST)
     else:
-        ramp = min(
+        strongest = min(
             (a / abs(d) for d, a in zip(deltas, limits.accelerations, strict=True) if d),
             default=inf,
         )
-        duration = timed(move.time, fastest, ramp, (from_rest + move.zone.fine) / 2)
+        rests = from_rest + move.zone.fine
+        total = move.time - rests * limits.ramp / 2
+        duration = timed(total, fastest, strongest, rests / 2)
     return JointWay(origin, move.target, duration, measure, limits)
 
 

@@ -16,6 +16,8 @@ class ModalSettings:
     """VelSet, m/s of the TCP; moves with \\T ignore it."""
     acceleration: float = 1.0
     """AccSet, share."""
+    ramp: float = 1.0
+    """AccSet: how quickly acceleration builds up, share."""
     check_linear: bool = True
     """ConfL"""
     check_joint: bool = True

@@ -1,8 +1,10 @@
 """What a robot does from a moment on: everything that positions depend on."""
 
 from dataclasses import dataclass
+from math import ceil
 
 from rapidgen.virtual.kernel import S
+from rapidgen.virtual.motion import smoothing
 from rapidgen.virtual.motion.moves import Move, Posture
 from rapidgen.virtual.motion.path import posture_at
 from rapidgen.virtual.motion.pieces import Piece
@@ -11,7 +13,10 @@ from rapidgen.virtual.motion.timelaw import TimeLaw
 
 @dataclass(frozen=True, slots=True)
 class Motion:
-    """A time law over pieces of path. Times are kernel ns."""
+    """A time law over pieces of path. Times are kernel ns.
+
+    The law is what was planned; the robot follows its mean over the last `ramp` s.
+    """
 
     since: int
     """From when on it holds."""
@@ -23,17 +28,37 @@ class Motion:
     """Where it ends."""
     legs: tuple[tuple[float, Move], ...] = ()
     """The moves on the path and where they end."""
+    ramp: float = 0.0
+    """s in which acceleration builds up (`smoothing.py`); 0: at once."""
+
+    @property
+    def end(self) -> int:
+        """When it stands still."""
+        if not self.law.phases[0]:
+            return self.start
+        return self.start + ceil((self.law.duration + self.ramp) * S)
+
+    def planned(self, now: int) -> tuple[float, float]:
+        """Place and speed of the law at a time: from there on it may be planned anew."""
+        return self.law.state((now - self.start) / S)
+
+    def place(self, now: int) -> float:
+        """Where the robot is on the path at a time."""
+        return smoothing.state(self.law, (now - self.start) / S, self.ramp)[0]
+
+    def time_at(self, place: float) -> float:
+        """When the robot reaches a place, kernel s; the standstill for places not reached."""
+        return self.start / S + smoothing.time_at(self.law, place, self.ramp)
 
     def posture(self, now: int) -> Posture:
         """Axis values at a time."""
-        time = (now - self.start) / S
-        if time >= self.law.duration:
+        if now >= self.end:
             return self.rest
-        return posture_at(self.pieces, self.law.state(time)[0], self.rest)
+        return posture_at(self.pieces, self.place(now), self.rest)
 
     def move(self, now: int) -> Move | None:
         """The move under way at a time, or the last one that was."""
-        place, _ = self.law.state((now - self.start) / S)
+        place = self.place(now)
         for end, move in self.legs:
             if place <= end:
                 return move

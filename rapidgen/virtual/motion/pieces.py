@@ -157,7 +157,7 @@ class Curve(Piece):
 class AxisLimits:
     """Speeds and accelerations of the axes (rad, m), turned into limits along a path."""
 
-    __slots__ = ("accelerations", "share", "speeds", "tcp_acceleration")
+    __slots__ = ("accelerations", "ramp", "share", "speeds", "tcp_acceleration")
 
     def __init__(
         self,
@@ -165,12 +165,15 @@ class AxisLimits:
         accelerations: Sequence[float],
         share: float,
         tcp_acceleration: float = inf,
+        ramp: float = 0.0,
     ) -> None:
         self.speeds = tuple(speeds)
         self.accelerations = tuple(accelerations)
         self.share = share
         self.tcp_acceleration = tcp_acceleration
         """m/s^2 of the TCP along the path (PathAccLim)."""
+        self.ramp = ramp
+        """s in which acceleration builds up; a standstill begins and ends half of it later."""
 
     def slow(self, pieces: Sequence[Piece]) -> Sequence[Piece]:
         """Fresh pieces with the limit of the TCP's acceleration."""

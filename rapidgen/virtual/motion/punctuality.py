@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 
-from rapidgen.virtual.kernel import S
 from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.legs import Leg
@@ -25,7 +24,7 @@ class Punctuality:
 
     def look(self, legs: Iterable[Leg], motion: Motion, now: int) -> None:
         """Note when legs were passed, before a new motion forgets it."""
-        place, _ = motion.law.state((now - motion.start) / S)
+        place = motion.place(now)
         for leg in legs:
             if leg.end > place:
                 break
@@ -57,5 +56,5 @@ class Punctuality:
 
 def _note(leg: Leg, motion: Motion) -> float:
     if leg.passed_at is None:
-        leg.passed_at = motion.start / S + motion.law.time_at(leg.end)
+        leg.passed_at = motion.time_at(leg.end)
     return leg.passed_at

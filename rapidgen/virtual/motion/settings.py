@@ -12,6 +12,11 @@ class MotionSettings:
     """s before the last chance to plan a corner at which a fly-by move lets the program go on
     (S4 overview p.5-25: about 0.1 s)."""
 
+    ramp_time: float = 0.05
+    """s in which acceleration builds up to its full value with AccSet 100, 100; 0: at once, no
+    limit of jerk. ABB publishes no figure; a ramp of one period does not excite a vibration of
+    20 Hz, about where the first one of an arm lies. Own choice."""
+
     quick_factor: float = 2.0
     """Deceleration of a quick or emergency stop, in units of the normal one. Memory."""
 

@@ -16,7 +16,7 @@ def timed(total: float, fastest: float, acceleration: float, ramps: float) -> fl
     if ramps == 0.0 or acceleration == inf:
         return max(total, fastest, SHORTEST)
     square = total * total - 4 * ramps / acceleration
-    if square <= 0.0:
-        return max(fastest, sqrt(ramps / acceleration))
+    if total <= 0.0 or square <= 0.0:
+        return max(fastest, sqrt(ramps / acceleration), SHORTEST)
     speed = acceleration * (total - sqrt(square)) / (2 * ramps)
     return max(fastest, 1 / speed)

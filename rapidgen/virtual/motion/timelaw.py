@@ -57,17 +57,41 @@ class TimeLaw:
         self.duration += duration
         self.place = place + (speed + acceleration * duration / 2) * duration
 
-    def then(self, other: "TimeLaw") -> "TimeLaw":
-        """This law to its standstill, then `other`."""
+    @property
+    def phases(self) -> tuple[list[float], list[float], list[float], list[float]]:
+        """Times, places, speeds and accelerations at which the phases begin; not to be changed."""
+        return self._times, self._places, self._speeds, self._accelerations
+
+    def then(self, other: "TimeLaw", pause: float = 0.0) -> "TimeLaw":
+        """This law to its standstill, `pause` s of that, then `other`."""
         chain = TimeLaw(self.place)
-        for law, offset in ((self, 0.0), (other, self.duration)):
-            chain._times += [t + offset for t in law._times]
-            chain._places += law._places
-            chain._speeds += law._speeds
-            chain._accelerations += law._accelerations
-        chain.duration = self.duration + other.duration
+        chain._take(self, slice(None), 0.0)
+        chain.duration = self.duration
+        chain.add(self.place, 0.0, 0.0, pause)
+        chain._take(other, slice(None), chain.duration)
+        chain.duration += other.duration
         chain.place = other.place
         return chain
+
+    def after(self, before: "TimeLaw", time: float, width: float) -> "TimeLaw":
+        """This law, and at negative times what `before` did in the `width` s up to `time`."""
+        if width <= 0.0 or not before._times:
+            return self
+        chain = TimeLaw(self.place)
+        first = max(0, bisect_right(before._times, time - width) - 1)
+        chain._take(before, slice(first, bisect_left(before._times, time)), -time)
+        if before.duration < time:
+            chain.duration = before.duration - time
+            chain.add(before.place, 0.0, 0.0, time - before.duration)
+        chain._take(self, slice(None), 0.0)
+        chain.duration, chain.place = self.duration, self.place
+        return chain
+
+    def _take(self, law: "TimeLaw", phases: slice, offset: float) -> None:
+        self._times += [t + offset for t in law._times[phases]]
+        self._places += law._places[phases]
+        self._speeds += law._speeds[phases]
+        self._accelerations += law._accelerations[phases]
 
     def state(self, time: float) -> tuple[float, float]:
         """Place and speed at a time (the first state for times before 0)."""
@@ -107,19 +131,23 @@ def plan(
     speed: float,
     cap: float = 1.0,
     tcp_limit: float = inf,
+    pause: float = 0.0,
+    wait: float = 0.0,
 ) -> TimeLaw | None:
     """The fastest law from a state to standstill at the end of the last span.
 
-    `spans` begin with the one that contains `place`. `cap` (path speed) and `tcp_limit` (m/s)
-    are ceilings that may be below `speed`: then the law comes down to them. None: from this
-    state the limits of a later span cannot be kept.
+    Spans behind `place` do not count. `cap` (path speed) and `tcp_limit` (m/s) are ceilings that
+    may be below `speed`: then the law comes down to them. At stops on the way it waits `pause` s,
+    before it begins `wait` s. None: from this state the limits of a later span cannot be kept.
     """
+    spans = _ahead(spans, place)
     bounds = _entry_bounds(spans, place)
     if speed > bounds[0]:
         if speed > bounds[0] * (1 + _TOLERANCE) + _TOLERANCE:
             return None
         speed = bounds[0]
     law = TimeLaw(place)
+    law.add(place, speed, 0.0, wait)
     for i, span in enumerate(spans):
         way = span.end - place
         if way <= 0.0:
@@ -148,6 +176,8 @@ def plan(
             law.add(place + rise, peak, 0.0, (way - rise - fall) / peak)
         law.add(span.end - fall, peak, -a, (peak - final) / a)
         place, speed = span.end, final
+        if span.stop and i < len(spans) - 1:
+            law.add(place, 0.0, 0.0, pause)
     law.place = place
     return law
 
@@ -170,6 +200,14 @@ def brake(spans: Sequence[Span], place: float, speed: float, factor: float = 1.0
             break
     law.place = place
     return law
+
+
+def _ahead(spans: Sequence[Span], place: float) -> Sequence[Span]:
+    """From the span that contains a place on."""
+    first = 0
+    while first < len(spans) - 1 and spans[first].end <= place:
+        first += 1
+    return spans[first:] if first else spans
 
 
 def _entry_bounds(spans: Sequence[Span], place: float) -> list[float]:

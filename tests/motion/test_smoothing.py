@@ -1,0 +1,169 @@
+"""Jerk: the mean of a law keeps limits, is smooth whatever was planned anew, stops on its path."""
+
+import random
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from rapidgen.virtual.kernel import S
+from rapidgen.virtual.motion import MotionSettings, smoothing
+from rapidgen.virtual.motion.moves import JointMove, Speed
+from rapidgen.virtual.motion.timelaw import brake, plan
+from tests.motion.test_random import disturb
+from tests.motion.test_timelaw import Stretch, paths
+
+WIDTH = 0.05
+
+
+def limit_within(spans, low, high, name):
+    """The largest limit of the spans between two places."""
+    starts = [0.0, *(span.end for span in spans)]
+    return max(
+        getattr(span, name)
+        for start, span in zip(starts, spans, strict=False)
+        if start <= high + 1e-6 and span.end >= low - 1e-6
+    )
+
+
+@settings(max_examples=200, deadline=None)
+@given(paths(), st.floats(0.005, 0.3))
+def test_the_mean_keeps_every_limit_where_the_robot_is(spans, width):
+    law = plan(smoothing.widened(spans, 0.0, width / 2), 0.0, 0.0, 1.0, pause=width)
+    assert law is not None
+    end = law.duration + width
+    count = 600
+    step = end / count
+    places, speeds = np.array([smoothing.state(law, k * step, width) for k in range(count + 1)]).T
+    assert places[0] == 0.0
+    assert places[-1] == pytest.approx(law.place) == spans[-1].end
+    assert speeds[-1] == pytest.approx(0.0, abs=1e-9)
+    assert np.diff(places).min() >= -1e-12
+    accelerations = np.diff(speeds) / step
+    for k in range(1, count):
+        assert speeds[k] <= limit_within(spans, places[k], places[k], "speed") * (1 + 1e-9) + 1e-9
+        allowed = limit_within(spans, places[k - 1], places[k], "acceleration")
+        assert abs(accelerations[k - 1]) <= allowed * (1 + 1e-6) + 1e-6
+    jerk = np.abs(np.diff(accelerations)) / step
+    assert jerk.max() <= 2 * max(s.acceleration for s in spans) / width * (1 + 1e-6) + 1e-3
+
+
+@settings(max_examples=100, deadline=None)
+@given(paths())
+def test_it_stands_at_every_stop(spans):
+    law = plan(smoothing.widened(spans, 0.0, WIDTH / 2), 0.0, 0.0, 1.0, pause=WIDTH)
+    for span in [s for s in spans if s.stop] + [spans[-1]]:
+        time = smoothing.time_at(law, span.end, WIDTH)
+        place, speed = smoothing.state(law, time, WIDTH)
+        assert place == pytest.approx(span.end, abs=1e-9)
+        assert speed == pytest.approx(0.0, abs=1e-6)
+
+
+@settings(max_examples=100, deadline=None)
+@given(paths(), st.floats(0, 1))
+def test_time_at_is_the_inverse_of_state(spans, share):
+    law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
+    place = share * law.place
+    time = smoothing.time_at(law, place, WIDTH)
+    assert smoothing.state(law, time, WIDTH)[0] == pytest.approx(place, abs=1e-9)
+
+
+@settings(max_examples=100, deadline=None)
+@given(paths(), st.floats(0, 1))
+def test_what_was_planned_before_is_still_felt(spans, share):
+    """Braking at any moment: place, speed and acceleration go on without a jump."""
+    law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
+    now = share * law.duration
+    place, speed = law.state(now)
+    left = [s for s in spans if s.end > place] or [spans[-1]]
+    halt = brake(left, place, speed).after(law, now, WIDTH)
+    for early in (0.0, 0.3, 0.9, 1.0):
+        time = early * WIDTH
+        if now >= time:
+            before = smoothing.state(law, now - time, WIDTH * (1 - early) or 1e-6)
+            after = smoothing.state(halt, -time, WIDTH * (1 - early) or 1e-6)
+            assert after == pytest.approx(before, abs=1e-6)
+    assert smoothing.state(halt, 0.0, WIDTH) == pytest.approx(
+        smoothing.state(law, now, WIDTH), abs=1e-9
+    )
+    end = smoothing.state(halt, halt.duration + WIDTH, WIDTH)
+    assert end == (halt.place, 0.0)
+
+
+def test_a_trapezoid_with_a_ramp():
+    """One move in closed form: the ramp adds its length, and half of it before the middle."""
+    law = plan([Stretch(2.0, 1.0, 4.0)], 0.0, 0.0)
+    assert smoothing.time_at(law, 2.0, WIDTH) == pytest.approx(2.25 + WIDTH)
+    assert smoothing.time_at(law, 1.0, WIDTH) == pytest.approx((2.25 + WIDTH) / 2)
+    assert smoothing.state(law, WIDTH, WIDTH) == pytest.approx((4 * WIDTH**2 / 6, 4 * WIDTH / 2))
+
+
+def test_limits_reach_as_far_as_the_mean():
+    spans = [Stretch(1.0, 1.0, 9.0), Stretch(2.0, 0.5, 9.0), Stretch(3.0, 1.0, 9.0)]
+    wide = smoothing.widened(spans, 0.0, 0.1)
+    assert [(s.end, s.speed) for s in wide] == [
+        (pytest.approx(0.9), 1.0), (pytest.approx(2.1), 0.5), (3.0, 1.0)
+    ]  # fmt: skip
+    across = [Stretch(1.0, 1.0, 9.0, stop=True), Stretch(2.0, 0.5, 9.0)]
+    assert smoothing.widened(across, 0.0, 0.1) == across
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_acceleration_has_no_jump_on_straight_ways_whatever_happens(make_cell, zones, seed):
+    """Stops, starts, overrides, new moves at random: jerk stays what the ramp allows.
+
+    Fine points: inside a corner the parabola's own turning begins at once (docs/motion-model.md).
+    """
+    rng = random.Random(seed)
+    cell = make_cell()
+    acts = rng.randrange(2, 9)
+    disturb(cell, rng, count=acts)
+
+    def program(task):
+        values = list(cell.group.positions())
+        for _ in range(6):
+            task.sleep(1e-3)
+            values = [v + rng.gauss(0, 0.2) if i < 3 else v for i, v in enumerate(values)]
+            values = [
+                min(max(v, j.lower), j.upper)
+                for v, j in zip(values, cell.config.joints, strict=True)
+            ]
+            cell.group.move(task, JointMove(target=tuple(values), speed=Speed(1.0), zone=zones(0)))
+
+    task = cell.start(program)
+    cell.sample(lambda: not task.alive and cell.kernel.now > 4.1 * S, limit=90)
+    jerk = np.abs(np.diff(cell.path, n=3, axis=0)) / 0.002**3
+    allowed = np.array(
+        [2 * j.acceleration / MotionSettings().ramp_time for j in cell.config.joints]
+    )
+    assert (jerk <= allowed * (1 + 1e-3) + 0.1).all()
+
+
+@pytest.mark.parametrize("ramp", [0.0, 0.03, 0.1])
+def test_the_programmed_time_is_exact_with_any_ramp(make_cell, joint, ramp):
+    cell = make_cell(settings=MotionSettings(ramp_time=ramp))
+    times = []
+
+    def program(task):
+        start = task.kernel.now
+        for degrees, z in ((10, 20), (22, 20), (33, 0), (20, 0)):
+            cell.group.move(task, joint(degrees, z=z, time=0.6))
+        times.append((task.kernel.now - start) / S)
+
+    cell.run(program)
+    assert times[0] == pytest.approx(4 * 0.6, abs=1e-6)
+
+
+def test_a_new_ramp_holds_from_the_next_standstill_on(cell, joint):
+    def program(task):
+        cell.group.move(task, joint(10, z=5, time=0.5))
+        cell.group.modal.ramp = 0.1
+        cell.group.move(task, joint(20, time=0.5))
+        seen.append(cell.group.motion.ramp)
+        cell.group.move(task, joint(0, time=2.0))
+        seen.append(cell.group.motion.ramp)
+
+    seen = []
+    cell.run(program)
+    assert seen == [pytest.approx(0.05), pytest.approx(0.5)]
