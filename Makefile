@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
 
-.PHONY: demo test lint types contract unit wheel foreign bench clean
+.PHONY: demo test lint types contract unit wheel foreign bench motion-campaign clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
@@ -53,6 +53,10 @@ foreign: $(STAMP)
 
 bench: $(STAMP)
 	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
+
+# 10,000 random programs with random stops: some 5 minutes. The tests run a few of them.
+motion-campaign: $(STAMP)
+	$(BIN)/python -m tests.motion.campaign
 
 clean:
 	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache

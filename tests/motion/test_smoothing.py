@@ -11,7 +11,7 @@ from rapidgen.virtual.kernel import S
 from rapidgen.virtual.motion import MotionSettings, smoothing
 from rapidgen.virtual.motion.moves import JointMove, Speed
 from rapidgen.virtual.motion.timelaw import brake, plan
-from tests.motion.test_random import disturb
+from tests.motion.campaign import disturb
 from tests.motion.test_timelaw import Stretch, paths
 
 WIDTH = 0.05
