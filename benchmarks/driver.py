@@ -18,7 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import STOP, Bench, off, point_frame
+from rapidgen.proving.bench import Bench, off
+from rapidgen.proving.link import STOP, point_frame
 from tests.foreign.abb_driver import read_system
 
 TRAJECTORIES = Path(__file__).resolve().parent / "trajectories"

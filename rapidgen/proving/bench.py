@@ -7,24 +7,24 @@ client. Positions are the controller's axes, rad and m, in wire order.
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from rapidgen.config.model import MotionGroup, RobotConfig
-from rapidgen.protocol import Frame, FrameSplitter, WireError, decode, encode, messages, spec
+from rapidgen.protocol import WireError, encode, messages, spec
+from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Series
 from rapidgen.system.model import System
 from rapidgen.virtual.controller import Deadlock, VirtualController
 from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.errors import FatalError
+from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.faults import FaultPlan
-from rapidgen.virtual.network.interface import Endpoint, NetworkFault
 from rapidgen.virtual.tracing import Coverage
 
-Position: TypeAlias = tuple[float, ...]
-Point: TypeAlias = tuple[Position, float]
-"""Joints and the seconds from the point before."""
 Lines: TypeAlias = dict[str, dict[int, int]]
 """How often each line of RAPID with a statement was reached, by module file."""
+
+HELLO = messages.Hello(spec.PROTOCOL_VERSION, (0, 0, 0), 1)
+"""As a client says it that wants PROGRESS."""
 
 FAILURES = (Broken, Deadlock, FatalError, WireError)
 """What a driver's fault looks like from here; anything else is a fault of ours."""
@@ -50,102 +50,6 @@ class Setting:
     dialect: Dialect = field(default_factory=Dialect)
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False
-
-
-class Link:
-    """One client connection, as bytes and frames. Frames are taken, with their time, as they come.
-
-    `reading` False: a client that never reads.
-    """
-
-    def __init__(self, bench: "Bench", port: int, *, reading: bool = True) -> None:
-        self._bench = bench
-        self._network = bench.controller.network
-        self._splitter = FrameSplitter()
-        self.frames: list[tuple[float, Frame]] = []
-        self.sent = 0
-        self.lost = False
-        self._taken = 0
-        self._said: FrameSplitter | None = FrameSplitter()
-        self._trajectory: list[Point] = []
-        self.endpoint: Endpoint = self._network.connect("127.0.0.1", port)
-        if reading:
-            self.endpoint.changed.add(self._receive)
-        bench.until(lambda: self.endpoint.connected, 5, f"port {port} accepts a connection")
-
-    def send(self, data: bytes) -> None:
-        """Write all of `data`, letting time pass while the controller has no room."""
-        while data and not self.lost:
-            try:
-                taken = self._network.send(self.endpoint, data)
-            except NetworkFault:
-                self.lost = True
-                return
-            self.sent += taken
-            self._listen(data[:taken])
-            data = data[taken:]
-            if data:
-                self._bench.run(0.01)
-
-    def _listen(self, data: bytes) -> None:
-        """Keep what a well-formed download asks for, for the plots."""
-        if self._said is None:
-            return
-        self._said.feed(data)
-        try:
-            while (frame := self._said.next()) is not None:
-                content = decode(frame)
-                if isinstance(content, messages.TrajectoryPoint):
-                    self._keep(content)
-        except WireError:
-            self._said = None
-
-    def _keep(self, point: messages.TrajectoryPoint) -> None:
-        if point.sequence == spec.Sequence.START_DOWNLOAD:
-            self._trajectory = []
-        joints = tuple(point.joints[: len(self._bench.group.joints)])
-        self._trajectory.append((joints, point.duration))
-        if point.sequence == spec.Sequence.END:
-            self._bench.commanded.append((self._bench.now, self._trajectory))
-            self._trajectory = []
-
-    def read(self) -> list[Frame]:
-        """Frames that have arrived since the last call."""
-        found = [frame for _, frame in self.frames[self._taken :]]
-        self._taken = len(self.frames)
-        return found
-
-    @property
-    def unread(self) -> int:
-        """Index into `frames` of the first one that was not read yet."""
-        return self._taken
-
-    def _receive(self) -> None:
-        while not self.lost:
-            try:
-                data = self._network.receive(self.endpoint, 65_536)
-            except NetworkFault:
-                self.lost = True
-                return
-            if data is None:
-                return
-            if not data:
-                self.lost = True
-                return
-            self._splitter.feed(data)
-            while (frame := self._splitter.next()) is not None:
-                self.frames.append((self._bench.now, frame))
-
-    def expect_reply(self, seconds: float, what: str) -> Frame:
-        """The next frame that was not read yet, within `seconds`."""
-        self._bench.until(lambda: len(self.frames) > self._taken, seconds, what)
-        self._taken += 1
-        return self.frames[self._taken - 1][1]
-
-    def close(self, *, abort: bool = False) -> None:
-        """End the connection (FIN), or reset it (RST)."""
-        self._network.close(self.endpoint, abort=abort)
-        self.lost = True
 
 
 class Bench:
@@ -287,6 +191,38 @@ class Bench:
                     f"(near point {at + 1})"
                 )
 
+    # -- the program ----------------------------------------------------------------------------
+
+    def task(self, module: str) -> str:
+        """Name of this group's task that runs a module."""
+        tasks = {task.name: task for task in self.system.tasks}
+        unit = tasks[self.group.task].mechanical_unit_group
+        for task in tasks.values():
+            names = [m.name.casefold() for m in task.modules]
+            if task.mechanical_unit_group == unit and module.casefold() in names:
+                return task.name
+        raise KeyError(module)
+
+    def fails(self, module: str, instruction: str, error: str, times: int = 1) -> None:
+        """The next `times` calls of an instruction in a module's task raise an error.
+
+        Whatever a controller may report: the driver has to live with it.
+        """
+        program = self.controller.rapid_tasks[self.task(module)].program
+        routine = program.find_routine(None, instruction.casefold())
+        assert routine is not None
+        as_before = program.space[routine.code]
+        left = times
+
+        def failing(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
+            nonlocal left
+            if left <= 0:
+                return as_before(*arguments)
+            left -= 1
+            raise RapidError(error)
+
+        program.space[routine.code] = failing
+
     # -- clients --------------------------------------------------------------------------------
 
     def motion(self) -> Link:
@@ -297,26 +233,36 @@ class Bench:
         """A new connection to the state server."""
         return self._link(self.group.ports.state, reading=reading)
 
-    def _link(self, port: int, *, reading: bool = True) -> Link:
+    def _link(self, port: int, *, reading: bool = True, address: str = "") -> Link:
         network = self.controller.network
         self.until(lambda: port in network.listeners, 10, f"the driver listens on port {port}")
-        return Link(self, port, reading=reading)
+        return Link(self, port, reading=reading, address=address or self.address)
+
+    @property
+    def address(self) -> str:
+        """Where a client of ours comes from: an address that the configuration allows."""
+        return next(iter(self.config.allowed_clients), "127.0.0.1")
+
+    def stranger(self, port: int) -> Link:
+        """A connection from an address that no configuration allows."""
+        return self._link(port, address="203.0.113.77")
 
     def status(self, link: Link, seconds: float = 2) -> messages.Status:
         """The next STATUS on a state connection."""
         link.read()
+        return link.expect(messages.Status, seconds, "a STATUS arrives")
 
-        def arrived() -> messages.Status | None:
-            for _, frame in link.frames[link.unread :]:
-                content = decode(frame)
-                if isinstance(content, messages.Status):
-                    return content
-            return None
+    def watcher(self) -> Link:
+        """A new connection to the state server that asked for PROGRESS."""
+        link = self.state()
+        link.send(encode(HELLO, spec.Comm.REQUEST))
+        link.expect(messages.HelloReply, 2, "HELLO is answered")
+        return link
 
-        self.until(lambda: arrived() is not None, seconds, "a STATUS arrives")
-        status = arrived()
-        assert status is not None
-        return status
+    def progress(self, link: Link, seconds: float = 2) -> messages.Progress:
+        """The next PROGRESS on a connection that asked for it."""
+        link.read()
+        return link.expect(messages.Progress, seconds, "a PROGRESS arrives")
 
     # -- trajectories ---------------------------------------------------------------------------
 
@@ -403,30 +349,6 @@ class Bench:
                 text = f" at {at.span.path}:{at.span.line} ({at.routine}): {statement}"
             places.append(f"{name} is {task.state}{text}")
         return (*events[-40:], *places)
-
-
-def point_frame(
-    number: int, count: int, joints: Position, duration: float, comm: spec.Comm = spec.Comm.TOPIC
-) -> bytes:
-    """Point `number` (from 0) of `count`, numbered as the ROS-Industrial node does."""
-    if number == 0:
-        sequence = int(spec.Sequence.START_DOWNLOAD)
-    elif number == count - 1:
-        sequence = int(spec.Sequence.END)
-    else:
-        sequence = number
-    return raw_point(sequence, joints, duration, comm)
-
-
-def raw_point(
-    sequence: int, joints: Sequence[float], duration: float, comm: spec.Comm = spec.Comm.TOPIC
-) -> bytes:
-    """A point with any sequence number."""
-    padded = (*joints, *[0.0] * (spec.MAX_JOINTS - len(joints)))
-    return encode(messages.TrajectoryPoint(sequence, padded, 0.0, duration), comm)
-
-
-STOP = raw_point(int(spec.Sequence.STOP), (), 0.0, spec.Comm.REQUEST)
 
 
 def distance(one: Position, other: Position) -> float:

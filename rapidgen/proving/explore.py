@@ -18,17 +18,8 @@ from pathlib import Path
 from typing import TextIO
 
 from rapidgen.config.model import MotionGroup, RobotConfig, TrajectoryPolicy
-from rapidgen.proving.bench import (
-    FAILURES,
-    STOP,
-    Bench,
-    Link,
-    Point,
-    Position,
-    Setting,
-    distance,
-    off,
-)
+from rapidgen.proving.bench import FAILURES, Bench, Setting, distance, off
+from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
 from rapidgen.system.model import System
 from rapidgen.virtual.tracing import Trace

@@ -1,7 +1,8 @@
 """What the unmodified ROS-Industrial nodes send and expect."""
 
 from rapidgen.protocol import decode, messages, spec
-from rapidgen.proving.bench import STOP, Bench, Point, distance, point_frame, raw_point
+from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.link import STOP, Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 
 _REPLY = 2.0

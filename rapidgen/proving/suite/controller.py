@@ -5,7 +5,8 @@ from functools import partial
 
 from rapidgen.protocol import spec
 from rapidgen.protocol.spec import Reason
-from rapidgen.proving.bench import Bench, Point, with_module
+from rapidgen.proving.bench import Bench, with_module
+from rapidgen.proving.link import Point
 from rapidgen.proving.model import Broken, Case
 
 

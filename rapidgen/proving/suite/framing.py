@@ -3,7 +3,8 @@
 import random
 
 from rapidgen.protocol import spec
-from rapidgen.proving.bench import Bench, raw_point
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import raw_point
 from rapidgen.proving.model import Broken, Case
 
 ROUNDS = 60

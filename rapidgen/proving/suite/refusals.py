@@ -5,7 +5,8 @@ from collections.abc import Sequence
 
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason
-from rapidgen.proving.bench import Bench, Point, point_frame, raw_point
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 
 

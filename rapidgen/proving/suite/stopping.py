@@ -1,7 +1,8 @@
 """STOP, and trajectories that take each other's place."""
 
 from rapidgen.protocol import decode, messages, spec
-from rapidgen.proving.bench import STOP, Bench, distance
+from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Broken, Case
 
 

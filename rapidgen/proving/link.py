@@ -1,0 +1,158 @@
+"""Client connections to a bench's controller, and the frames that they send."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, TypeAlias, TypeVar
+
+from rapidgen.protocol import Frame, FrameSplitter, WireError, decode, encode, messages, spec
+from rapidgen.virtual.network.interface import Endpoint, NetworkFault
+
+if TYPE_CHECKING:
+    from rapidgen.proving.bench import Bench
+
+C = TypeVar("C")
+Position: TypeAlias = tuple[float, ...]
+Point: TypeAlias = tuple[Position, float]
+"""Joints and the seconds from the point before."""
+
+
+class Link:
+    """One client connection, as bytes and frames. Frames are taken, with their time, as they come.
+
+    `reading` False: a client that never reads.
+    """
+
+    def __init__(
+        self, bench: "Bench", port: int, *, reading: bool = True, address: str = "127.0.0.1"
+    ) -> None:
+        self._bench = bench
+        self._network = bench.controller.network
+        self._splitter = FrameSplitter()
+        self.frames: list[tuple[float, Frame]] = []
+        self.sent = 0
+        self.lost = False
+        self._taken = 0
+        self._said: FrameSplitter | None = FrameSplitter()
+        self._trajectory: list[Point] = []
+        self.endpoint: Endpoint = self._network.connect(address, port)
+        if reading:
+            self.read_on()
+        bench.until(lambda: self.endpoint.connected, 5, f"port {port} accepts a connection")
+
+    def read_on(self) -> None:
+        """Read from now on, what has come so far first."""
+        self.endpoint.changed.add(self._receive)
+        if self.endpoint.connected:
+            self._receive()
+
+    def send(self, data: bytes) -> None:
+        """Write all of `data`, letting time pass while the controller has no room."""
+        while data and not self.lost:
+            try:
+                taken = self._network.send(self.endpoint, data)
+            except NetworkFault:
+                self.lost = True
+                return
+            self.sent += taken
+            self._listen(data[:taken])
+            data = data[taken:]
+            if data:
+                self._bench.run(0.01)
+
+    def _listen(self, data: bytes) -> None:
+        """Keep what a well-formed download asks for, for the plots."""
+        if self._said is None:
+            return
+        self._said.feed(data)
+        try:
+            while (frame := self._said.next()) is not None:
+                content = decode(frame)
+                if isinstance(content, messages.TrajectoryPoint):
+                    self._keep(content)
+        except WireError:
+            self._said = None
+
+    def _keep(self, point: messages.TrajectoryPoint) -> None:
+        if point.sequence == spec.Sequence.START_DOWNLOAD:
+            self._trajectory = []
+        joints = tuple(point.joints[: len(self._bench.group.joints)])
+        self._trajectory.append((joints, point.duration))
+        if point.sequence == spec.Sequence.END:
+            self._bench.commanded.append((self._bench.now, self._trajectory))
+            self._trajectory = []
+
+    def read(self) -> list[Frame]:
+        """Frames that have arrived since the last call."""
+        found = [frame for _, frame in self.frames[self._taken :]]
+        self._taken = len(self.frames)
+        return found
+
+    @property
+    def unread(self) -> int:
+        """Index into `frames` of the first one that was not read yet."""
+        return self._taken
+
+    def _receive(self) -> None:
+        while not self.lost:
+            try:
+                data = self._network.receive(self.endpoint, 65_536)
+            except NetworkFault:
+                self.lost = True
+                return
+            if data is None:
+                return
+            if not data:
+                self.lost = True
+                return
+            self._splitter.feed(data)
+            while (frame := self._splitter.next()) is not None:
+                self.frames.append((self._bench.now, frame))
+
+    def expect_reply(self, seconds: float, what: str) -> Frame:
+        """The next frame that was not read yet, within `seconds`."""
+        self._bench.until(lambda: len(self.frames) > self._taken, seconds, what)
+        self._taken += 1
+        return self.frames[self._taken - 1][1]
+
+    def expect(self, kind: type[C], seconds: float, what: str) -> C:
+        """The next message of a kind that was not read yet; others before it are passed over."""
+        found: list[C] = []
+
+        def arrived() -> bool:
+            while not found and len(self.frames) > self._taken:
+                self._taken += 1
+                content = decode(self.frames[self._taken - 1][1])
+                if isinstance(content, kind):
+                    found.append(content)
+            return bool(found)
+
+        self._bench.until(arrived, seconds, what)
+        return found[0]
+
+    def close(self, *, abort: bool = False) -> None:
+        """End the connection (FIN), or reset it (RST)."""
+        self._network.close(self.endpoint, abort=abort)
+        self.lost = True
+
+
+def point_frame(
+    number: int, count: int, joints: Position, duration: float, comm: spec.Comm = spec.Comm.TOPIC
+) -> bytes:
+    """Point `number` (from 0) of `count`, numbered as the ROS-Industrial node does."""
+    if number == 0:
+        sequence = int(spec.Sequence.START_DOWNLOAD)
+    elif number == count - 1:
+        sequence = int(spec.Sequence.END)
+    else:
+        sequence = number
+    return raw_point(sequence, joints, duration, comm)
+
+
+def raw_point(
+    sequence: int, joints: Sequence[float], duration: float, comm: spec.Comm = spec.Comm.TOPIC
+) -> bytes:
+    """A point with any sequence number."""
+    padded = (*joints, *[0.0] * (spec.MAX_JOINTS - len(joints)))
+    return encode(messages.TrajectoryPoint(sequence, padded, 0.0, duration), comm)
+
+
+STOP = raw_point(int(spec.Sequence.STOP), (), 0.0, spec.Comm.REQUEST)
