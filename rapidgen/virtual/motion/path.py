@@ -51,9 +51,11 @@ class Path:
 
         The corner at the tail takes the programmed zone; where the robot is too fast for it
         the zone shrinks, and as the last resort the point becomes a stop. Returns the leg and
-        whether that happened (a corner path failure).
+        whether that happened (a corner path failure). A corner so sharp that a stop is quicker
+        is a stop, too.
         """
         tail = self.tail
+        sharp = False
         if tail is not None and not tail.stops:
             way = make(self.target, move, False)
             for size in _SHRINK:
@@ -64,11 +66,12 @@ class Path:
                 if start < fixed:
                     continue
                 leg = Leg(move, way, tail.end, tail.end + way.duration)
-                pieces = (
-                    *self._until(start),
-                    *limits.slow(between),
-                    *limits.slow(way.pieces(leg.begin, end, leg.end)),
-                )
+                before = self._until(start)
+                after = limits.slow(way.pieces(leg.begin, end, leg.end))
+                sharp = _slower_than_a_stop([*before[-1:], *after[:1]], between, limits.ramp)
+                if sharp:
+                    break
+                pieces = (*before, *limits.slow(between), *after)
                 if plan(pieces) is None:
                     continue
                 tail.left = end
@@ -79,7 +82,7 @@ class Path:
             tail.committed = True
         leg, pieces = self._from_rest(move, make, limits)
         self._take(leg, pieces)
-        return leg, failed
+        return leg, failed and not sharp
 
     def _from_rest(
         self, move: Move, make: WayMaker, limits: AxisLimits
@@ -153,6 +156,17 @@ class Path:
     def at(self, place: float) -> Posture:
         """Axis values at a place."""
         return posture_at(self.pieces, place, self.target)
+
+
+def _slower_than_a_stop(beside: list[Piece], between: list[Piece], ramp: float) -> bool:
+    """Whether the ramp makes a corner slower than a stop.
+
+    The corner's speed c holds half a ramp before and behind it, which takes ramp (1/c - 1) longer;
+    a stop takes the ramp, and the time of slowing down and speeding up, 1/a.
+    """
+    c = min(piece.speed for piece in between)
+    a = min(piece.acceleration for piece in beside)
+    return ramp * (1 / c - 2) > 1 / a
 
 
 def posture_at(pieces: tuple[Piece, ...], place: float, rest: Posture) -> Posture:
