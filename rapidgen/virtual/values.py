@@ -124,20 +124,22 @@ def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Any]:
         f"    __slots__ = fields = {fields!r}",
         "    __hash__ = None",
         f"    def __init__(self, {', '.join(f'a{i}=None' for i in range(len(fields)))}):",
+        "        pass",
         *(f"        self.{f} = {start[i]} if a{i} is None else a{i}" for i, f in enumerate(fields)),
         "    def copy(self):",
         "        n = new(cls)",
         *(f"        n.{f} = self.{f}{'.copy()' if f in inner else ''}" for f in fields),
         "        return n",
         "    def assign(self, o):",
+        "        pass",
         *(
             f"        self.{f}.assign(o.{f})" if f in inner else f"        self.{f} = o.{f}"
             for f in fields
         ),
         "    def __eq__(self, o):",
-        f"        return {' and '.join(f'self.{f} == o.{f}' for f in fields)}",
+        f"        return {' and '.join(f'self.{f} == o.{f}' for f in fields) or True}",
         "    def __ne__(self, o):",
-        f"        return {' or '.join(f'self.{f} != o.{f}' for f in fields)}",
+        f"        return {' or '.join(f'self.{f} != o.{f}' for f in fields) or False}",
     ]
     scope: dict[str, Any] = {"Record": Record, "new": object.__new__, "T": kinds}
     exec("\n".join(lines), scope)

@@ -2,6 +2,7 @@
 
 import pytest
 
+from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.model import (
     ModuleFile,
     SignalSpec,
@@ -278,3 +279,12 @@ def test_the_same_seed_gives_the_same_run():
             return c.kernel.now, c.kernel.switches, seen, c.task("T_ROB1")["work:passes"]
 
     assert trace() == trace()
+
+
+def test_a_record_without_components_is_a_finding(tmp_path):
+    """Found with Modula text in a .mod file: it was an internal fault."""
+    path = tmp_path / "modula.mod"
+    path.write_text("MODULE m\nRECORD r\nENDRECORD\nPROC main()\nENDPROC\nENDMODULE\n")
+    with pytest.raises(DiagnosticError) as raised:
+        VirtualController.from_files([path])
+    assert raised.value.diagnostics[0].code == "RG201"

@@ -171,3 +171,12 @@ def test_bits(bench):
         with pytest.raises(RapidError) as caught:
             bench(name, *args)
         assert caught.value.name == "ERR_ARGVALERR"
+
+
+def test_no_characters_are_an_empty_string(bench):
+    """motion_program_exec [code] reads the empty name of wobj0 so."""
+    text = bench.box("before")
+    bench("UnpackRawBytes", RawBytes(b"abc"), 2, text, ASCII=0)
+    assert text.get() == ""
+    with pytest.raises(RapidError):
+        bench("UnpackRawBytes", RawBytes(b"abc"), 2, bench.box(1), ASCII=0)

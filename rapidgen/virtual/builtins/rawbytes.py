@@ -1,7 +1,7 @@
 """PackRawBytes and its family, and the bit functions of bytes and dnums.
 
 Sources: [manual 3HAC16581-1] for the packing rules; abb_driver [code] for a copy out of an
-empty container.
+empty container, motion_program_exec [code] for \\ASCII:=0.
 """
 
 from collections.abc import Callable
@@ -80,10 +80,12 @@ def unpack_raw_bytes(
         value.set(raw.take(index, 1)[0])
     elif ascii_ is not None:
         count = whole(ascii_, "ERR_ARGVALERR")
-        if not 1 <= count <= 80:
+        text = value.type.kind == "string"
+        # No characters: motion_program_exec reads wobj0's empty name so [code].
+        if not (0 if text else 1) <= count <= 80:
             raise RapidError("ERR_ARGVALERR", f"\\ASCII:={count}")
         data = raw.take(index, count)
-        value.set(data.decode("latin-1") if value.type.kind == "string" else data[0])
+        value.set(data.decode("latin-1") if text else data[0])
     else:
         raise _no_format("UnpackRawBytes")
 

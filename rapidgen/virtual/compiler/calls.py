@@ -85,6 +85,8 @@ class Calls(Expressions):
         if place is None:
             if mode in ("REF", ""):
                 return self._boxed(node, parameter)
+            if isinstance(node, n.Name):
+                self.fault(f"{node.name} is not declared ({parameter.type_name})", node)
             self.fault(f"parameter {parameter.name} takes a datum, not an expression", node)
         data, kind = place.data, place.e.type
         if parameter.type is not None:

@@ -111,7 +111,7 @@ class Expressions(CompilerBase):
             case n.Member():
                 return self._member(node)
             case n.FunctionCall():
-                return self._function_call(node)
+                return self._function_call(node, want)
             case n.Aggregate():
                 return self._aggregate(node, want, dims)
             case n.Unary():
@@ -209,10 +209,10 @@ class Expressions(CompilerBase):
             self.fault(f"{base.type.name} has no component {node.component}", node)
         return E(f"{base.code}.{attribute(node.component)}", kind, ops=1, exact=True).take(base)
 
-    def _function_call(self, node: n.FunctionCall) -> E:
+    def _function_call(self, node: n.FunctionCall, want: Type | None) -> E:
         routine = self.program.find_routine(self.module, node.name.lower())
         if routine is None or routine.kind != "FUNC":
-            return E("FAIL('ERR_REFUNKFUN')", NUM, fails=True, effect=SHARED, exact=True)
+            return E("FAIL('ERR_REFUNKFUN')", want or NUM, fails=True, effect=SHARED, exact=True)
         return self.call(routine, node)
 
     def _aggregate(self, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]) -> E:
