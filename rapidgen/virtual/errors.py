@@ -43,7 +43,7 @@ def error_name(number: float) -> str:
 class RapidError(Exception):
     """A recoverable error of execution. `text` says more for the event log."""
 
-    __slots__ = ("number", "raised", "settled", "target", "text")
+    __slots__ = ("number", "raised", "settled", "target", "text", "way")
 
     def __init__(self, name: str | int, text: str = "") -> None:
         super().__init__(name)
@@ -54,7 +54,9 @@ class RapidError(Exception):
         self.raised = False
         """Whether RAISE with a number made it."""
         self.target: Any = None
-        """Python frame of the routine whose listed handler it jumps to [K §7.2]."""
+        """Python frame of the routine whose handler it jumps to [K §7.2, 7.3]."""
+        self.way: int | None = None
+        """How that handler has ended, when it has run already."""
 
     @property
     def name(self) -> str:
@@ -97,6 +99,14 @@ class ExitCycle(Unwind):
 
 class EndOfRun(Unwind):
     """EXIT, or PP was moved: the run is over."""
+
+
+class ResumeInside(Unwind):
+    """RaiseToUser \\Continue: the user's handler said RETRY or TRYNEXT to what failed here."""
+
+    def __init__(self, way: int) -> None:
+        super().__init__(way)
+        self.way = way
 
 
 class EventStopped(Unwind):

@@ -14,6 +14,7 @@ from rapidgen.virtual.errors import (
     RECOVERABLE,
     FatalError,
     RapidError,
+    ResumeInside,
     as_rapid_error,
     errnum,
     error_name,
@@ -88,29 +89,20 @@ class Recovery(Process):
         frame = sys._getframe(1)
         known = self._settled(error, traceback, frame, budget)
         number = known.number
+        way = None
         if known.target is not None:
             if known.target is not frame:
                 raise known
             known.target = None
-        elif listed is not None and not _lists(listed(), number):
+            way, known.way = known.way, None
+        elif listed is not None and not lists(listed(), number):
             raise known
         elif self._stops:
             self._stop_at_bare_callee(known, traceback)
-        self.errno = number
-        self.retry_number = retries
-        if not retries:
-            self.retry_base = 0
-        self.skip_warning = False
-        self.handler_level += 1
-        try:
-            way = handler()
-        except RECOVERABLE as second:
-            # Errors inside a handler go straight to the system error handler [K §7.1].
-            raise self.unhandled(self._settled(second, second.__traceback__, frame, None)) from None
-        finally:
-            self.handler_level -= 1
-        if not self.skip_warning:
-            self.controller.log.handled(self.name, number, known.text)
+        if way is None:
+            if not retries:
+                self.retry_base = 0
+            way = self.run_handler(handler, known, retries, frame)
         if way in (TRYNEXT, RETURN):
             return way
         if way == RAISE:
@@ -118,10 +110,35 @@ class Recovery(Process):
             known.target = self._recovery_point(frame, known.number)
             raise known
         if way == RETRY:
-            return self._retry(handler, known, retries)
+            return self._retry(handler, known, retries, frame)
         raise self.unhandled(known) from None
 
-    def _retry(self, handler: Callable[[], int], error: RapidError, retries: int) -> int:
+    def run_handler(
+        self, handler: Callable[[], int], error: RapidError, retries: int, frame: FrameType
+    ) -> int:
+        """Execute a handler; how it ended."""
+        self.errno = error.number
+        self.retry_number = retries
+        self.skip_warning = False
+        self.handler_level += 1
+        try:
+            way = handler()
+        except RECOVERABLE as second:
+            if isinstance(second, RapidError) and second.target is not None:
+                raise  # RaiseToUser
+            # Errors inside a handler go straight to the system error handler [K §7.1].
+            raise self.unhandled(self._settled(second, second.__traceback__, frame, None)) from None
+        except ResumeInside as order:
+            way = order.way
+        finally:
+            self.handler_level -= 1
+        if not self.skip_warning:
+            self.controller.log.handled(self.name, error.number, error.text)
+        return way
+
+    def _retry(
+        self, handler: Callable[[], int], error: RapidError, retries: int, frame: FrameType
+    ) -> int:
         """RETRY, as often as it is allowed [K §7.5].
 
         After that the handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; when it asks
@@ -134,12 +151,7 @@ class Recovery(Process):
         last = RapidError("ERR_EXCRTYMAX")
         last.settled = True
         last.__traceback__ = error.__traceback__
-        self.errno = last.number
-        self.handler_level += 1
-        try:
-            way = handler()
-        finally:
-            self.handler_level -= 1
+        way = self.run_handler(handler, last, retries, frame)
         if way in (TRYNEXT, RETURN):
             return way
         if way == RAISE:
@@ -239,11 +251,10 @@ class Recovery(Process):
                 if at.f_code.co_name in ("_h", "_u"):
                     in_handler = True
                 else:
-                    if not in_handler and compiled.listed:
-                        numbers = at.f_locals["_l"]()
-                        if _lists(numbers, number):
-                            return at
-                    in_handler = False
+                    own = at.f_locals.get("_l")
+                    if not in_handler and own is not None and lists(own(), number):
+                        return at
+                    in_handler = in_handler and is_part(at)
             at = at.f_back
         return None
 
@@ -305,8 +316,11 @@ class Recovery(Process):
         """Call stack of an error, outermost first."""
         found: list[Place] = []
         while traceback is not None:
-            place = self.place_of(traceback.tb_frame.f_code.co_filename, traceback.tb_lineno)
+            frame = traceback.tb_frame
+            place = self.place_of(frame.f_code.co_filename, traceback.tb_lineno)
             if place is not None:
+                if is_part(frame):
+                    found.pop()
                 found.append(place)
             traceback = traceback.tb_next
         return tuple(found)
@@ -315,10 +329,13 @@ class Recovery(Process):
         """Call stack of a suspended or running task, outermost first."""
         frame: Any = self.frame if self.kernel.running is not self else sys._getframe(1)
         found: list[Place] = []
+        inside = False
         while frame is not None:
             place = self.place_of(frame.f_code.co_filename, frame.f_lineno)
             if place is not None:
-                found.append(place)
+                if not inside:
+                    found.append(place)
+                inside = is_part(frame)
             frame = frame.f_back
         return tuple(reversed(found))
 
@@ -332,5 +349,11 @@ class Recovery(Process):
         raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
 
 
-def _lists(numbers: tuple[float, ...], number: int) -> bool:
+def is_part(frame: FrameType) -> bool:
+    """Whether it is a deeply nested part of a routine or handler, whose frame is the next."""
+    return frame.f_code.co_name.startswith("_a")
+
+
+def lists(numbers: tuple[float, ...], number: int) -> bool:
+    """Whether ERROR (numbers) is for an error."""
     return number in numbers or errnum("LONG_JMP_ALL_ERR") in numbers

@@ -7,6 +7,7 @@ The head of a file names its source; comments tell the rest:
 """
 
 import re
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -23,10 +24,18 @@ def _marks(text: str, mark: str) -> list[str]:
     return [m.strip() for m in re.findall(rf"^\s*! {mark}:(.*)$", text, re.MULTILINE)]
 
 
+def _modules(path: Path, text: str) -> Iterator[ModuleFile]:
+    """The modules of a file; the lines of each are counted from the file's beginning."""
+    starts = [m.start() for m in re.finditer(r"^MODULE", text, re.MULTILINE)]
+    for start, end in zip([0, *starts[1:]], [*starts[1:], len(text)], strict=True):
+        lines = "\n" * text.count("\n", 0, start)
+        yield ModuleFile(path.stem, str(path), (lines + text[start:end]).encode("latin-1"))
+
+
 def _execute(path: Path, accounting: str) -> tuple[list[str], str, int]:
     text = path.read_text(encoding="utf-8")
     signals = tuple(SignalSpec(*line.split()) for line in _marks(text, "signal"))
-    modules = (ModuleFile(path.stem, str(path), path.read_bytes()),)
+    modules = tuple(_modules(path, text))
     tasks = [TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", modules)]
     for line in _marks(text, "task"):
         name, entry = line.split()

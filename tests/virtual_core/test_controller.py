@@ -343,21 +343,3 @@ def test_real_time_in_a_thread() -> None:
         controller.stop()
         count = len(printed)
     assert len(printed) == count
-
-
-@pytest.mark.parametrize("handler", ["", "ERROR\n TRYNEXT;\n"])
-def test_deep_nesting_runs_or_is_refused_in_words(handler: str) -> None:
-    def outcome(depth: int) -> object:
-        opening = "WHILE n < 1 DO\n" * depth
-        closing = "ENDWHILE\n" * depth
-        body = f"{opening} n := n + 1;\n{closing}"
-        text = f'PROC main()\n VAR num n := 0;\n{body} TPWrite "done";\n{handler}ENDPROC'
-        controller, printed = boot(text, cycle="once")
-        with controller:
-            controller.start_program()
-            controller.run(max_time=1)
-            fault = controller.task("T1").fault
-            return printed or (fault is not None and fault.arguments[0])
-
-    assert outcome(15) == ["done"]
-    assert "nested too deeply" in str(outcome(60))

@@ -36,7 +36,8 @@ SHARED = """
   ENDPROC
   FUNC string all()
     RETURN ValToStr(n) + " " + ValToStr(p.x) + " " + ValToStr(list{2}) + " "
-      + ValToStr(hidden) + " " + ValToStr(kept) + " " + ValToStr(own) + " " + ValToStr(saved) + " " + ValToStr(ERRNO);
+      + ValToStr(hidden) + " " + ValToStr(kept) + " " + ValToStr(own) + " "
+      + ValToStr(saved) + " " + ValToStr(ERRNO);
   ENDFUNC
 """
 

@@ -5,6 +5,7 @@ from rapidgen.virtual.errors import FIRST_BOOKED_ERROR, ExitCycle, FatalError, R
 from rapidgen.virtual.recovery import RETRIES
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.running import RapidTask
+from rapidgen.virtual.touser import give_to_user
 from rapidgen.virtual.values import Ref, Type
 
 POLL_RATE = 0.1
@@ -76,14 +77,10 @@ def remaining_retries(task: RapidTask) -> int:
 def raise_to_user(
     task: RapidTask, go_on: bool | None, break_off: bool | None, number: float | None
 ) -> None:
-    """RaiseToUser: the error at hand goes to a handler of the caller.
-
-    \\Continue resumes inside the NOSTEPIN routine on real controllers; here the routines in
-    between are always dropped, which is \\BreakOff.
-    """
+    """RaiseToUser: the error at hand goes to the nearest handler outside NOSTEPIN [K §7.3]."""
     error = RapidError(int(number) if number is not None else task.errno)
     error.raised = True
-    raise error
+    give_to_user(task, error, resume=bool(go_on))
 
 
 @builtin("ErrRaise")

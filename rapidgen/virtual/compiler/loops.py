@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from rapidgen.rapid import nodes as n
 from rapidgen.virtual.compiler.base import CALLS, SILENT, E
-from rapidgen.virtual.compiler.statements import LOOP, Statements
+from rapidgen.virtual.compiler.statements import Statements
+from rapidgen.virtual.compiler.structure import LOOP
 from rapidgen.virtual.compiler.symbols import Data
 from rapidgen.virtual.values import BOOL, NUM
 

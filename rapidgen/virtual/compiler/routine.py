@@ -39,12 +39,6 @@ class Compiled:
         node = self.routine.node
         return node is not None and node.error is not None
 
-    @property
-    def listed(self) -> bool:
-        """Whether its ERROR clause is a recovery point [K §7.2]."""
-        node = self.routine.node
-        return node is not None and node.error is not None and node.error.numbers is not None
-
 
 class RoutineCompiler(Loops):
     """Compiles one routine."""
@@ -69,6 +63,8 @@ class RoutineCompiler(Loops):
         self.label_states = {}
         self.jumps_out = 0
         self.uses_jump = False
+        self.apart = [[]]
+        self.depth_at = 1
         self.w = Writer(options.accounting)
         self.facts = Facts(node, self.known_routine, NEVER_BOXES)
         self.goto = self.facts.goto
@@ -94,6 +90,7 @@ class RoutineCompiler(Loops):
         self._declare(node.data)
         handlers_at = len(w.lines)
         body = self._part(node.body, "")
+        deep, self.apart = self.apart[0], [[]]
         head: list[Any] = []
         if node.error is not None:
             handler = self._function("_h", node.error.body, "ERROR")
@@ -112,7 +109,7 @@ class RoutineCompiler(Loops):
             head += self._recovery_list(node.error)
         if node.undo is not None:
             head += self._function("_u", node.undo.body, "UNDO")
-        w.lines[handlers_at:] = head
+        w.lines[handlers_at:] = [*head, *deep]
         if self.uses_jump:
             w.emit("_j = False")
         if node.undo is not None:
@@ -179,7 +176,11 @@ class RoutineCompiler(Loops):
         jump, self.uses_jump = self.uses_jump, False
         w.token = body[0].first if body else self.node.name_token
         w.depth += 1
+        outer, self.apart = self.apart, [*self.apart, []]
+        base, self.depth_at = self.depth_at, w.depth
         lines = self._part(body, handler)
+        self.depth_at = base
+        apart, self.apart = self.apart[-1], outer
         w.depth -= 1
         own = {d.code for d in self.locals.values()}
         nonlocals = ", ".join(sorted(self.stored & own))
@@ -193,7 +194,7 @@ class RoutineCompiler(Loops):
         w.emit("b = R.b")
         if self.uses_jump:
             w.emit("_j = False")
-        self._append(lines, 0)
+        self._append([*apart, *lines], 0)
         w.token = self.node.last
         w.emit("R.b = b")
         w.emit("return 4")

@@ -4,105 +4,14 @@ from collections.abc import Sequence
 
 from rapidgen.rapid import nodes as n
 from rapidgen.virtual.compiler.base import CALLS, SHARED, SILENT, E
-from rapidgen.virtual.compiler.calls import Calls, Place
+from rapidgen.virtual.compiler.calls import Place
+from rapidgen.virtual.compiler.structure import Structure
 from rapidgen.virtual.compiler.symbols import Data
-from rapidgen.virtual.compiler.writer import Writer
 from rapidgen.virtual.values import NUM, STRING, Type
 
-LOOP, STATE = "loop", "state"
 
-
-class Statements(Calls):
+class Statements(Structure):
     """Compiles statements into the writer."""
-
-    w: Writer
-    guarded: bool
-    """The routine has an ERROR clause, and this is not one of its handlers."""
-    handler: str
-    """`ERROR`, `UNDO`, or empty in the body."""
-    nesting: list[tuple[str, set[str]]]
-    """Python loops around: ("loop", no labels) or ("state", labels that may be jumped to)."""
-    stored: set[str]
-    """Python locals that are assigned, for `nonlocal`."""
-    goto: set[str]
-    """Labels that a GOTO of this routine names."""
-    label_states: dict[str, tuple[str, int]]
-    jumps_out: int
-    """How many Python loops a GOTO inside the loop just compiled leaves."""
-    uses_jump: bool
-
-    # -- lists -----------------------------------------------------------------------------------
-
-    def statements(self, body: Sequence[n.Statement]) -> None:
-        """Compile a statement list, as a state machine when GOTO enters its labels."""
-        labels = [s.name.lower() for s in body if isinstance(s, n.Label)]
-        if any(label in self.goto for label in labels):
-            self._state_machine(body)
-            return
-        for statement in body:
-            self.statement(statement)
-
-    def block_of(self, body: Sequence[n.Statement]) -> None:
-        """Compile an indented statement list that is paid on its own."""
-        w = self.w
-        w.depth += 1
-        mark = len(w.lines)
-        self.statements(body)
-        w.close()
-        if not any(line.text or line.charge for line in w.lines[mark:]):
-            w.emit("pass")
-        w.depth -= 1
-
-    def _state_machine(self, body: Sequence[n.Statement]) -> None:
-        w = self.w
-        labels = {s.name.lower() for s in body if isinstance(s, n.Label)}
-        state = self.temporary()
-        numbers: dict[str, int] = {}
-        for statement in body:
-            if isinstance(statement, n.Label):
-                numbers[statement.name.lower()] = len(numbers) + 1
-        for label, number in numbers.items():
-            self.label_states[label] = (state, number)
-        w.close()
-        w.emit(f"{state} = 0")
-        outer, self.jumps_out = self.jumps_out, 0
-        w.emit("while True:")
-        w.depth += 1
-        self.nesting.append((STATE, labels))
-        w.emit(f"if {state} <= 0:")
-        w.depth += 1
-        w.emit("pass")
-        for statement in body:
-            if isinstance(statement, n.Label):
-                w.close()
-                w.depth -= 1
-                w.emit(f"if {state} <= {numbers[statement.name.lower()]}:")
-                w.depth += 1
-                w.emit("pass")
-            else:
-                self.statement(statement)
-        w.close()
-        w.depth -= 1
-        w.emit("break")
-        self.nesting.pop()
-        w.depth -= 1
-        self.after_loop(outer)
-
-    def after_loop(self, outer: int) -> None:
-        """Behind a Python loop: `_j` was set by a GOTO inside that has further to go."""
-        w = self.w
-        leaving, self.jumps_out = self.jumps_out, max(outer, self.jumps_out - 1)
-        if not leaving:
-            return
-        w.emit("if _j:")
-        w.depth += 1
-        if leaving == 1:  # here is the state machine that has the label
-            w.emit("_j = False")
-            w.emit("continue")
-        else:
-            w.emit("break")
-        w.depth -= 1
-        self.uses_jump = True
 
     def _if(
         self,
@@ -130,6 +39,14 @@ class Statements(Calls):
         if self.options.tracing and not isinstance(node, n.Label):
             w.close()
             w.emit(f"R.b = b; TRACE(R, {self.program.trace_point(self.routine, node)})")
+        if self.too_deep(node):
+            self.set_apart(node)
+            return
+        self.one(node)
+
+    def one(self, node: n.Statement) -> None:
+        """Compile a statement where it stands."""
+        w = self.w
         match node:
             case n.Assignment():
                 self._assignment(node)
@@ -148,7 +65,7 @@ class Statements(Calls):
             case n.Return():
                 self._return(node)
             case n.Goto():
-                self._goto(node)
+                self.goto_label(node)
             case n.Raise():
                 self._raise(node)
             case n.Retry() | n.TryNext():
@@ -209,7 +126,7 @@ class Statements(Calls):
         w.emit(f"_k = R.handle(_h, _f, {budget}, _n, _l)")
         w.emit("b = R.b")
         w.emit(f"if _k == 1: {skip + '; ' if skip else ''}break")
-        w.emit("if _k == 2: return R.ret")
+        w.emit(f"if _k == 2: return {'2' if len(self.apart) > 1 else 'R.ret'}")
         w.emit("_n += 1")
         if self.options.accounting != "none":
             w.emit("b -= @OWN@")
@@ -489,10 +406,11 @@ class Statements(Calls):
             if node.value is None:
                 self.fault("RETURN of a function needs a value", node)
             e = self.value_of(node.value, kind)
-            target = "R.ret" if self.handler else "_r"
+            apart = bool(self.handler) or len(self.apart) > 1
+            target = "R.ret" if apart else "_r"
             lines = [f"{target} = {self.by_value(e, kind)}"]
             e.fails = e.fails or e.risky
-            if not self.handler and not (self.guarded and e.fails):
+            if not apart and not (self.guarded and e.fails):
                 self.pay(e)
                 w.emit("R.b = b")
                 w.synced = e.effect == CALLS
@@ -503,13 +421,13 @@ class Statements(Calls):
             self.pay(e)
             self.guard(e, lines)
             w.emit("R.b = b")
-            w.emit("return 2" if self.handler else "return _r")
+            w.emit("return 2" if apart else "return _r")
         else:
             if node.value is not None:
                 self.fault("RETURN takes a value only in a function", node)
             self.pay(E("", NUM))
             w.emit("R.b = b")
-            w.emit("return 2" if self.handler else "return")
+            w.emit("return 2" if self.handler or len(self.apart) > 1 else "return")
         w.close()
 
     def _raise(self, node: n.Raise) -> None:
@@ -544,24 +462,3 @@ class Statements(Calls):
         self.w.emit("R.b = b")
         self.w.emit("return 0" if isinstance(node, n.Retry) else "return 1")
         self.w.close()
-
-    def _goto(self, node: n.Goto) -> None:
-        """Leave Python loops one by one up to the state machine that has the label."""
-        w = self.w
-        label = node.name.lower()
-        found = self.label_states.get(label)
-        inside = next(
-            (i for i in range(len(self.nesting) - 1, -1, -1) if label in self.nesting[i][1]), None
-        )
-        if found is None or inside is None:
-            self.fault(f"there is no label {node.name} that can be reached from here", node)
-        self.pay(E("", NUM))
-        w.close()
-        state, number = found
-        w.emit(f"{state} = {number}")
-        if inside == len(self.nesting) - 1:
-            w.emit("continue")
-        else:
-            w.emit("_j = True")
-            w.emit("break")
-            self.jumps_out = max(self.jumps_out, len(self.nesting) - 1 - inside)
