@@ -1,12 +1,14 @@
 """Expressions: typed Python source, with what it costs and touches."""
 
 from rapidgen.rapid import nodes as n
-from rapidgen.virtual.compiler.base import CALLS, EXACT, SHARED, CompilerBase, E
+from rapidgen.virtual.compiler.base import CALLS, EXACT, SHARED, UNBOUNDED, CompilerBase, E
 from rapidgen.virtual.compiler.symbols import Data, Routine
 from rapidgen.virtual.values import BOOL, DNUM, NUM, STRING, TYPES, Type, attribute, single
 
 _COMPARE = {"=": "==", "<>": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 _LARGEST = "3.4028234663852886e+38"
+_SMALLEST = "1.1754943508222875e-38"
+"""Below it a single has fewer digits."""
 POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
@@ -30,7 +32,7 @@ class Expressions(CompilerBase):
             return f"(_x if -{EXACT} <= (_x := {e.code}) <= {EXACT} else RND(_x))"
         if e.risky:
             split = f"(_t := (_y := {e.code}) * 536870913.0) - (_t - _y)"
-            return f"(_x if -{_LARGEST} <= (_x := {split}) <= {_LARGEST} else RND(_y))"
+            return f"(_x if {_normal(f'(_x := {split})')} else RND(_y))"
         return f"((_t := (_y := {e.code}) * 536870913.0) - (_t - _y))"
 
     def store_lines(self, target: str, e: E, kind: Type, *, keep: bool = False) -> list[str]:
@@ -42,20 +44,20 @@ class Expressions(CompilerBase):
         if kind.kind != "num" or e.exact:
             return [f"{target} = {e.code}"]
         if e.whole:
-            lines = [f"{target} = {e.code}"]
             low, high = e.range if e.range is not None else (-EXACT - 1, EXACT + 1)
-            if low >= -EXACT and high > EXACT:
-                lines.append(f"if {target} > {EXACT}: {target} = RND({target})")
-            elif low < -EXACT or high > EXACT:
-                lines.append(f"if not -{EXACT} <= {target} <= {EXACT}: {target} = RND({target})")
-            return lines
+            if low >= -EXACT and high <= EXACT:
+                return [f"{target} = {e.code}"]
+            held = "_x" if keep and e.risky else target
+            inside = f"{held} <= {EXACT}" if low >= -EXACT else f"-{EXACT} <= {held} <= {EXACT}"
+            lines = [f"{held} = {e.code}", f"if not {inside}: {held} = RND({held})"]
+            return lines if held == target else [*lines, f"{target} = {held}"]
         if not e.risky:
             return [f"{target} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)"]
         # A failing store leaves the target as it was; without ERROR nobody sees a local again.
         held = "_x" if keep else target
         lines = [
             f"{held} = (_t := (_y := {e.code}) * 536870913.0) - (_t - _y)",
-            f"if not -{_LARGEST} <= {held} <= {_LARGEST}: {held} = RND(_y)",
+            f"if not ({_normal(held)}): {held} = RND(_y)",
         ]
         if keep:
             lines.append(f"{target} = {held}")
@@ -357,13 +359,14 @@ class Expressions(CompilerBase):
         else:
             e.whole = left.whole and right.whole
             e.range = _range(operator, left.range, right.range) if e.whole else None
+            e.risky = e.whole and _grows(operator, left, right, e)
             if operator == "*" and not e.whole:
                 e.fails = e.risky = True
             elif not e.whole:
                 e.risky = left.risky or right.risky or not (left.literal or right.literal)
                 e.fails = e.risky
         e.take(left, right)
-        if dialect.num_rounding == "operation" and kind.kind == "num" and not e.whole:
+        if dialect.num_rounding == "operation" and kind.kind == "num" and not _is_exact(e):
             e.code, e.exact, e.risky, e.fails = f"RND({e.code})", True, False, True
         return e
 
@@ -382,6 +385,27 @@ class Expressions(CompilerBase):
     def known_routine(self, name: str) -> Routine | None:
         """A routine by name, as seen from this routine's module."""
         return self.program.find_routine(self.module, name.lower())
+
+
+def _normal(code: str) -> str:
+    """Test whether a rounded value is a normal single, or 0; evaluates `code` first and once."""
+    name = "_x" if ":=" in code else code
+    return (
+        f"{_SMALLEST} <= {code} <= {_LARGEST} or -{_LARGEST} <= {name} <= -{_SMALLEST}"
+        f" or {name} == 0"
+    )
+
+
+def _is_exact(e: E) -> bool:
+    """Whether no single would have to be rounded."""
+    return e.whole and e.range is not None and e.range[0] >= -EXACT and e.range[1] <= EXACT
+
+
+def _grows(operator: str, left: E, right: E, e: E) -> bool:
+    """Whether a whole result may leave the range of a single: not by adding something small."""
+    if e.range is not None and max(abs(e.range[0]), abs(e.range[1])) < UNBOUNDED:
+        return False
+    return operator == "*" or not (_is_exact(left) or _is_exact(right))
 
 
 def _range(
