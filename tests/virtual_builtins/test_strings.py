@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.text import (
     NotALiteral,
@@ -245,10 +246,16 @@ def test_str_to_byte_refuses(bench, switch, text):
 @pytest.mark.parametrize(
     ("switch", "byte", "text"),
     [(None, 122, "122"), ("Hex", 10, "0A"), ("Okt", 10, "012"), ("Bin", 10, "00001010"),
-     ("Char", 65, "A"), ("Char", 7, "\\07")],
+     ("Char", 65, "A"), ("Char", 10, "\n")],
 )  # fmt: skip
 def test_byte_to_str(bench, switch, byte, text):
     assert bench("ByteToStr", byte, **({switch: True} if switch else {})) == text
+
+
+def test_a_control_character_as_its_code(bench):
+    """S4 datasys 3-ByteToStr by its word; open_abb [code] ends lines with ByteToStr(10\\Char)."""
+    bench.controller.dialect = Dialect(byte_to_str="code")
+    assert bench("ByteToStr", 7, Char=True) == "\\07"
 
 
 def test_hexadecimal_digits(bench):

@@ -182,14 +182,14 @@ def str_to_byte(
 
 @builtin("ByteToStr", cost="string", pure=True)
 def byte_to_str(
-    _task: Task,
+    task: Task,
     data: float,
     hexadecimal: bool | None,
     octal: bool | None,
     binary: bool | None,
     char: bool | None,
 ) -> str:
-    """A byte's text: decimal unless told; a code that cannot be shown comes out as \\07."""
+    """A byte's text: decimal unless told. For \\Char see `Dialect.byte_to_str`."""
     byte = byte_value(data)
     if hexadecimal:
         return f"{byte:02X}"
@@ -199,7 +199,8 @@ def byte_to_str(
         return f"{byte:08b}"
     if char:
         shown = chr(byte)
-        return shown if shown.isprintable() else f"\\{byte:02X}"
+        as_code = task.controller.dialect.byte_to_str == "code" and not shown.isprintable()
+        return f"\\{byte:02X}" if as_code else shown
     return str(byte)
 
 
