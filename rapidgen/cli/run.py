@@ -69,10 +69,13 @@ def run(
     coverage: Annotated[
         Path | None, typer.Option("--coverage", metavar="F.lcov", help="Lines and branches.")
     ] = None,
+    check: Annotated[
+        bool, typer.Option(help="Refuse programs that a controller would not load.")
+    ] = True,
 ) -> None:
     """Run RAPID on the virtual clock.
 
-    Prints one line for each TPWrite. Ends when main of every task has returned; exit code 1
+    What a controller would not load is refused: all its errors are told, nothing runs. Prints one line for each TPWrite. Ends when main of every task has returned; exit code 1
     when a task stopped with an error, on a deadlock, and at the limits of time and statements.
     """
     from rapidgen.config import load_config
@@ -84,6 +87,8 @@ def run(
     from rapidgen.virtual.tracing import Coverage, Profile, Trace
 
     system = _system(files, task, entry)
+    if check:
+        _check(system)
     if not robot and len(files) == 1 and files[0].is_dir() and is_generated(files[0]):
         from rapidgen.config import from_manifest
 
@@ -147,6 +152,19 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
     if len(files) == 1 and files[0].is_dir() and (is_generated(files[0]) or is_backup(files[0])):
         return read_system(files[0])
     return read_files(files, entry=entry, name=files[0].stem)
+
+
+def _check(system: "System") -> None:
+    """Refuse what no controller loads; names that nothing declares are found when reached.
+
+    Warnings are `rapidgen check`'s business.
+    """
+    from rapidgen.diagnostics import DiagnosticError, Severity
+    from rapidgen.rapid import check
+
+    errors = [d for d in check(system, gaps=True) if d.severity is Severity.ERROR]
+    if errors:
+        raise DiagnosticError(errors)
 
 
 def _dialect(text: str) -> "Dialect":

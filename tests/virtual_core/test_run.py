@@ -172,3 +172,23 @@ def test_tracing_changes_no_time(capsys, program: Path) -> None:
             controller.run(max_time=10)
             ends.append(controller.kernel.now)
     assert ends[0] == ends[1]
+
+
+def test_what_no_controller_loads_is_refused_whole(tmp_path, capsys) -> None:
+    """Static errors are found at load [K §1.4]; unknown routines when they are reached."""
+    path = tmp_path / "a.mod"
+    path.write_text(
+        'MODULE a\nPROC main()\n TPWrite "x";\nENDPROC\n'
+        'PROC never()\n VAR num n;\n n := "text";\n nobody;\nENDPROC\nENDMODULE\n'
+    )
+    assert main(["run", str(path)]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "RG307" in err
+    assert ":7:" in err
+    assert main(["run", "--no-check", str(path)]) == 0
+    assert capsys.readouterr().out == "x\n"
+    path.write_text(path.read_text().replace('n := "text"', "n := 1"))
+    assert main(["run", str(path)]) == 0
+    out, err = capsys.readouterr()
+    assert (out, "RG404" in err) == ("x\n", True)
