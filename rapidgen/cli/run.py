@@ -75,8 +75,9 @@ def run(
 ) -> None:
     """Run RAPID on the virtual clock.
 
-    What a controller would not load is refused: all its errors are told, nothing runs. Prints one line for each TPWrite. Ends when main of every task has returned; exit code 1
-    when a task stopped with an error, on a deadlock, and at the limits of time and statements.
+    What a controller would not load is refused: all its errors are told, nothing runs. Prints one
+    line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
+    stopped with an error, on a deadlock, and at the limits of time and statements.
     """
     from rapidgen.config import load_config
     from rapidgen.diagnostics import DiagnosticError, Severity, render
