@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
 from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.diagnostics import Span
 from rapidgen.protocol import WireError, encode, messages, spec
 from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Series
@@ -203,10 +204,13 @@ class Bench:
                 return task.name
         raise KeyError(module)
 
-    def fails(self, module: str, instruction: str, error: str, times: int = 1) -> None:
+    def fails(
+        self, module: str, instruction: str, error: str, times: int = 1
+    ) -> Callable[[], None]:
         """The next `times` calls of an instruction in a module's task raise an error.
 
-        Whatever a controller may report: the driver has to live with it.
+        Whatever a controller may report: the driver has to live with it. What is returned
+        ends it.
         """
         program = self.controller.rapid_tasks[self.task(module)].program
         routine = program.find_routine(None, instruction.casefold())
@@ -221,7 +225,25 @@ class Bench:
             left -= 1
             raise RapidError(error)
 
+        def end() -> None:
+            nonlocal left
+            left = 0
+
         program.space[routine.code] = failing
+        return end
+
+    def waits_in(self, module: str, instruction: str) -> bool:
+        """Whether a module's task is at that instruction now."""
+        stack = self.controller.task(self.task(module)).stack
+        return bool(stack) and instruction in self._statement(stack[-1].span)
+
+    def _statement(self, span: Span) -> str:
+        """The line of RAPID at a place."""
+        data = next(
+            (m.data for t in self.system.tasks for m in t.modules if m.path == span.path), b""
+        )
+        lines = data.decode("latin-1").splitlines()
+        return lines[span.line - 1].strip() if span.line <= len(lines) else ""
 
     # -- clients --------------------------------------------------------------------------------
 
@@ -338,15 +360,13 @@ class Bench:
     def log(self) -> tuple[str, ...]:
         """Event log and program positions with their statements, for a failure's report."""
         events = [str(event) for event in self.controller.log]
-        texts = {m.path: m.data for task in self.system.tasks for m in task.modules}
         places = []
         for name, task in self.controller.tasks.items():
             text = ""
             if task.stack:
                 at = task.stack[-1]
-                lines = texts.get(at.span.path, b"").decode("latin-1").splitlines()
-                statement = lines[at.span.line - 1].strip() if at.span.line <= len(lines) else ""
-                text = f" at {at.span.path}:{at.span.line} ({at.routine}): {statement}"
+                where = f"{at.span.path}:{at.span.line} ({at.routine})"
+                text = f" at {where}: {self._statement(at.span)}"
             places.append(f"{name} is {task.state}{text}")
         return (*events[-40:], *places)
 

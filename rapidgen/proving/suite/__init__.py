@@ -1,13 +1,28 @@
 """The behaviours that a generated driver must have: one file a theme."""
 
 from rapidgen.proving.model import Case
-from rapidgen.proving.suite import compatible, controller, framing, links, refusals, stopping
+from rapidgen.proving.suite import (
+    compatible,
+    controller,
+    edges,
+    failing,
+    framing,
+    links,
+    paired,
+    refusals,
+    stopping,
+    telling,
+)
 
 CASES: tuple[Case, ...] = (
     *compatible.CASES,
+    *paired.CASES,
     *refusals.CASES,
+    *edges.CASES,
     *framing.CASES,
     *stopping.CASES,
+    *telling.CASES,
     *links.CASES,
     *controller.CASES,
+    *failing.CASES,
 )

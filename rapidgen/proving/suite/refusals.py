@@ -10,12 +10,17 @@ from rapidgen.proving.link import Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 
 
-def _refused(bench: Bench, frames: bytes, reasons: Sequence[Reason], joint: int = 0) -> None:
-    """Broken unless nothing moves and STATUS gives one of the reasons."""
-    state, link = bench.state(), bench.motion()
+def refused(
+    bench: Bench, frames: bytes, reasons: Sequence[Reason], joint: int = 0, point: int | None = None
+) -> None:
+    """Broken unless nothing moves, and STATUS and PROGRESS give one of the reasons.
+
+    Where `joint` (from 1) and `point` (from 0, -1: none) are given they are to be named.
+    """
+    state, link = bench.watcher(), bench.motion()
     link.send(frames)
     bench.stays(3, f"it had to be refused: {spec.REASON_TEXTS[reasons[0]]}")
-    status = bench.status(state)
+    status, told = bench.status(state), bench.progress(state)
     reason, wrong = spec.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
         names = " or ".join(r.name for r in reasons)
@@ -23,6 +28,10 @@ def _refused(bench: Bench, frames: bytes, reasons: Sequence[Reason], joint: int 
             f"wanted in_error with {names}{f' of joint {joint}' if joint else ''}, STATUS says "
             f"in_error {status.in_error}, error_code {status.error_code}"
         )
+    if (told.state, told.reason, told.joint) != (spec.TrajectoryState.REFUSED, reason, wrong):
+        raise Broken(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
+    if point is not None and told.point != point:
+        raise Broken(f"point {point} had to be blamed, PROGRESS says {told}")
     # A refusal is over with the next good trajectory.
     bench.moves_through(link, bench.wave(3))
     bench.run(0.5)
@@ -40,8 +49,9 @@ def _changed(points: Sequence[Point], index: int, joints: Sequence[float]) -> li
 
 
 def _too_many(bench: Bench) -> None:
-    count = bench.config.trajectory.capacity + 1
-    _refused(bench, bench.download(bench.wave(count, duration=0.2, size=0.01)), [Reason.CAPACITY])
+    capacity = bench.config.trajectory.capacity
+    frames = bench.download(bench.wave(capacity + 1, duration=0.2, size=0.01))
+    refused(bench, frames, [Reason.CAPACITY], point=capacity)
 
 
 def _hole(bench: Bench) -> None:
@@ -52,13 +62,13 @@ def _hole(bench: Bench) -> None:
         )
         # Without point N-2 the end frame comes one early: nobody can see that one.
         if missing < len(points) - 2:
-            _refused(bench, frames, [Reason.SEQUENCE_GAP])
+            refused(bench, frames, [Reason.SEQUENCE_GAP], point=missing)
 
 
 def _twice(bench: Bench) -> None:
     points = bench.wave(6)
     frames = [point_frame(n, len(points), *point) for n, point in enumerate(points)]
-    _refused(bench, b"".join([*frames[:3], frames[2], *frames[3:]]), [Reason.SEQUENCE_GAP])
+    refused(bench, b"".join([*frames[:3], frames[2], *frames[3:]]), [Reason.SEQUENCE_GAP], point=3)
 
 
 def _not_finite(bench: Bench) -> None:
@@ -66,11 +76,12 @@ def _not_finite(bench: Bench) -> None:
         for axis in range(len(bench.position)):
             points = bench.wave(4)
             joints = [*points[2][0][:axis], value, *points[2][0][axis + 1 :]]
-            _refused(
+            refused(
                 bench,
                 bench.download(_changed(points, 2, joints)),
-                [Reason.NOT_FINITE, Reason.JOINT_LIMIT],
+                [Reason.NOT_FINITE],
                 axis + 1,
+                point=2,
             )
 
 
@@ -78,7 +89,7 @@ def _duration_not_finite(bench: Bench) -> None:
     for value in (math.nan, math.inf, -1.0):
         points = bench.wave(4)
         points[2] = (points[2][0], value)
-        _refused(bench, bench.download(points), [Reason.NOT_FINITE, Reason.BAD_DURATION])
+        refused(bench, bench.download(points), [Reason.NOT_FINITE, Reason.BAD_DURATION])
 
 
 def _outside_limits(bench: Bench) -> None:
@@ -87,7 +98,7 @@ def _outside_limits(bench: Bench) -> None:
             points = bench.wave(4, duration=5.0)
             joints = [*points[2][0][:axis], value, *points[2][0][axis + 1 :]]
             longer = [(p, 60.0) for p, _ in _changed(points, 2, joints)]
-            _refused(bench, bench.download(longer), [Reason.JOINT_LIMIT], axis + 1)
+            refused(bench, bench.download(longer), [Reason.JOINT_LIMIT], axis + 1, 2)
 
 
 def _start_too_far(bench: Bench) -> None:
@@ -102,7 +113,7 @@ def _start_too_far(bench: Bench) -> None:
         away = here[axis] + (1.5 * near if here[axis] + 2 * near < joint.upper else -1.5 * near)
         start = (*here[:axis], away, *here[axis + 1 :])
         points = [(start, 10.0), *bench.wave(4)[1:]]
-        _refused(bench, bench.download(points), [Reason.START_TOO_FAR], axis + 1)
+        refused(bench, bench.download(points), [Reason.START_TOO_FAR], axis + 1, 0)
 
 
 def _too_fast(bench: Bench) -> None:
@@ -118,7 +129,7 @@ def _too_fast(bench: Bench) -> None:
             continue
         target = (*here[:axis], here[axis] + step, *here[axis + 1 :])
         points = [(here, 10.0), (target, seconds), (target, 1.0)]
-        _refused(bench, bench.download(points), [Reason.TOO_FAST, Reason.TCP_TOO_FAST])
+        refused(bench, bench.download(points), [Reason.TOO_FAST, Reason.TCP_TOO_FAST], axis + 1, 1)
 
 
 def _segment_too_short(bench: Bench) -> None:
@@ -127,7 +138,7 @@ def _segment_too_short(bench: Bench) -> None:
         return
     points = bench.wave(5, size=0.001)
     points[2] = (points[2][0], shortest / 2)
-    _refused(bench, bench.download(points), [Reason.SEGMENT_TOO_SHORT])
+    refused(bench, bench.download(points), [Reason.SEGMENT_TOO_SHORT], point=2)
 
 
 def _padding(bench: Bench) -> None:
@@ -138,7 +149,7 @@ def _padding(bench: Bench) -> None:
             raw_point(s, [*p, *[0.0] * (extra - count), 0.5], d)
             for s, (p, d) in zip((-1, 1, -3), points, strict=True)
         ]
-        _refused(bench, b"".join(padded), [Reason.BAD_PADDING], extra + 1)
+        refused(bench, b"".join(padded), [Reason.BAD_PADDING], extra + 1, 0)
 
 
 def _no_end(bench: Bench) -> None:
