@@ -68,6 +68,10 @@ class Dialect:
     unpack_beyond: Literal["error", "zero"] = "error"
     """UnpackRawBytes behind the valid length: ERR_OUTOFBND, or the bytes count as 0. No source."""
 
+    find_behind: Literal["none", "error"] = "none"
+    """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver
+    ends every command so), or it is an error (S4 datasys 3-StrFind)."""
+
     byte_to_str: Literal["character", "code"] = "character"
     """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
     end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""

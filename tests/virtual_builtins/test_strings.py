@@ -196,7 +196,10 @@ def test_str_part_outside(bench, position, length):
 
 
 def test_str_find_and_match(bench):
-    """Nothing found is length + 1; a position outside is an error [S4 StrFind, StrMatch]."""
+    """Nothing found is length + 1; a position outside is an error [S4 StrFind, StrMatch].
+
+    Machina's driver [code] looks for its next word right behind the last one.
+    """
     assert bench("StrFind", "Robotics", 1, "aeiou") == 2
     assert bench("StrFind", "Robotics", 1, "aeiou", NotInSet=True) == 1
     assert bench("StrFind", "Robotics", 2, "aeiou") == 2
@@ -206,6 +209,16 @@ def test_str_find_and_match(bench):
     assert bench("StrMatch", "Robotics", 1, "bo") == 3
     assert bench("StrMatch", "Robotics", 1, "BO") == 9
     assert bench("StrMatch", "Robotics", 4, "bo") == 9
+    for name in ("StrFind", "StrMatch"):
+        assert bench(name, "Robotics", 9, "x") == 9
+        assert bench(name, "", 1, "x") == 1
+        for place in (0, 10, 1.5):
+            with pytest.raises(RapidError):
+                bench(name, "Robotics", place, "x")
+
+
+def test_a_search_from_behind_by_the_manual_s_word(bench):
+    bench.controller.dialect = Dialect(find_behind="error")
     for name in ("StrFind", "StrMatch"):
         with pytest.raises(RapidError):
             bench(name, "Robotics", 9, "x")

@@ -31,6 +31,12 @@ def _place(text: str, position: float) -> int:
     return place
 
 
+def _search_place(task: Task, text: str, position: float) -> int:
+    """Where a search begins; see `Dialect.find_behind`."""
+    behind = task.controller.dialect.find_behind == "none" and position == len(text) + 1
+    return len(text) + 1 if behind else _place(text, position)
+
+
 @builtin("StrLen", cost="string", pure=True)
 def str_len(_task: Task, text: str) -> int:
     """Number of characters."""
@@ -48,18 +54,18 @@ def str_part(_task: Task, text: str, position: float, length: float) -> str:
 
 
 @builtin("StrFind", cost="string", pure=True)
-def str_find(_task: Task, text: str, position: float, set_: str, not_in: bool | None) -> int:
+def str_find(task: Task, text: str, position: float, set_: str, not_in: bool | None) -> int:
     """First position from there whose character is (not) in the set; length + 1 if none."""
-    for place in range(_place(text, position), len(text) + 1):
+    for place in range(_search_place(task, text, position), len(text) + 1):
         if (text[place - 1] in set_) != bool(not_in):
             return place
     return len(text) + 1
 
 
 @builtin("StrMatch", cost="string", pure=True)
-def str_match(_task: Task, text: str, position: float, pattern: str) -> int:
+def str_match(task: Task, text: str, position: float, pattern: str) -> int:
     """First position from there where the pattern begins; length + 1 if none."""
-    found = text.find(pattern, _place(text, position) - 1)
+    found = text.find(pattern, _search_place(task, text, position) - 1)
     return found + 1 if found >= 0 else len(text) + 1
 
 

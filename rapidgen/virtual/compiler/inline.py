@@ -98,6 +98,8 @@ def _str_part(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E | None:
 
 
 def _position(c: "Calls", node: n.FunctionCall | n.ProcedureCall, code: str) -> E | None:
+    if c.options.dialect.find_behind == "error":
+        return None
     e = _string_function(c, node, code, (STRING, NUM, STRING))
     if e is not None:
         e.type, e.whole, e.range = NUM, True, (1, 81)

@@ -140,18 +140,23 @@ def part_of(text: str, position: float, length: float) -> str:
     return text[start : start + int(length)]
 
 
+def _search_at(text: str, position: float) -> int:
+    """The same for a search, which may begin right behind the text (`Dialect.find_behind`)."""
+    return len(text) if position == len(text) + 1 else _at(text, position)
+
+
 def find_text(text: str, position: float, pattern: str) -> int:
     """StrMatch, and StrFind for one character: length + 1 when there is none."""
     start = position - 1
     if start.__class__ is not int or not 0 <= start < len(text):
-        start = _at(text, position)
+        start = _search_at(text, position)
     found = text.find(pattern, start)
     return found + 1 if found >= 0 else len(text) + 1
 
 
 def find_set(text: str, position: float, characters: str) -> int:
     """StrFind: the first position from there with one of the characters."""
-    for place in range(_at(text, position), len(text)):
+    for place in range(_search_at(text, position), len(text)):
         if text[place] in characters:
             return place + 1
     return len(text) + 1

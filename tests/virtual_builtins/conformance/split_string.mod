@@ -1,12 +1,18 @@
 MODULE split_string
-    ! source: [manual] S4 StrFind, StrPart, StrLen: not found is length + 1; outside is an error
+    ! source: [manual] S4 StrFind, StrPart, StrLen: not found is length + 1; outside is an error; Machina [code]: right behind is not
     ! expect: alpha
     ! expect: 2
     ! expect: gamma
+    ! expect: 4 4
+    ! expect: outside
+    ! expect: outside
     ! expect: outside
     PROC main()
         split "alpha,2,gamma";
-        TPWrite ValToStr(StrFind("abc", 4, "x"));
+        TPWrite ValToStr(StrFind("abc", 4, "x")) + " " + ValToStr(StrMatch("abc", 4, "xy"));
+        TPWrite ValToStr(StrFind("abc", 5, "x"));
+        TPWrite ValToStr(StrFind("abc", 0, "xy"));
+        TPWrite ValToStr(StrMatch("abc", 5, "x"));
     ERROR
         IF ERRNO = ERR_OUTOFBND TPWrite "outside";
         TRYNEXT;
