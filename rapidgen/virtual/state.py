@@ -84,6 +84,12 @@ class ControllerState:
         if self.failed or self.halted or self.e_stop or not self.motors_on:
             self.log.warning(10_126, "Program start refused", self._why_not())
             return False
+        for group in self.motion.groups.values():
+            way, _ = group.off_path
+            if way > group.settings.regain_distance:
+                far = f"{group.name} is {way:.3f} m from its path: move it back or PP to main"
+                self.log.warning(10_126, "Program start refused", far)
+                return False
         if self.execution_error:
             self.execution_error = False
             self.log.info(10_021, "Execution error reset")
@@ -149,6 +155,9 @@ class ControllerState:
         if pressed:
             self.log.error(10_013, "Emergency stop state")
             self.e_stop = True
+            for group in self.motion.groups.values():
+                by_brakes = group.settings.emergency_stop == "brakes"
+                group.stop("program", quick=True, brakes=by_brakes)
             self.set_motors(False, event="QSTOP" if self.dialect.e_stop_routines else "")
         else:
             self.e_stop = False
@@ -181,7 +190,7 @@ class ControllerState:
             else:
                 task.stop("")
         for group in self.motion.groups.values():
-            group.stop("program", quick=True)
+            group.stop("program", brakes=True)
         self.failed = self.halted = False
         self.e_stop = False
         self.motors_on = False

@@ -6,7 +6,7 @@ Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-St
 
 from collections.abc import Iterable
 
-from rapidgen.virtual.errors import FatalError
+from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.access import group_of, motion_of
 from rapidgen.virtual.motion.group import MotionGroup
@@ -44,8 +44,16 @@ def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
 
 @builtin("StartMove", cost="call")
 def start_move(task: Task, all_tasks: bool | None) -> None:
-    """Takes back the stop of this kind of task; moves when no other holds."""
-    for group in _groups(task, all_tasks):
+    """Takes back the stop of this kind of task; moves when no other holds.
+
+    ERR_PATHDIST: more than 10 mm or 20 degrees off the path (S4 datasys 2-StartMove-1).
+    """
+    groups = tuple(_groups(task, all_tasks))
+    for group in groups:
+        way, turn = group.off_path
+        if way > group.settings.path_distance or turn > group.settings.path_angle:
+            raise RapidError("ERR_PATHDIST", f"{group.name}: {way * 1000:.1f} mm off the path")
+    for group in groups:
         group.start(_reason(task))
 
 

@@ -1,10 +1,12 @@
 """A path in time: the motion under way, how it is planned anew, braked and watched."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import inf
 
+from rapidgen.config.model import Joint
 from rapidgen.virtual.kernel import Kernel, S
 from rapidgen.virtual.motion import smoothing
+from rapidgen.virtual.motion.coasting import Coast, coast, moment_before
 from rapidgen.virtual.motion.motion import Motion
 from rapidgen.virtual.motion.moves import Posture
 from rapidgen.virtual.motion.path import Path
@@ -14,6 +16,8 @@ from rapidgen.virtual.motion.timelaw import Span, TimeLaw, brake, plan
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
+_STANDING = 1e-6
+"""Path speed that counts as none: times are whole nanoseconds."""
 _NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
 
 
@@ -94,7 +98,10 @@ class Drive:
         if planned is pieces and planned_at == now:
             return law
         place, speed = self.planned()
-        law = self._plan(pieces, place, speed, self._rest(place) if speed == 0.0 else 0.0)
+        rest = 0.0
+        if speed < _STANDING:
+            speed, rest = 0.0, self._rest(place)
+        law = self._plan(pieces, place, speed, rest)
         self._planned = now, pieces, law
         return law
 
@@ -141,16 +148,32 @@ class Drive:
         factor = self.settings.quick_factor if quick else 1.0
         self.run(brake(self._spans(path.pieces), *self.planned(), factor), path)
 
-    def run(self, law: TimeLaw, path: Path) -> None:
+    def coast(self, path: Path, joints: Sequence[Joint]) -> None:
+        """Stop each axis by its brake; the law tells where on the path it should have been."""
+        now, factor = self._kernel.now, self.settings.quick_factor
+        before = self.motion.posture(max(self.motion.since, moment_before(now)))
+        stop = coast(now, self.commanded(), before, joints, factor)
+        path.prune(self.place())
+        law = brake(self._spans(path.pieces), *self.planned(), factor)
+        self.run(law, path, stop)
+
+    def run(self, law: TimeLaw, path: Path, stop: Coast | None = None) -> None:
         """A law holds from now on; what was planned until now is still felt."""
         now = self._kernel.now
         before = self.motion
         if now < before.end:
             law = law.after(before.law, (now - before.start) / S, self.ramp)
-        self.put(law, now, path)
+        self.put(law, now, path, None if stop is None else stop.posture(stop.end), stop)
 
-    def put(self, law: TimeLaw, start: int, path: Path, rest: Posture | None = None) -> None:
-        """A law that began at `start` and ends at a place of the path."""
+    def put(
+        self,
+        law: TimeLaw,
+        start: int,
+        path: Path,
+        rest: Posture | None = None,
+        stop: Coast | None = None,
+    ) -> None:
+        """A law that began at `start` and ends at a place of the path, unless at `rest`."""
         if rest is None:
             rest = path.target if law.place >= path.end else path.at(law.place)
         now = self._kernel.now
@@ -161,6 +184,6 @@ class Drive:
             kept = self._history[-len(later) - 1 :] if self._history else []
             self._history = [*kept, self.motion]
         legs = tuple((leg.end, leg.move) for leg in path.legs)
-        self.motion = Motion(now, start, law, path.pieces, rest, legs, self.ramp)
+        self.motion = Motion(now, start, law, path.pieces, rest, legs, self.ramp, stop)
         for observer in self.observers:
             observer(self.motion)

@@ -7,8 +7,9 @@ costs a few events a move, and nothing at all while it stands.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import ceil, inf
-from typing import Protocol
+from typing import Any, Protocol
 
+from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import MotionGroup as GroupConfig
@@ -16,7 +17,7 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
-from rapidgen.virtual.motion import events, ways
+from rapidgen.virtual.motion import arguments, events, ways
 from rapidgen.virtual.motion.corners import zone_entry
 from rapidgen.virtual.motion.drive import Drive
 from rapidgen.virtual.motion.legs import Leg
@@ -30,6 +31,9 @@ from rapidgen.virtual.motion.punctuality import Punctuality
 from rapidgen.virtual.motion.settings import MotionSettings
 from rapidgen.virtual.motion.timelaw import TimeLaw
 from rapidgen.virtual.values import Record
+
+_BRAKES = "brakes"
+"""The stop that holds while the brakes bring the robot to rest."""
 
 
 class Waiter(Protocol):
@@ -331,21 +335,66 @@ class MotionGroup:
         """Who keeps the robot from moving."""
         return tuple(self._stops)
 
-    def stop(self, reason: str, *, quick: bool = False) -> None:
-        """Brake on the path and stay until `start` of the same reason. The path is kept."""
+    def stop(self, reason: str, *, quick: bool = False, brakes: bool = False) -> None:
+        """Slow down on the path and stay until `start` of the same reason. The path is kept.
+
+        `quick`: harder. `brakes`: each axis comes to rest by itself, off the path; the way back
+        to where it should have stopped is then the first of the path.
+        """
         self._settle()
         self._stops[reason] = None
-        if self._drive.planned()[1] > 0.0:
+        if _BRAKES in self._stops:
+            return
+        if brakes and not self.is_standing:
+            self._stops[_BRAKES] = None
+            self._punctuality.look(self._path.legs, self.motion, self._kernel.now)
+            self._drive.coast(self._path, self.config.joints)
+            self._rearm()
+        elif self._drive.planned()[1] > 0.0:
             self._brake(quick)
         self._settle()
 
     def start(self, reason: str) -> None:
-        """Take a stop back; the robot goes on when it was the last one."""
+        """Take a stop back; the robot goes on when it was the last one.
+
+        A robot that is off its path returns to it first, on a joint line.
+        """
         self._settle()
         self._stops.pop(reason, None)
         if not self._stops:
             self._replan()
         self._settle()
+
+    @property
+    def off_path(self) -> tuple[float, float]:
+        """How far (m, rad of the TCP) a standing robot is from where its path goes on."""
+        way = self._path.way_back(self._drive.place())
+        if way is None:
+            return 0.0, 0.0
+        tool: Any = self.tool
+        held = IDENTITY if tool is None else arguments.frame(tool.tframe)
+        return ways.apart(self.config, self.kinematics, self.settings, way, held)
+
+    def jog(self, posture: Posture) -> None:
+        """Put a standing robot elsewhere by hand; it returns to its path before it goes on.
+
+        A path that is done is dropped. ValueError: the robot moves.
+        """
+        if not self.is_standing:
+            raise ValueError("the robot moves")
+        if not self.legs:
+            self.jump(posture)
+            return
+        self._come_back(tuple(posture), self.motion.law.place)
+        self._settle()
+
+    def _come_back(self, here: Posture, place: float) -> None:
+        """The path goes on at a place, and the robot stands elsewhere."""
+        place = self._path.regain(here, place, self._limits())
+        if not self._path.pieces:
+            self._path.target = here
+        self._drive.put(TimeLaw(place), self._kernel.now, self._path, here)
+        self._rearm()
 
     def clear_path(self) -> None:
         """Drop what is left of the path; a moving robot brakes on it first."""
@@ -354,7 +403,12 @@ class MotionGroup:
             self._brake(False)
         motion, path = self.motion, self._path
         lost = path.cut(motion.law.place)
-        self._drive.put(motion.law, motion.start, path, path.target)
+        if motion.coast is None:
+            self._drive.put(motion.law, motion.start, path, path.target)
+        else:
+            self._path = Path(motion.rest)
+            now, rest = self._kernel.now, motion.rest
+            self._drive.put(TimeLaw(0.0), now, self._path, rest, motion.coast)
         self._rearm()
         self._finish(lost, cleared=True)
         self._settle()
@@ -393,11 +447,7 @@ class MotionGroup:
         self._finish(list(self._path.legs), cleared=True)
         self._path, self._events = level.path, level.events
         self._stops[reason] = None
-        place = level.motion.law.place
-        if self._path.regain(here, level.motion.rest, place, self._limits()):
-            place = self._path.pieces[0].start
-        self._drive.put(TimeLaw(place), self._kernel.now, self._path, here)
-        self._rearm()
+        self._come_back(here, level.motion.law.place)
         self._settle()
 
     def reset(self) -> None:
@@ -491,6 +541,12 @@ class MotionGroup:
             if standing:
                 self._punctuality.report(self._log, self.name)
             changed = True
+        if standing and _BRAKES in self._stops:
+            del self._stops[_BRAKES]
+            if self.motion.coast is not None:
+                self._come_back(self.motion.rest, self.motion.law.place)
+            if not self._stops:
+                self._replan()
         if standing and self._settled != self.motion.start:
             self._settled = self.motion.start
             changed = True

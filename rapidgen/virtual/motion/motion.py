@@ -5,6 +5,7 @@ from math import ceil
 
 from rapidgen.virtual.kernel import S
 from rapidgen.virtual.motion import smoothing
+from rapidgen.virtual.motion.coasting import Coast
 from rapidgen.virtual.motion.moves import Move, Posture
 from rapidgen.virtual.motion.path import posture_at
 from rapidgen.virtual.motion.pieces import Piece
@@ -31,12 +32,17 @@ class Motion:
     ramp: float = 0.0
     """s in which acceleration builds up (`smoothing.py`); 0: at once."""
 
+    coast: Coast | None = None
+    """The axes' own way to rest when the brakes stop them; the law then tells where on the path
+    the robot should have stopped."""
+
     @property
     def end(self) -> int:
         """When it stands still."""
-        if not self.law.phases[0]:
-            return self.start
-        return self.start + ceil((self.law.duration + self.ramp) * S)
+        end = self.start
+        if self.law.phases[0]:
+            end += ceil((self.law.duration + self.ramp) * S)
+        return end if self.coast is None else max(end, self.coast.end)
 
     def planned(self, now: int) -> tuple[float, float]:
         """Place and speed of the law at a time: from there on it may be planned anew."""
@@ -54,6 +60,8 @@ class Motion:
         """Axis values at a time."""
         if now >= self.end:
             return self.rest
+        if self.coast is not None:
+            return self.coast.posture(now)
         return posture_at(self.pieces, self.place(now), self.rest)
 
     def move(self, now: int) -> Move | None:

@@ -27,7 +27,7 @@ NOTHING_M = 1e-9
 class Path:
     """Pieces from the one that the robot is on, and the legs that it has not finished."""
 
-    __slots__ = ("end", "legs", "pieces", "tail", "target")
+    __slots__ = ("_back", "end", "legs", "pieces", "tail", "target")
 
     def __init__(self, posture: Posture) -> None:
         self.pieces: tuple[Piece, ...] = ()
@@ -37,6 +37,8 @@ class Path:
         self.end = 0.0
         self.target = posture
         """Where the path ends."""
+        self._back: Piece | None = None
+        """The way back to the path, when it is the first piece."""
 
     def extend(
         self,
@@ -141,17 +143,34 @@ class Path:
         self.end = place
         return lost
 
-    def regain(self, here: Posture, there: Posture, place: float, limits: AxisLimits) -> bool:
-        """Put a joint line from `here` to the path's `place` before it; False: it is there."""
+    def regain(self, here: Posture, place: float, limits: AxisLimits) -> float:
+        """Put a joint line from `here` to the path's `place` before it; returns where it begins.
+
+        `place` itself when the robot is there. An earlier way back is forgotten.
+        """
+        if self.pieces and self.pieces[0] is self._back:
+            place = self._back.end
+            self.pieces = self.pieces[1:]
+        self._back = None
+        self.prune(place)
+        there = self.at(place)
         reach = max(abs(b - a) / v for a, b, v in zip(here, there, limits.speeds, strict=True))
         if reach < NOTHING_M or not self.pieces:
-            return False
+            return place
         duration = reach / REGAIN_SPEED
         rates = tuple([(b - a) / duration for a, b in zip(here, there, strict=True)])
         start = place - duration
         back = JointLine(start, place, start, here, rates, limits, 0.0)
-        self.pieces = (back.until(place, stop=True), *self.pieces)
-        return True
+        self._back = back.until(place, stop=True)
+        self.pieces = (self._back, *self.pieces)
+        return start
+
+    def way_back(self, place: float) -> tuple[Posture, Posture] | None:
+        """Begin and end of the way back to the path; None when the robot's place is not on it."""
+        back = self._back
+        if back is None or place >= back.end:
+            return None
+        return back.at(back.start), back.at(back.end)
 
     def at(self, place: float) -> Posture:
         """Axis values at a place."""

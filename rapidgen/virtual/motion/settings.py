@@ -42,8 +42,20 @@ class MotionSettings:
     conc_limit: int = 5
     """Consecutive \\Conc moves (S4 datasys 2-MoveJ-1)."""
 
+    emergency_stop: Literal["brakes", "path"] = "brakes"
+    """Emergency stop by the brakes (category 0), off the path; or controlled on the path with
+    `quick_factor` (category 1). Which one is a matter of the cell. A power failure is always the
+    former (S4 overview p.5-23)."""
+
     path_distance: float = 0.01
     """m off the path beyond which StartMove fails with ERR_PATHDIST (S4 datasys 2-StartMove-1)."""
+
+    path_angle: float = 0.3490658503988659
+    """rad (20 degrees) of the TCP off the path, the same (S4 datasys 2-StartMove-1)."""
+
+    regain_distance: float = 0.5
+    """m off the path beyond which a program does not start (a controller's default in
+    automatic mode, from public system parameters)."""
 
     settle: float = 0.0
     """s after the end of motion until a stop point counts as reached. No figure is public."""

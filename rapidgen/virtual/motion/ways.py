@@ -1,6 +1,7 @@
 """From a move to its way: range, geometry and configuration are checked here, before motion."""
 
 from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.limits import outside
 from rapidgen.config.model import MotionGroup
@@ -57,6 +58,21 @@ def goes_nowhere(
             if joint.axis.startswith("eax")
         )
     )
+
+
+def apart(
+    config: MotionGroup,
+    kinematics: Kinematics | None,
+    settings: MotionSettings,
+    postures: tuple[Posture, Posture],
+    tool: Pose,
+) -> tuple[float, float]:
+    """How far two postures are from each other: m and rad of the TCP."""
+    if kinematics is None:
+        measure, _ = lever_measure(config, *postures, settings.lever)
+        return measure.tcp, measure.angle
+    here, there = (frames.compose(kinematics.forward(posture), tool) for posture in postures)
+    return frames.distance(here[0], there[0]), frames.angle_between(here[1], there[1])
 
 
 def make(

@@ -1,0 +1,164 @@
+"""Stops by the brakes: off the path, and back to it before anything else."""
+
+import numpy as np
+import pytest
+
+from rapidgen.virtual.kernel import S
+from rapidgen.virtual.motion import MotionSettings
+
+P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
+DATA = f"CONST robtarget p := {P};\n"
+HOME = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;\n"
+
+
+def off_line(path):
+    """Distance of every sample from the joint line, axis 2 = half of axis 1."""
+    return np.abs(path[:, 0] - 2 * path[:, 1]).max()
+
+
+def test_the_brakes_take_it_off_the_path_and_it_comes_back(cell, joint):
+    # S4 overview 5-23: a stop by the brakes deviates; first back to where it should have stopped
+    group = cell.group
+    seen = {}
+
+    def look():
+        seen["off"] = group.off_path
+        seen["rest"] = group.positions()
+        seen["standing"] = group.is_standing
+
+    cell.at(0.2, lambda: group.stop("x", brakes=True))
+    cell.at(1.0, look)
+    cell.at(1.0, lambda: group.start("x"))
+    cell.run(lambda task: group.move(task, joint(90, 45, tcp=10)))
+    assert seen["standing"]
+    assert 1e-4 < seen["off"][0] < 0.2
+    assert group.off_path == (0.0, 0.0)
+    assert group.positions() == pytest.approx(np.radians([90, 45, 0, 0, 0, 0]))
+    stopped = np.argmin(np.abs(np.array(cell.times) / S - 1.0))
+    assert off_line(cell.path[:stopped]) > 1e-3
+    # Back on the path it stays there.
+    back = next(k for k in range(stopped, len(cell.times)) if off_line(cell.path[k : k + 1]) < 1e-9)
+    assert off_line(cell.path[back:]) < 1e-6
+    speeds = np.abs(np.diff(cell.path, axis=0)) / 0.002
+    assert (speeds <= np.array([j.speed for j in cell.config.joints]) * (1 + 1e-6)).all()
+
+
+def test_each_axis_slows_down_by_itself(cell, joint):
+    group = cell.group
+    cell.at(0.2, lambda: group.stop("x", brakes=True))
+    cell.at(1.0, lambda: group.start("x"))
+    cell.run(lambda task: group.move(task, joint(90, 45, tcp=10)))
+    bends = np.abs(np.diff(cell.path, n=2, axis=0)) / 0.002**2
+    coasting = bends[101:110, :2]
+    strongest = np.array([j.acceleration for j in cell.config.joints])[:2] * 2  # quick_factor
+    assert coasting[0] == pytest.approx(strongest, rel=1e-3)
+
+
+def test_a_path_that_is_cleared_while_it_coasts_is_gone(cell, joint):
+    group = cell.group
+
+    def halt():
+        group.stop("x", brakes=True)
+        group.clear_path()
+        group.start("x")
+
+    cell.at(0.2, halt)
+    ended = []
+
+    def program(task):
+        group.move(task, joint(90, 45, tcp=10))
+        ended.append(group.positions())
+        task.sleep(1.0)
+        ended.append(group.positions())
+        group.move(task, joint(0, 0))
+
+    cell.run(program)
+    assert ended[1] != pytest.approx(np.radians([90, 45, 0, 0, 0, 0]), abs=0.1)
+    assert group.positions() == pytest.approx([0.0] * 6)
+    assert np.abs(np.diff(cell.path, axis=0)).max() < 0.02  # no jump
+
+
+def test_every_move_is_made_after_a_stop_by_the_brakes_at_any_time(make_cell, joint, zones):
+    for tenth in range(1, 16):
+        cell = make_cell()
+        group = cell.group
+
+        def stop(group=group):
+            group.stop("x", brakes=True)
+
+        cell.at(tenth / 10, stop)
+        cell.at(3.0, lambda group=group: group.start("x"))
+
+        def program(task, group=group):
+            for degrees in (20, 50, 60):
+                group.move(task, joint(degrees, degrees / 2, z=10 if degrees < 60 else 0))
+
+        cell.run(program)
+        assert group.positions() == pytest.approx(np.radians([60, 30, 0, 0, 0, 0]))
+        assert np.abs(np.diff(cell.path, axis=0)).max() < 0.02
+
+
+@pytest.mark.parametrize("choice", ["brakes", "path"])
+def test_an_emergency_stop_by_category(rapid, choice):
+    program = rapid(
+        HOME + "MoveL Offs(p,0,200,0), v100, fine, tool0;" + 'TPWrite "" \\Pos:=CPos();', DATA
+    )
+    controller, group = program.controller, program.group
+    controller.motion.settings = MotionSettings(emergency_stop=choice)
+    controller.kernel.at(round(1.0 * S), lambda: controller.perform("e-stop"))
+    controller.run_for(2.0)
+    assert (group.off_path[0] > 1e-5) is (choice == "brakes")
+    for action in ("reset-e-stop", "motors-on", "start"):
+        controller.perform(action)
+    out = program.run()
+    assert out
+    assert "200" in out[0]
+
+
+def test_a_program_does_not_start_far_from_its_path(rapid):
+    program = rapid(HOME + "MoveL Offs(p,0,200,0), v50, fine, tool0;", DATA)
+    controller, group = program.controller, program.group
+    controller.run_for(2.0)
+    controller.stop_program()
+    controller.run_for(1.0)
+    here = group.positions()
+    group.jog((2.5, *here[1:]))
+    assert group.off_path[0] > 0.5
+    assert not controller.start_program()
+    assert any("from its path" in str(event) for event in controller.log)
+    group.jog((here[0] + 0.2, *here[1:]))
+    assert controller.start_program()
+    controller.run_for(20.0)
+    assert group.off_path == (0.0, 0.0)
+    assert group.positions()[0] != pytest.approx(here[0])
+
+
+def test_start_move_refuses_a_path_that_is_not_near(rapid):
+    # S4 datasys 2-StartMove-1: more than 10 mm or 20 degrees
+    data = DATA + (
+        "VAR intnum i;\nTRAP aside\nVAR robtarget here;\nStopMove;\nStorePath;\n"
+        "here := CRobT(\\Tool:=tool0);\nMoveL Offs(here,0,0,WAY), v200, fine, tool0;\n"
+        'RestoPath;\nStartMove;\nERROR\nIF ERRNO = ERR_PATHDIST TPWrite "far"; StopMoveReset;'
+        " TRYNEXT;\nENDTRAP\n"
+    )
+    body = (
+        HOME
+        + "CONNECT i WITH aside; ITimer \\Single, 0.5, i;"
+        + ("MoveL Offs(p,0,100,0), v100, fine, tool0;")
+    )
+    assert rapid(body, data.replace("WAY", "9")).run() == []
+    assert rapid(body, data.replace("WAY", "11")).run() == ["far"]
+
+
+def test_only_a_standing_robot_is_jogged(cell, joint):
+    def program(task):
+        task.sleep(0.1)
+        with pytest.raises(ValueError, match="moves"):
+            cell.group.jog((0.0,) * 6)
+
+    cell.start(program)
+    cell.run(lambda task: cell.group.move(task, joint(30)))
+    cell.group.jog(tuple(np.radians([31, 0, 0, 0, 0, 0])))
+    assert cell.group.off_path == (0.0, 0.0)  # the path is done
+    cell.run(lambda task: cell.group.move(task, joint(30)))
+    assert cell.group.positions() == pytest.approx(np.radians([30, 0, 0, 0, 0, 0]))
