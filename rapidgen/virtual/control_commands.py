@@ -24,6 +24,7 @@ _ACTIONS = (
     "pp-to-main",
     "power-loss",
 )
+_LARGEST = 1e300
 _MODES = ("auto", "manual_reduced", "manual_full")
 
 
@@ -172,7 +173,9 @@ class _Remote:
         """`task`, `name` as `Module:datum`: the value as RAPID text."""
         task, name = self._datum(request)
         try:
-            return value_text(task[name], task.type_of(name)[0])
+            type_ = task.type_of(name)[0]
+            _has_value(type_)
+            return value_text(task[name], type_)
         except KeyError as error:
             raise CommandError(f"{task.name} has no data '{name}'") from error
 
@@ -182,7 +185,7 @@ class _Remote:
         text = _text(request, "value")
         try:
             type_, dims = task.type_of(name)
-            _settable(type_)
+            _has_value(type_)
             task[name] = parse_value(text, type_, dims)
         except KeyError as error:
             raise CommandError(f"{task.name} has no data '{name}' that can be set") from error
@@ -229,7 +232,7 @@ class _Remote:
         return None
 
 
-def _settable(type_: Type) -> None:
+def _has_value(type_: Type) -> None:
     if not type_.is_value:
         raise CommandError(f"{type_.name} is no value type")
 
@@ -269,4 +272,6 @@ def _number(request: Request, key: str) -> float:
     value = request.get(key)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise CommandError(f"'{key}' is missing or no number")
+    if abs(value) > _LARGEST:
+        raise CommandError(f"'{key}' is too large")
     return value

@@ -7,6 +7,7 @@ clients that misbehave: garbage gets an answer, too long a line or too slow a re
 """
 
 import json
+import math
 import selectors
 import socket
 from collections.abc import Callable, Mapping
@@ -21,6 +22,14 @@ MAX_UNREAD = 1_048_576
 
 Request = Mapping[str, Any]
 Subscribe = Callable[[Callable[[Mapping[str, Any]], None]], Callable[[], None]]
+
+
+def _finite(text: str) -> float:
+    """A number of a request. ValueError: it is none that an answer could carry."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text} is no number")
+    return value
 
 
 class CommandError(Exception):
@@ -127,11 +136,13 @@ class ControlSocket:
 
     def _answer(self, client: _Client, line: bytes) -> dict[str, Any]:
         try:
-            request = json.loads(line)
+            request = json.loads(line, parse_float=_finite, parse_constant=_finite)
         except (ValueError, RecursionError) as error:
             return {"ok": False, "error": f"not JSON: {error}"}
         if not isinstance(request, dict) or not isinstance(request.get("do"), str):
             return {"ok": False, "error": 'a request is an object with "do"'}
+        if not isinstance(request.get("id", ""), str | int):
+            return {"ok": False, "error": "an id is a text or a whole number"}
         answer: dict[str, Any] = {"id": request["id"]} if "id" in request else {}
         try:
             result = self._perform(client, request)

@@ -91,7 +91,7 @@ class Signal:
             if not math.isfinite(value):
                 raise ValueError(f"{value} is no value for {self.name}")
             return float(value)
-        if value != int(value) or not 0 <= value <= self.largest:
+        if not math.isfinite(value) or value != int(value) or not 0 <= value <= self.largest:
             raise ValueError(f"{value:g} does not fit {self.name} (0 to {self.largest:g})")
         return int(value)
 
