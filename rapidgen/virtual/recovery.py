@@ -69,6 +69,8 @@ class Recovery(Process):
         self._stops = controller.dialect.unhandled_error == "stop"
         self._instead: RapidError | None = None
         self.undo_level = 0
+        self.undo_failed = False
+        """An error in an UNDO handler stops the task [mem]."""
 
     # -- handlers --------------------------------------------------------------------------------
 
@@ -273,7 +275,7 @@ class Recovery(Process):
 
     def undo(self, handler: Callable[[], int], leaving: BaseException) -> None:
         """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
-        if isinstance(leaving, GreenletExit):
+        if isinstance(leaving, GreenletExit) or self.undo_failed:
             return
         if isinstance(leaving, RECOVERABLE):
             known = as_rapid_error(leaving)
@@ -283,6 +285,13 @@ class Recovery(Process):
         self.undo_level += 1
         try:
             handler()
+        except FatalError:
+            # The others are not executed: each might fail, too, and call what failed again.
+            self.undo_failed = True
+            raise
+        except RECOVERABLE as error:
+            self.undo_failed = True
+            raise self.unhandled(error) from None
         finally:
             self.undo_level -= 1
 

@@ -146,6 +146,7 @@ class RapidTask(Task):
 
     def _cycle(self) -> bool:
         """One pass of the entry routine; whether another one follows at once."""
+        self.undo_failed = False
         self._prepare()
         self.attend()
         self.charge(self.controller.costs.statement)
