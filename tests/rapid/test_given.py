@@ -130,7 +130,7 @@ def test_a_local_hides_a_global_of_another_module():
 
 
 def test_the_same_module_in_two_tasks_is_reported_once():
-    file = ModuleFile("a", "a.sys", b"MODULE a\nVAR num x := TRUE;\nENDMODULE\n")
+    file = ModuleFile("a", "a.sys", module("a", data="VAR num x := TRUE;").encode())
     tasks = tuple(TaskSpec(name, modules=(file,)) for name in ("T_ROB1", "T_COM"))
     assert found(System("s", tasks)) == [("error", "RG307")]
 
@@ -167,3 +167,34 @@ def test_a_module_that_is_there_twice_is_one_finding():
     assert [(d.message, d.span.path) for d in clashes] == [
         ("'a' is declared twice in this task", "m1.mod")
     ]
+
+
+@pytest.mark.parametrize(
+    ("routine", "expected"),
+    [
+        ("PROC main()\nENDPROC", []),
+        ("PROC MAIN()\nENDPROC", []),
+        ("PROC other()\nENDPROC", [("warning", "RG331")]),
+        ("VAR num main;", [("warning", "RG331")]),
+        ("LOCAL PROC main()\nENDPROC", [("warning", "RG324"), ("warning", "RG331")]),
+        ("PROC main(num speed)\nENDPROC", [("error", "RG331")]),
+        ("PROC main(\\num speed)\nENDPROC", [("error", "RG331")]),
+        ("FUNC num main()\nRETURN 1;\nENDFUNC", [("error", "RG331")]),
+        ("TRAP main\nENDTRAP", [("error", "RG331")]),
+    ],
+)
+def test_a_task_starts_in_a_procedure_without_parameters(routine, expected):
+    """[K §9]: one task module holds the entry routine, which has no parameters."""
+    assert sorted(found(system(f"MODULE a\n{routine}\nENDMODULE\n"))) == expected
+
+
+def test_the_entry_routine_is_the_one_that_the_configuration_names():
+    file = ModuleFile("a", "a.mod", module("a", entry="start").encode())
+    assert found(System("s", (TaskSpec("T_ROB1", entry="Start", modules=(file,)),))) == []
+    assert found(System("s", (TaskSpec("T_ROB1", modules=(file,)),))) == [("warning", "RG331")]
+    assert found(System("s", (TaskSpec("T_ROB1"),))) == []
+
+
+def test_no_entry_is_missed_where_modules_are_missing():
+    loads = module("a", 'Load "HOME:/b.mod";', entry="other")
+    assert found(system(loads)) == []

@@ -6,14 +6,14 @@ by what was given: see `given.Extent`.
 
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import Diagnostic, Severity, Span
 from rapidgen.rapid.checker.declarations import ModuleChecker
 from rapidgen.rapid.checker.given import Extent, Given
 from rapidgen.rapid.checker.symbols import Scope, Symbol, World, collect, task_globals
 from rapidgen.rapid.dialect import Dialect
-from rapidgen.rapid.nodes import Module
+from rapidgen.rapid.nodes import Module, RoutineDeclaration
 from rapidgen.rapid.parser import parse
-from rapidgen.system import System
+from rapidgen.system import System, TaskSpec
 
 _TREE_STANDS = frozenset(("RG213", "RG215", "RG216", "RG220"))
 """Errors of the text that leave a tree whose meaning can be checked."""
@@ -125,14 +125,16 @@ def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnost
                 module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
             modules.append(module)
         given = Given(dialect, Extent.SYSTEM, gaps or _loads(modules) or _any_unreadable(modules))
-        for diagnostic in _check_task(modules, given, World(installed)):
+        for diagnostic in _check_task(modules, given, World(installed), task):
             if diagnostic not in seen:
                 seen.add(diagnostic)
                 found.append(diagnostic)
     return _sorted(found)
 
 
-def _check_task(modules: Sequence[Module], given: Given, world: World) -> list[Diagnostic]:
+def _check_task(
+    modules: Sequence[Module], given: Given, world: World, task: TaskSpec
+) -> list[Diagnostic]:
     collected = [collect(module, world) for module in modules]
     names, clashes = task_globals([scope for scope, _ in collected])
     found: list[Diagnostic] = []
@@ -144,7 +146,36 @@ def _check_task(modules: Sequence[Module], given: Given, world: World) -> list[D
             if second.module is scope:
                 _clash(checker, first, second, "in this task")
         found += checker.found
-    return found
+    return found + _entry(task, names, given)
+
+
+def _entry(task: TaskSpec, names: Mapping[str, Symbol], given: Given) -> list[Diagnostic]:
+    """A task starts in a procedure without parameters [K §9]; without modules it never does."""
+    symbol = names.get(task.entry.lower())
+    if symbol is None or symbol.module is None or not isinstance(symbol.node, RoutineDeclaration):
+        if given.gaps or not task.modules:
+            return []
+        return [
+            Diagnostic(
+                "RG331",
+                Severity.WARNING,
+                f"the task {task.name} has no procedure '{task.entry}' to start in",
+                Span(task.modules[0].path, 1, 1),
+                help=f"declare PROC {task.entry}() in one of its modules, or name another entry",
+            )
+        ]
+    if symbol.kind == "PROC" and not symbol.node.parameters:
+        return []
+    what = "has parameters" if symbol.kind == "PROC" else f"is a {symbol.kind}"
+    checker = ModuleChecker(symbol.module, given)
+    checker.report(
+        "RG331",
+        f"the task {task.name} starts in '{symbol.name}', but that {what}",
+        symbol.node.name_token,
+        help=f"write PROC {symbol.name}()",
+        notes=("the entry routine is a procedure without parameters [K §9]",),
+    )
+    return checker.found
 
 
 def _installed(system: System) -> Mapping[str, Symbol]:
