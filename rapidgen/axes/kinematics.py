@@ -5,7 +5,7 @@ axis values in wire order, rad and m. External axes that carry the robot (a trac
 base; external axes that the chain does not name have no influence here.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, floor, hypot, pi
@@ -36,6 +36,57 @@ class _Step:
     follows: tuple[tuple[int, float], ...]
 
 
+def _steps(group: MotionGroup, chain: Sequence[Link]) -> tuple[_Step, ...]:
+    names = [joint.name for joint in group.joints]
+    kinds = {joint.name: joint.kind for joint in group.joints}
+
+    def step(link: Link) -> _Step:
+        return _Step(
+            fixed=(link.xyz, frames.from_rpy(*link.rpy)),
+            axis=link.axis,
+            joint=names.index(link.joint) if link.joint else -1,
+            prismatic=bool(link.joint) and kinds[link.joint] == "prismatic",
+            follows=tuple((names.index(name), k) for name, k in link.follows),
+        )
+
+    return tuple(map(step, chain))
+
+
+def _along(steps: tuple[_Step, ...], values: Posture) -> Pose:
+    """The end of a chain for joint values in the sense of the URDF."""
+    pose = IDENTITY
+    for step in steps:
+        pose = frames.compose(pose, step.fixed)
+        if step.joint >= 0:
+            amount = values[step.joint]
+        elif step.follows:
+            amount = sum(values[i] * k for i, k in step.follows)
+        else:
+            continue
+        if step.prismatic:
+            pose = frames.compose(pose, (frames.scale(step.axis, amount), frames.UNIT))
+        else:
+            pose = pose[0], frames.multiply(pose[1], frames.about(step.axis, amount))
+    return pose
+
+
+@dataclass(frozen=True)
+class MovingFrame:
+    """The user frame of a unit that carries work objects, in the root of the robot's chain."""
+
+    map: JointMap
+    steps: tuple[_Step, ...]
+
+    @classmethod
+    def of(cls, group: MotionGroup, chain: Sequence[Link]) -> "MovingFrame":
+        """The frame at the end of a chain of the group's joints."""
+        return cls(JointMap.of(group), _steps(group, chain))
+
+    def pose(self, posture: Posture) -> Pose:
+        """Where it is, for controller axis values in wire order."""
+        return _along(self.steps, self.map.to_urdf(posture))
+
+
 @dataclass(frozen=True)
 class Kinematics:
     """What a group's chain can compute. Make it with `Kinematics.of`."""
@@ -49,19 +100,7 @@ class Kinematics:
         """The kinematics of a group; None when its model has no geometry."""
         if not group.chain:
             return None
-        names = [joint.name for joint in group.joints]
-        kinds = {joint.name: joint.kind for joint in group.joints}
-
-        def step(link: Link) -> _Step:
-            return _Step(
-                fixed=(link.xyz, frames.from_rpy(*link.rpy)),
-                axis=link.axis,
-                joint=names.index(link.joint) if link.joint else -1,
-                prismatic=bool(link.joint) and kinds[link.joint] == "prismatic",
-                follows=tuple((names.index(name), k) for name, k in link.follows),
-            )
-
-        return cls(group, JointMap.of(group), tuple(map(step, group.chain)))
+        return cls(group, JointMap.of(group), _steps(group, group.chain))
 
     # -- forward ----------------------------------------------------------------------------
 
@@ -69,29 +108,12 @@ class Kinematics:
         """Flange of a posture."""
         values = self.map.to_urdf(posture)
         if self._arm is None:
-            return self._along(self.steps, values)
+            return _along(self.steps, values)
         arm, first, signs, places = self._arm
         angles = tuple([s * values[i] for s, i in zip(signs, places, strict=True)])
         pose = arm.forward(angles)  # type: ignore[arg-type]
-        base = self._along(self.steps[:first], values) if first else None
+        base = _along(self.steps[:first], values) if first else None
         return pose if base is None else frames.compose(base, pose)
-
-    @staticmethod
-    def _along(steps: tuple[_Step, ...], values: Posture) -> Pose:
-        pose = IDENTITY
-        for step in steps:
-            pose = frames.compose(pose, step.fixed)
-            if step.joint >= 0:
-                amount = values[step.joint]
-            elif step.follows:
-                amount = sum(values[i] * k for i, k in step.follows)
-            else:
-                continue
-            if step.prismatic:
-                pose = frames.compose(pose, (frames.scale(step.axis, amount), frames.UNIT))
-            else:
-                pose = pose[0], frames.multiply(pose[1], frames.about(step.axis, amount))
-        return pose
 
     # -- inverse ----------------------------------------------------------------------------
 
@@ -158,7 +180,7 @@ class Kinematics:
         first = self._arm[1]
         if not first:
             return pose
-        return frames.compose(frames.invert(self._along(self.steps[:first], values)), pose)
+        return frames.compose(frames.invert(_along(self.steps[:first], values)), pose)
 
     def _as_posture(self, solved: Angles, near: Angles, values: Posture) -> Posture:
         """Controller values of solved angles, each on the turn that is closest to `near`."""
@@ -174,7 +196,7 @@ class Kinematics:
 
         moving = [i for i, j in enumerate(self.group.joints) if j.axis.startswith("rax")]
         values = iterate(
-            lambda urdf: self._along(self.steps, urdf), pose, self.map.to_urdf(start), moving
+            lambda urdf: _along(self.steps, urdf), pose, self.map.to_urdf(start), moving
         )
         if values is None:
             return None

@@ -135,17 +135,15 @@ def _group(
     path: KeyPath = ("groups", draft.name)
     joints = _joints(keys, draft, path, report)
     names = {joint.name for joint in draft.joints}
-    for number, step in enumerate(draft.chain):
-        if step.axis == (0.0, 0.0, 0.0):
-            where = (*path, "chain", number, "axis")
-            report.error("RG014", f"chain step {number + 1} has an axis of length 0", where)
-        for name in (step.joint, *(joint for joint, _ in step.follows)):
-            if name and name not in names:
-                report.error(
-                    "RG014",
-                    f"chain step {number + 1} names the joint '{name}', which is not in `joints`",
-                    (*path, "chain", number, "joint"),
-                )
+    _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
+    external = {joint.name for joint in joints if joint.axis.startswith("eax")}
+    for unit, chain in draft.positioners.items():
+        where: KeyPath = (*path, "positioners", unit)
+        if unit not in keys.external_units:
+            report.error("RG014", f"'{unit}' is not in `external_units`", where, key=True)
+        if not any(step.joint for step in chain):
+            report.error("RG014", f"no joint moves '{unit}'", where)
+        _chain(chain, where, external, "the external axes of `joints`", report)
     ports = keys.ports
     return model.MotionGroup(
         name=draft.name,
@@ -167,7 +165,26 @@ def _group(
         work_object=_work_object(keys.work_object, (*path, "work_object"), report),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),
+        positioners=tuple(
+            model.Positioner(unit, tuple(chain)) for unit, chain in draft.positioners.items()
+        ),
     )
+
+
+def _chain(
+    chain: list[model.Link], path: KeyPath, names: set[str], among: str, report: Report
+) -> None:
+    for number, step in enumerate(chain):
+        if step.axis == (0.0, 0.0, 0.0):
+            where = (*path, number, "axis")
+            report.error("RG014", f"chain step {number + 1} has an axis of length 0", where)
+        for name in (step.joint, *(joint for joint, _ in step.follows)):
+            if name and name not in names:
+                report.error(
+                    "RG014",
+                    f"chain step {number + 1} names the joint '{name}', which is not in {among}",
+                    (*path, number, "joint"),
+                )
 
 
 def _joints(

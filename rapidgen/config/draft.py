@@ -38,6 +38,7 @@ class GroupDraft:
     model: str = ""
     joints: list[JointDraft] = field(default_factory=list)
     chain: list[Link] = field(default_factory=list)
+    positioners: dict[str, list[Link]] = field(default_factory=dict)
     coupling: float | None = None
     known: dict[tuple[str, str], float] = field(default_factory=dict)
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""

@@ -120,9 +120,10 @@ def _adopt(entries: Entries, over: Mapping) -> Entries:
         return entries
     joints = {names.get(key, key): value for key, value in known_joints.entries.items()}
     made = {**entries, "joints": (known[0], Mapping(joints, known_joints.span))}
-    if "chain" in entries:
-        place, chain = entries["chain"]
-        made["chain"] = (place, _renamed(chain, names))
+    for key in ("chain", "positioners"):
+        if key in entries:
+            place, chain = entries[key]
+            made[key] = (place, _renamed(chain, names))
     return made
 
 

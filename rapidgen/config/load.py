@@ -97,8 +97,9 @@ def _draft(name: str, keys: schema.GroupKeys, basis: Basis | None) -> GroupDraft
         for joint, given in keys.joints.items()
     ]
     chain = [_link(step) for step in keys.chain]
+    carriers = {unit: [_link(step) for step in steps] for unit, steps in keys.positioners.items()}
     model, known = (basis.model, basis.known) if basis else ("", {})
-    return GroupDraft(name, model, joints, chain, keys.coupling, known)
+    return GroupDraft(name, model, joints, chain, carriers, keys.coupling, known)
 
 
 def _link(step: schema.ChainStep) -> Link:

@@ -20,7 +20,9 @@ def to_manifest(config: RobotConfig) -> dict[str, Any]:
 def _out(value: Any) -> Any:
     if dataclasses.is_dataclass(value):
         return {
-            f.name: _out(getattr(value, f.name)) for f in dataclasses.fields(value) if f.compare
+            f.name: _out(getattr(value, f.name))
+            for f in dataclasses.fields(value)
+            if f.compare and (getattr(value, f.name) or not f.metadata.get("sparse"))
         }
     if isinstance(value, tuple):
         return [_out(item) for item in value]

@@ -11,6 +11,9 @@ from typing import Literal
 
 from rapidgen.diagnostics import Diagnostic
 
+SPARSE = {"sparse": True}
+"""Of a field that a manifest leaves out while it is empty: what only some robots have does not
+change the BUILD_ID of the others."""
 AxisKind = Literal["revolute", "prismatic"]
 Generation = Literal[5, 6, 7, 8]
 
@@ -100,6 +103,15 @@ class Ports:
 
 
 @dataclass(frozen=True, slots=True)
+class Positioner:
+    """A mechanical unit that carries work objects: from the root of the robot's chain to its
+    user frame. Its joints are external axes of the group."""
+
+    unit: str
+    chain: tuple[Link, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class MotionGroup:
     """One motion task with its mechanical unit: `joints` in wire order (1 to 10)."""
 
@@ -118,6 +130,7 @@ class MotionGroup:
     """m/s"""
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
+    positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -239,6 +239,10 @@ class GroupKeys(_Part):
     chain: Annotated[list[ChainStep], Rule("Kinematic chain from the base to the flange.")] = field(
         default_factory=list
     )
+    positioners: Annotated[
+        dict[str, list[ChainStep]],
+        Rule("External unit that carries work objects: its chain, from where the robot's begins."),
+    ] = field(default_factory=dict)
     coupling: Annotated[
         float | None,
         Rule(

@@ -309,6 +309,23 @@ def test_an_axis_of_length_0_turns_nothing(tmp_path):
     assert places(faults(tmp_path, text)) == [("RG014", 2, 20), ("RG014", 2, 46)]
 
 
+def test_a_positioner_is_an_external_unit_that_an_external_axis_moves(tmp_path):
+    text = (
+        "model: irb120_track\n"
+        "external_units: [TRACK_1, STN_1]\n"
+        "positioners:\n"
+        "  STN_2: [{joint: positioner}]\n"
+        "  STN_1: [{joint: joint_1}]\n"
+        "  TRACK_1: [{xyz: [1, 2, 3]}]\n"
+    )
+    assert sorted(places(faults(tmp_path, text))) == [
+        ("RG014", 4, 3), ("RG014", 5, 19), ("RG014", 6, 3)
+    ]  # fmt: skip
+    other = "joints: {turntable: {axis: eax_b}}\n"
+    config = load(tmp_path, "model: irb120_track\n" + other)
+    assert config.groups[0].positioners[0].chain[0].joint == "turntable"
+
+
 def test_a_faulty_figure_is_not_also_a_missing_one(tmp_path):
     text = "model: irb120\njoints: {joint_1: {lower: x}, joint_2: {axis: rax_9}}"
     assert places(faults(tmp_path, text)) == [("RG006", 2, 27), ("RG006", 2, 47)]

@@ -177,16 +177,17 @@ def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> F
     names = {joint.name: by_axis[joint.axis] for joint in draft.joints}
     for joint in draft.joints:
         joint.name = names[joint.name]
-    draft.chain = [
-        Link(
-            names.get(link.joint, link.joint),
-            link.xyz,
-            link.rpy,
-            link.axis,
-            tuple((names.get(name, name), factor) for name, factor in link.follows),
-        )
-        for link in draft.chain
-    ]
+    for chain in (draft.chain, *draft.positioners.values()):
+        chain[:] = [
+            Link(
+                names.get(link.joint, link.joint),
+                link.xyz,
+                link.rpy,
+                link.axis,
+                tuple((names.get(name, name), factor) for name, factor in link.follows),
+            )
+            for link in chain
+        ]
     return []
 
 

@@ -50,7 +50,7 @@ def move_abs_j(
     object_data = work_object.get() if work_object is not None else None
     carrier = Carrier()
     if group.kinematics is not None:
-        carrier = carrier_of(tool_data, object_data, modal)
+        carrier = carrier_of(group, tool_data, object_data)
     group.use(tool_data, object_data)
     group.move(
         task,

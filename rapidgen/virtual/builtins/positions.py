@@ -9,7 +9,6 @@ from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.motion.access import group_of, named_group
 from rapidgen.virtual.motion.arguments import external_values, frame, joint_target, target_of
 from rapidgen.virtual.motion.group import MotionGroup
-from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.moves import Carrier
 from rapidgen.virtual.motion.targets import (
     carrier_of,
@@ -49,9 +48,9 @@ def carrier_for(group: MotionGroup, tool: Ref | None, work_object: Ref | None) -
     With a tool given, a work object left out is still the active one (S4 datasys 3-CRobT-1).
     """
     return carrier_of(
+        group,
         tool.get() if tool is not None else group.tool or tool0(),
         work_object.get() if work_object is not None else group.work_object,
-        group.modal,
     )
 
 
@@ -83,13 +82,13 @@ def calc_rob_t(task: Task, joints: Data, tool: Ref, work_object: Ref | None) -> 
     """The robtarget of a jointtarget."""
     group = group_of(task)
     posture = target_of(joints, group.map, group.positions(), group.modal.external_offset)
-    return rob_target(group, posture, _carrier(tool, work_object, group.modal))
+    return rob_target(group, posture, _carrier(group, tool, work_object))
 
 
 @builtin("CalcJointT")
 def calc_joint_t(
     task: Task,
-    _current: bool | None,
+    current: bool | None,
     target: Data,
     tool: Ref,
     work_object: Ref | None,
@@ -108,7 +107,9 @@ def calc_joint_t(
         for joint, new, old in zip(group.config.joints, asked, here, strict=True)
     )
     wanted = configuration_of(target.robconf) if group.modal.check_joint else None
-    flange = _carrier(tool, work_object, group.modal).flange(frame(target))
+    # \UseCurWObjPos: where the object's unit is now, not where the target wants it.
+    placed = _carrier(group, tool, work_object).at(here if current else near)
+    flange = placed.flange(frame(target))
     try:
         posture = joints_for(group.geometry(), flange, near, wanted)
     except RapidError as error:
@@ -121,8 +122,8 @@ def calc_joint_t(
     return joint_target(group.map, posture, group.modal.external_offset)
 
 
-def _carrier(tool: Ref, work_object: Ref | None, modal: ModalSettings) -> Carrier:
-    return carrier_of(tool.get(), work_object.get() if work_object is not None else None, modal)
+def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
+    return carrier_of(group, tool.get(), work_object.get() if work_object is not None else None)
 
 
 @builtin("CTool")

@@ -63,7 +63,7 @@ class CartesianWay:
         self.carrier = move.carrier
         self.limits = limits
         self._places = external_places(kinematics)
-        self.shape = _shape(move.carrier.pose(kinematics.forward(origin)), move)
+        self.shape = _shape(move.carrier.at(origin).pose(kinematics.forward(origin)), move)
         self._external = (origin, move.external)
         self.measure = Measure(
             self.shape.length, self.shape.angle, *_external_measure(kinematics, origin, move)
@@ -171,7 +171,7 @@ class CartesianWay:
             near = with_external(near, self._linear(share), self._places)
         if self._wrist is not None:
             return self._solve_wrist(share, near)
-        found = self._kinematics.follow(self.carrier.flange(pose), near)
+        found = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
         if found is None:
             raise RapidError("ERR_OUTSIDE_REACH", f"{tuple(round(v, 4) for v in pose[0])} m")
         return found

@@ -17,6 +17,7 @@ from rapidgen.virtual.motion.legs import Geometry, JointWay, Leg
 from rapidgen.virtual.motion.moves import (
     NO_TURN,
     NO_WAY,
+    Carrier,
     Posture,
     Zone,
     corner_shares,
@@ -138,7 +139,7 @@ def _cartesian(
     ends = sorted({-wide[0], -near[0], 0.0, near[1], wide[1]})
     sections = [(point + a, point + b) for a, b in pairwise(ends) if b - a > _SMALLEST]
     origin = way.posture(way.duration - wide[0])
-    solve = _Tracker(kinematics, way.carrier.flange, pose, external)
+    solve = _Tracker(kinematics, way.carrier, pose, external)
     return _sampled(solve, point, sections, origin, limits, max(way.tcp, after.tcp))
 
 
@@ -216,12 +217,12 @@ class _Tracker:
     def __init__(
         self,
         kinematics: Kinematics,
-        flange: Callable[[Pose], Pose],
+        carrier: Carrier,
         pose: Callable[[float], Pose],
         external: Callable[[float], Posture] | None,
     ) -> None:
         self._kinematics = kinematics
-        self._flange = flange
+        self._carrier = carrier
         self._pose = pose
         self._external = external
         self._places = external_places(kinematics)
@@ -229,7 +230,7 @@ class _Tracker:
     def __call__(self, time: float, near: Posture) -> Posture:
         if self._external is not None:
             near = with_external(near, self._external(time), self._places)
-        found = self._kinematics.follow(self._flange(self._pose(time)), near)
+        found = self._kinematics.follow(self._carrier.at(near).flange(self._pose(time)), near)
         if found is None:
             raise RapidError("ERR_OUTSIDE_REACH", "in a corner")
         return found

@@ -10,7 +10,7 @@ from math import ceil, inf
 from typing import Any, Protocol
 
 from rapidgen.axes.frames import IDENTITY
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, MovingFrame
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import MotionGroup as GroupConfig
 from rapidgen.virtual.errors import FatalError, RapidError
@@ -74,6 +74,7 @@ class MotionGroup:
         self.map = JointMap.of(config)
         self.kinematics = Kinematics.of(config)
         """None: the model has no geometry, so it moves in joints only."""
+        self._frames = {p.unit.lower(): MovingFrame.of(config, p.chain) for p in config.positioners}
         self.changed = WaitSet()
         """Notified when a move is released or finished, and when motion begins or ends."""
         self._kernel = kernel
@@ -323,6 +324,10 @@ class MotionGroup:
     def _ramp(self) -> float:
         """s in which acceleration builds up under AccSet of now."""
         return self.settings.ramp_time * self.modal.acceleration / self.modal.ramp
+
+    def moving_frame(self, unit: str) -> MovingFrame | None:
+        """The user frame of a unit that carries work objects; None: not known."""
+        return self._frames.get(unit.lower())
 
     def geometry(self) -> Kinematics:
         """The group's kinematics. FatalError: its model has none."""

@@ -166,7 +166,7 @@ def joint_measure(
     for k in range(_CHORDS + 1):
         share = k / _CHORDS
         posture = tuple([a + (b - a) * share for a, b in zip(origin, target, strict=True)])
-        poses.append(carrier.pose(kinematics.forward(posture)))
+        poses.append(carrier.at(posture).pose(kinematics.forward(posture)))
     chords = [frames.distance(a[0], b[0]) for a, b in pairwise(poses)]
     coarse = sum(frames.distance(a[0], b[0]) for a, b in pairwise(poses[::2]))
     fine = sum(chords)

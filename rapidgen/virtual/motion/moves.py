@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
-from rapidgen.axes.kinematics import Configuration
+from rapidgen.axes.kinematics import Configuration, MovingFrame
 from rapidgen.virtual.errors import RapidError
 
 Posture = tuple[float, ...]
@@ -62,8 +62,17 @@ class Carrier:
 
     tool: Pose = IDENTITY
     object: Pose = IDENTITY
-    """user * object * displacement, in the world or, when held, in the flange."""
+    """user * object * displacement: in the world, when held in the flange, on a unit in that."""
     stationary: bool = False
+    unit: MovingFrame | None = None
+    """The mechanical unit that carries the object; poses need `at` a posture then."""
+
+    def at(self, posture: Posture) -> "Carrier":
+        """The same where the external axes are those of a posture: nothing carries it."""
+        if self.unit is None:
+            return self
+        placed = compose(self.unit.pose(posture), self.object)
+        return Carrier(self.tool, placed, self.stationary)
 
     def flange(self, pose: Pose) -> Pose:
         """Where the flange is when the TCP has a pose in the object."""

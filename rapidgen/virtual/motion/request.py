@@ -38,7 +38,7 @@ class Request:
     def _common(self, task: Task, group: MotionGroup) -> dict[str, Any]:
         tool = self.tool.get()
         work_object = self.work_object.get() if self.work_object is not None else None
-        carrier = carrier_of(tool, work_object, group.modal)
+        carrier = carrier_of(group, tool, work_object)
         group.use(tool, work_object)
         fine = self.zone is None
         return {
@@ -58,7 +58,7 @@ class Request:
         kinematics = group.geometry()
         common = self._common(task, group)
         near = external_posture(group, target.extax)
-        flange = common["carrier"].flange(frame(target))
+        flange = common["carrier"].at(near).flange(frame(target))
         wanted = configuration_of(target.robconf) if group.modal.check_joint else None
         posture = joints_for(kinematics, flange, near, wanted)
         return group, JointMove(target=posture, **common)

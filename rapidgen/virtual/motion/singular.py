@@ -34,7 +34,7 @@ def wrist_end(kinematics: Kinematics, move: CartesianMove, origin: Posture) -> P
         e if joint.axis.startswith("eax") else o
         for joint, o, e in zip(kinematics.group.joints, origin, move.external, strict=True)
     )
-    flange = move.carrier.flange(move.target)
+    flange = move.carrier.at(near).flange(move.target)
     found = kinematics.solutions(flange, near)
     if not found:
         reached = kinematics.reaches(flange, near)
@@ -52,6 +52,7 @@ def put_tcp(
     """Turn axes 1 to 3 of a posture until the TCP is at a place in the object; None: no way."""
     main = _places(kinematics, ("rax_1", "rax_2", "rax_3"))
     values = list(start)
+    carrier = carrier.at(start)  # external axes stay
     for _ in range(_ROUNDS):
         have = carrier.pose(kinematics.forward(tuple(values)))[0]
         error = frames.subtract(place, have)

@@ -4,23 +4,22 @@ from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.axes.kinematics import Configuration, Kinematics
+from rapidgen.axes.kinematics import Configuration, Kinematics, MovingFrame
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.arguments import external_target, external_values, frame
 from rapidgen.virtual.motion.group import MotionGroup
-from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.moves import Carrier, Posture
 from rapidgen.virtual.values import ConfData, Orient, Pos, RobTarget, single
 
 Data: TypeAlias = Any
 
 
-def carrier_of(tool: Data, work_object: Data, modal: ModalSettings) -> Carrier:
+def carrier_of(group: MotionGroup, tool: Data, work_object: Data) -> Carrier:
     """Frames of tooldata and wobjdata (None: wobj0) with the program displacement.
 
-    Exactly one of them is held by the robot (S4 datasys 2-MoveAbsJ-3). A user frame that
-    follows a mechanical unit (ufprog FALSE) is not simulated.
+    Exactly one of them is held by the robot (S4 datasys 2-MoveAbsJ-3). With ufprog FALSE the user
+    frame is that of the unit `ufmec`, and uframe does not count (S4 datasys 1-wobjdata).
     """
     held = work_object is not None and work_object.robhold
     if bool(tool.robhold) == bool(held):
@@ -29,18 +28,38 @@ def carrier_of(tool: Data, work_object: Data, modal: ModalSettings) -> Carrier:
             "Tool and work object contradict",
             "one of them, and only one, is held by the robot",
         )
-    placed = IDENTITY
+    placed, unit = IDENTITY, None
     if work_object is not None:
-        if not work_object.ufprog:
-            raise FatalError(
-                events.NOT_SIMULATED, "Moving user frame", f"unit {work_object.ufmec!r}"
-            )
-        placed = frames.compose(frame(work_object.uframe), frame(work_object.oframe))
+        placed = frame(work_object.oframe)
+        if work_object.ufprog:
+            placed = frames.compose(frame(work_object.uframe), placed)
+        else:
+            unit = _unit(group, work_object)
     return Carrier(
         tool=frame(tool.tframe),
-        object=frames.compose(placed, modal.displacement),
+        object=frames.compose(placed, group.modal.displacement),
         stationary=not tool.robhold,
+        unit=unit,
     )
+
+
+def _unit(group: MotionGroup, work_object: Data) -> MovingFrame:
+    """What carries an object. FatalError: held by the robot too, or of unknown geometry."""
+    if work_object.robhold:
+        raise FatalError(
+            events.FRAMES_CONTRADICT,
+            "Work object contradicts",
+            f"it is held by the robot and by {work_object.ufmec!r}",
+        )
+    found = group.moving_frame(work_object.ufmec)
+    if found is None:
+        raise FatalError(
+            events.NO_GEOMETRY,
+            "No geometry",
+            f"{group.name}: where {work_object.ufmec!r} holds its work object is not known",
+            "give its chain as `positioners:` in the robot's configuration",
+        )
+    return found
 
 
 def external_posture(group: MotionGroup, data: Data) -> Posture:
@@ -94,7 +113,7 @@ def configuration_of(data: Data) -> Configuration:
 def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier) -> Data:
     """A posture as a fresh robtarget in the frames of a tool and an object."""
     kinematics = group.geometry()
-    (x, y, z), q = carrier.pose(kinematics.forward(posture))
+    (x, y, z), q = carrier.at(posture).pose(kinematics.forward(posture))
     if q[0] < 0:
         q = (-q[0], -q[1], -q[2], -q[3])
     return RobTarget(

@@ -48,7 +48,7 @@ def goes_nowhere(
     own = require(config, kinematics)
     if move.via is not None:
         return False
-    position, orientation = move.carrier.pose(own.forward(ends))
+    position, orientation = move.carrier.at(ends).pose(own.forward(ends))
     return (
         frames.distance(position, move.target[0]) < NO_WAY
         and frames.angle_between(orientation, move.target[1]) < NO_WAY
