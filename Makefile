@@ -51,6 +51,10 @@ unit: $(STAMP)
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.abb_driver $(FOREIGN)
 
+# Has each conformance file of the language a defect that turns it red? Some minutes on one core.
+mutants: $(STAMP)
+	$(BIN)/python benchmarks/conformance_mutants.py
+
 bench: $(STAMP)
 	for script in benchmarks/*.py; do $(BIN)/python $$script || exit 1; done
 

@@ -5,7 +5,7 @@ from typing import Final, cast
 from rapidgen.rapid import faults
 from rapidgen.rapid.blocks import ROUTINE_END_WORDS
 from rapidgen.rapid.faults import CLOSER, SyntaxFault
-from rapidgen.rapid.lexer import EOF, HOLDER, NAME, Tokens
+from rapidgen.rapid.lexer import EOF, HOLDER, NAME, NUMBER, Tokens
 from rapidgen.rapid.nodes import (
     DataDeclaration,
     DataKind,
@@ -13,6 +13,8 @@ from rapidgen.rapid.nodes import (
     Expression,
     Handler,
     Mode,
+    Name,
+    NumberLiteral,
     Parameter,
     RoutineDeclaration,
     RoutineKind,
@@ -240,6 +242,13 @@ class RoutineParser(StatementParser):
             )
         )
 
+    def _whole(self, i: int) -> Expression:
+        """The number or whole datum that token i is."""
+        text = self.texts[i]
+        if self.kinds[i] is NUMBER:
+            return NumberLiteral(i, i, self.numbers[text], text)
+        return Name(i, i, text)
+
     def _error_numbers(self, i: int) -> tuple[list[Expression] | None, int]:
         """The list behind ERROR, if any, and the index behind it [K §7.2]."""
         kinds = self.kinds
@@ -249,13 +258,14 @@ class RoutineParser(StatementParser):
         try:
             at = i
             while True:
-                number = self.expression(at + 1)
-                numbers.append(number)
-                at = number.last + 1
+                if kinds[at + 1] is not NUMBER and kinds[at + 1] is not NAME:
+                    raise SyntaxFault(at + 1, "a number or the name of a datum")
+                numbers.append(self._whole(at + 1))
+                at += 2
                 if kinds[at] == ")":
                     return numbers, at + 1
                 if kinds[at] != ",":
-                    raise SyntaxFault(at, "',' or ')'")
+                    raise SyntaxFault(at, "',' or ')'", "numbers and whole data only [K §7.2]")
         except SyntaxFault as found:
             self.depth = 0
             self.fault(found)

@@ -151,3 +151,19 @@ def test_one_unreadable_file_of_home_does_not_hide_the_others(backup, capsys):
     out = capsys.readouterr().out
     assert "RG706" in out
     assert "RG307" in out
+
+
+@pytest.mark.parametrize("suffix", ["mod", "MOD", "modx", "sys", "sysx", "prg"])
+def test_module_files_have_many_names(folder, capsys, suffix):
+    (folder / "more").mkdir()
+    (folder / "more" / f"bad.{suffix}").write_text(BAD)
+    assert main(["check", "more", "--format", "concise"]) == 1
+    assert "RG307" in capsys.readouterr().out
+
+
+def test_a_program_stands_for_its_modules(folder, capsys):
+    (folder / "work.pgf").write_text(
+        "<?xml version='1.0'?><Program><Module>good.mod</Module><Module>bad.mod</Module></Program>"
+    )
+    assert main(["check", "work.pgf", "--format", "concise"]) == 1
+    assert "bad.mod:2" in capsys.readouterr().out

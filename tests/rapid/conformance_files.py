@@ -21,7 +21,7 @@ _AT = re.compile(r"^! at (\d+): (.*)$", re.MULTILINE)
 _ARROW = re.compile(r"! -> ((?:RG\d{3}\?? ?)+)$")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Conformance:
     """One file, split into what it says about itself and its text."""
 

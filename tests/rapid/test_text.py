@@ -122,3 +122,47 @@ def test_names_that_unread_text_could_declare_are_not_called_unknown():
     other = "MODULE b\nENDMODULE\n"
     assert [d.code for d in check([parse(one), parse(other)])] == ["RG301"]
     assert [d.code for d in check([parse(one), parse(behind)])] == ["RG217"]
+
+
+def test_comments_stand_as_deep_as_what_they_belong_to():
+    """[K §2.10]: behind the data they belong to the routines, or to the statements."""
+    text = """MODULE m
+! data
+VAR num a;
+! routines
+PROC p()
+! local data
+VAR num b;
+! statements
+IF a = b THEN
+TPErase;
+! still inside
+ELSE
+TPErase;
+ENDIF
+! the end
+ENDPROC
+! nothing more
+ENDMODULE
+"""
+    expected = """MODULE m
+    ! data
+    VAR num a;
+    ! routines
+    PROC p()
+        ! local data
+        VAR num b;
+        ! statements
+        IF a = b THEN
+            TPErase;
+            ! still inside
+        ELSE
+            TPErase;
+        ENDIF
+        ! the end
+    ENDPROC
+    ! nothing more
+ENDMODULE
+"""
+    assert format_source(text) == expected
+    assert format_source(expected) == expected

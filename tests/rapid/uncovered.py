@@ -1,4 +1,4 @@
-"""Lists rules of docs/rapid.md without a conformance file, and files that no rule claims.
+"""Lists rules of docs/rapid.md without a conformance file or test, and files that no rule claims.
 
 python tests/rapid/uncovered.py
 """
@@ -10,7 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "tests" / "rapid" / "conformance"
-_ROW = re.compile(r"^\| ([^|]+) \| ([^|]+) \| ((?:`[\w.*/-]+` ?)+)\|$", re.MULTILINE)
+_ROW = re.compile(r"^\| ([^|]+) \| ([^|]+) \| ((?:`[\w.*/:-]+` ?)+)\|$", re.MULTILINE)
 
 
 def rules():
@@ -26,9 +26,19 @@ def uncovered():
     """Patterns without a file, and files without a pattern."""
     names = [f.relative_to(FOLDER).with_suffix("").as_posix() for f in FOLDER.rglob("*.mod")]
     patterns = [(rule, p) for rule, _, listed in rules() for p in listed]
+    names += _tests()
     empty = [f"{rule}: {p}" for rule, p in patterns if not any(fnmatchcase(n, p) for n in names)]
     claimed = [n for n in names if any(fnmatchcase(n, p) for _, p in patterns)]
-    return empty, sorted(set(names) - set(claimed))
+    return empty, sorted(n for n in set(names) - set(claimed) if "::" not in n)
+
+
+def _tests():
+    """Names of test functions, as `file.py::test_name`."""
+    return [
+        f"{file.name}::{name}"
+        for file in sorted(FOLDER.parent.glob("test_*.py"))
+        for name in re.findall(r"^def (test_\w+)", file.read_text("utf-8"), re.MULTILINE)
+    ]
 
 
 if __name__ == "__main__":

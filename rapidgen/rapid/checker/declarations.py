@@ -134,7 +134,7 @@ class ModuleChecker(FlowChecker):
             self._constant_expression(initial)
         wanted = array(base, len(node.dimensions)) if base else None
         self.expect(initial, wanted, "the initial value")
-        self._sizes(node, initial, 0)
+        self.members_of(initial, [self.constant(size) for size in node.dimensions])
 
     def _persistent(self, node: DataDeclaration, *, routine: bool) -> None:
         if routine:
@@ -167,23 +167,6 @@ class ModuleChecker(FlowChecker):
             value = self.constant(size)
             if isinstance(value, int | float) and (value < 1 or value != int(value)):
                 self.report("RG318", f"a size is a whole number from 1, not {value:g}", size)
-
-    def _sizes(self, node: DataDeclaration, initial: Expression, depth: int) -> None:
-        """Members of an initial aggregate against the declared sizes."""
-        if depth >= len(node.dimensions) or not isinstance(initial, Aggregate):
-            return
-        size = self.constant(node.dimensions[depth])
-        if isinstance(size, int | float) and len(initial.members) != size:
-            self.report(
-                "RG318",
-                f"the array has {size:g} elements, its initial value {len(initial.members)}",
-                initial,
-                notes=("[K §2.22]",),
-            )
-            return
-        if depth + 1 < len(node.dimensions):
-            for member in initial.members:
-                self._sizes(node, member, depth + 1)
 
     def _literal(self, node: Expression) -> None:
         """A PERS starts from a literal, or an aggregate of literals [K §3.2]."""

@@ -14,7 +14,6 @@ from rapidgen.rapid.nodes import (
     BoolLiteral,
     CompactIf,
     Connect,
-    DataDeclaration,
     Exit,
     Expression,
     For,
@@ -95,8 +94,8 @@ class FlowChecker(CallChecker):
                 self.used(node.value)
                 return True
         self.expect(node.value, wanted, "the value")
-        if wanted is not None and isinstance(node.value, Name) and degree(wanted):
-            self._same_sizes(node, target)
+        if wanted is not None and degree(wanted):
+            self.same_sizes(node, target, node.value)
         return True
 
     def _hint(self, node: Assignment) -> str | None:
@@ -121,18 +120,6 @@ class FlowChecker(CallChecker):
             notes=("assignment targets [K §4.4, 4.15]",),
             related=self.declared(root),
         )
-
-    def _same_sizes(self, node: Assignment, target: Expression) -> None:
-        """Whole arrays have the same sizes, where both are declared with known ones."""
-        left, right = self.root(target), self.root(node.value)
-        if left is None or right is None or not isinstance(target, Name):
-            return
-        if isinstance(left.node, DataDeclaration) and isinstance(right.node, DataDeclaration):
-            ours = [self.constant(d) for d in left.node.dimensions]
-            theirs = [self.constant(d) for d in right.node.dimensions]
-            same_degree = len(ours) == len(theirs)
-            if same_degree and None not in (*ours, *theirs) and ours != theirs:
-                self.report("RG318", "the arrays differ in size", node)
 
     def _call_statement(self, node: ProcedureCall) -> bool:
         self.call(node)

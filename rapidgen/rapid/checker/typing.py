@@ -4,7 +4,7 @@
 that its place wants, which is also where an aggregate gets its type from.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
@@ -29,6 +29,7 @@ from rapidgen.rapid.nodes import (
     Index,
     Member,
     Name,
+    Node,
     NumberLiteral,
     Parenthesis,
     Placeholder,
@@ -290,8 +291,11 @@ class TypeChecker(Reporter):
             return "bool"
         left, right = self._operands(node)
         if operator in ("=", "<>"):
-            if left is not None and right is not None and not _equal(left, right):
-                self._operator(node, operator, left, right)
+            if left is not None and right is not None:
+                if not _equal(left, right):
+                    self._operator(node, operator, left, right)
+                elif degree(left):
+                    self.same_sizes(node, node.left, node.right)
             return "bool"
         if operator in _RELATIONS:
             if left is not None and right is not None:
@@ -373,6 +377,45 @@ class TypeChecker(Reporter):
             return wanted
         self.mismatch(node, wanted, found, place)
         return wanted
+
+    def same_sizes(self, node: Node, target: Expression, value: Expression) -> None:
+        """Whole arrays have the same sizes [K §2.17], where both show them."""
+        ours = self._sizes(target)
+        if isinstance(value, Aggregate):
+            self.members_of(value, ours)
+            return
+        theirs = self._sizes(value)
+        known = len(ours) == len(theirs) and None not in (*ours, *theirs)
+        if known and ours != theirs:
+            self.report("RG318", "the arrays differ in size", node)
+
+    def _sizes(self, node: Expression) -> list[Constant | None]:
+        """Declared sizes of a whole array; None where one is not known, none for what is none."""
+        root = self.root(node) if isinstance(node, Name) else None
+        if root is None or not isinstance(root.node, DataDeclaration):
+            return []
+        # Names in another module's declaration mean what they mean there.
+        away = root.module not in (None, self.scope)
+        return [
+            None if away and type(size) is not NumberLiteral else self.constant(size)
+            for size in root.node.dimensions
+        ]
+
+    def members_of(self, value: Expression, sizes: Sequence[Constant | None]) -> None:
+        """Members of an aggregate against the declared sizes of an array."""
+        if not sizes or not isinstance(value, Aggregate):
+            return
+        size = sizes[0]
+        if isinstance(size, int | float) and len(value.members) != size:
+            self.report(
+                "RG318",
+                f"the array has {size:g} elements here, the aggregate {len(value.members)}",
+                value,
+                notes=("an aggregate has a member for each element [K §2.22, 3.9]",),
+            )
+            return
+        for member in value.members:
+            self.members_of(member, sizes[1:])
 
     def mismatch(self, node: Expression, wanted: str, found: str, place: str) -> None:
         """Say that types differ."""

@@ -1,5 +1,6 @@
 ! rule: ERRNO and INTNO
 ! source: [K §12]
+! given: system
 MODULE Demo
     VAR num a;
     PROC main()

@@ -1,0 +1,12 @@
+! rule: PowDnum takes and gives dnum
+! source: [manual] 3HAC050917, name; its arguments as of Pow
+MODULE Demo
+    VAR dnum d;
+    VAR num n;
+    PROC main()
+        d := PowDnum(d, d);
+        n := PowDnum(d, d);  ! -> RG307
+        d := PowDnum(d, n);  ! -> RG307
+        d := PowDnum(d);  ! -> RG311
+    ENDPROC
+ENDMODULE
