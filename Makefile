@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
 
-.PHONY: demo test lint types contract unit wheel foreign bench motion-campaign clean
+.PHONY: demo test lint types contract unit wheel foreign mutants bench motion-campaign clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
