@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.errors import FatalError, RapidError
+from rapidgen.virtual.process_errors import ProcessError
 
 if TYPE_CHECKING:
     from rapidgen.virtual.task import Task
@@ -46,6 +47,8 @@ class Interrupts:
         self.queue: deque[tuple[Interrupt, Any]] = deque()
         """Events whose delay has passed."""
         self.disabled = False
+        self.process_error: ProcessError | None = None
+        """What ProcerrRecovery ordered, until it is raised."""
         self._underway = 0
         self._next = 1
         self._last_due = 0
@@ -102,6 +105,7 @@ class Interrupts:
             self.delete(number)
         self.queue.clear()
         self.disabled = False
+        self.process_error = None
 
     # -- events ----------------------------------------------------------------------------------
 

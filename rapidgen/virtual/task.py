@@ -11,6 +11,7 @@ from rapidgen.virtual.compiler.symbols import Parameter, Routine
 from rapidgen.virtual.errors import RECOVERABLE, EndOfRun, FatalError, RapidError
 from rapidgen.virtual.interrupts import Interrupts
 from rapidgen.virtual.kernel import Kernel, WaitSet
+from rapidgen.virtual.process_errors import ProcessError
 from rapidgen.virtual.recovery import Recovery
 from rapidgen.virtual.registry import COSTS
 
@@ -102,6 +103,19 @@ class Task(Recovery):
             self._park()
         if self.interrupts.queue and not self.in_trap and not self.event:
             self._serve_traps()
+        if self.interrupts.process_error is not None:
+            self.raise_process_error(self.interrupts.process_error)
+
+    def raise_process_error(self, error: ProcessError) -> None:
+        """Raise an error of ProcerrRecovery here, or look again at the next statement."""
+        if self.in_trap or self.event:
+            return
+        due = error.due(self)
+        if due is None:
+            self.kick()
+            return
+        self.interrupts.process_error = None
+        raise due
 
     def _obey(self) -> None:
         order, self._order = self._order, None

@@ -9,7 +9,8 @@ from rapidgen.system.model import (
     SystemInput,
     SystemOutput,
 )
-from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.dialect import Dialect
+from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import STATUSES, SignalAlias, status_name
 
 SIGNALS = (
@@ -145,6 +146,16 @@ def test_alias_io(plant):
     assert io["do2"].value == 1
     bench("AliasIOReset", alias)
     assert bench("ValidIO", alias) is False
+
+
+def test_alias_io_by_name_in_the_other_dialect(plant):
+    bench, io = plant()
+    bench.controller.dialect = Dialect(alias_by_name=False)
+    alias = SignalAlias("DO")
+    with pytest.raises(FatalError):
+        bench("AliasIO", bench.box("do1"), alias)
+    bench("AliasIO", io["do1"], alias)
+    assert bench("ValidIO", alias) is True
 
 
 def test_alias_io_that_does_not_fit(plant):

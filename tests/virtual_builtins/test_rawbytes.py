@@ -124,6 +124,25 @@ def test_unpacking_beyond_the_valid_length_in_the_other_dialect(bench):
         bench("UnpackRawBytes", RawBytes(), 1023, target, IntX=DINT)
 
 
+@pytest.mark.parametrize(
+    ("switch", "found"), [("exact", 64 + (11 << 32)), ("single", 11 << 32), ("error", None)]
+)
+def test_a_ulint_in_all_dialects(bench, switch, found):
+    """3HAC16581-1 lists ULINT, and that it needs a dnum; whether it is exact is in no source."""
+    bench.controller.dialect = Dialect(unpack_ulint=switch)
+    target = bench.dnum(5)
+    raw = RawBytes(bytes([64, 0, 0, 0, 11, 0, 0, 0]))
+    if found is None:
+        with pytest.raises(RapidError):
+            bench("UnpackRawBytes", raw, 1, target, IntX=ULINT)
+    else:
+        bench("UnpackRawBytes", raw, 1, target, IntX=ULINT)
+        assert target.get() == found
+    # Other types are as they are.
+    bench("UnpackRawBytes", raw, 5, target, IntX=DINT)
+    assert target.get() == 11
+
+
 def test_copying_out_of_an_empty_container(bench):
     """abb_driver copies an empty body behind the header of a reply [code]."""
     target = RawBytes(bytes(16))

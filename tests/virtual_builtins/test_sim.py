@@ -63,10 +63,9 @@ def start():
 
 def message(sock):
     """One message of the state server: (type, data)."""
-    with sock.makefile("rb") as file:
-        length, kind, comm, reply = struct.unpack("<4i", file.read(16))
-        assert (comm, reply) == (1, 0)
-        return kind, file.read(length - 12)
+    length, kind, comm, reply = struct.unpack("<4i", sock.recv(16, socket.MSG_WAITALL))
+    assert (comm, reply) == (1, 0)
+    return kind, sock.recv(length - 12, socket.MSG_WAITALL)
 
 
 def point(sequence, joints, duration):

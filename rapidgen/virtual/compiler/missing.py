@@ -7,6 +7,7 @@ the tokens, where a call stands are looked for in the tree.
 from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.rapid import nodes as n
 from rapidgen.rapid.lexer import KEYWORDS
+from rapidgen.virtual import unsupported
 from rapidgen.virtual.compiler.analysis import walk
 from rapidgen.virtual.compiler.program import LoadedModule, Program
 
@@ -69,6 +70,7 @@ def _diagnostic(
             f"{routine.name} is not available on the virtual controller",
             module.span(node),
             label="the task stops here",
+            notes=(unsupported.reason(routine.name),),
         )
     return Diagnostic(
         "RG404",

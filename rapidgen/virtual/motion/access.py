@@ -47,6 +47,8 @@ def moving_group(task: Task) -> MotionGroup:
         raise FatalError(
             events.NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves"
         )
+    if task.interrupts.process_error is not None:
+        task.raise_process_error(task.interrupts.process_error)
     return group_of(task)
 
 

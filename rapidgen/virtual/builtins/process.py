@@ -1,0 +1,63 @@
+"""Errors of a process that runs while the robot moves, and what its axes carry.
+
+Sources: [K §7.4] for ProcerrRecovery, which stops the movement; 3HAC050917 for arguments. There
+are no dynamics: torques are 0, loads change nothing.
+"""
+
+from typing import Any
+
+from rapidgen.virtual.errors import FatalError, RapidError, errnum
+from rapidgen.virtual.motion import events
+from rapidgen.virtual.motion.access import group_of, moving_group
+from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.process_errors import ProcessError
+from rapidgen.virtual.registry import builtin
+from rapidgen.virtual.running import RapidTask
+from rapidgen.virtual.values import Ref
+
+
+@builtin("ProcerrRecovery")
+def procerr_recovery(
+    task: RapidTask, origin: bool | None, last: bool | None, _signal: bool | None
+) -> None:
+    """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
+    if not task.in_trap or origin == last:
+        raise FatalError(
+            events.NOT_ALLOWED,
+            "ProcerrRecovery",
+            "in a trap, with \\SyncOrg- or \\SyncLastMoveInst",
+        )
+    group = moving_group(task)
+    group.stop("move task")
+    owner = None
+    if origin:
+        owner = _owner(group)
+    task.interrupts.process_error = ProcessError(errnum("ERR_PATH_STOP"), owner)
+
+
+def _owner(group: MotionGroup) -> tuple[str, str]:
+    """Module and routine of the move that made the path; empty when there is no path."""
+    place: Any = group.legs[0].move.place if group.legs else None
+    found = place() if place is not None else None
+    return (found.module, found.routine) if found is not None else ("", "")
+
+
+def _axis(group: MotionGroup, number: float) -> int:
+    """The axis of a number from 1; ERR_AXIS_PAR."""
+    if number != int(number) or not 1 <= number <= len(group.config.joints):
+        raise RapidError("ERR_AXIS_PAR", f"axis {number:g}")
+    return int(number)
+
+
+@builtin("MechUnitLoad")
+def mech_unit_load(task: RapidTask, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
+    """Payload of an external mechanical unit."""
+    group = group_of(task)
+    group.modal.extra[f"load of axis {int(axis)}"] = load.get().copy()
+
+
+@builtin("GetMotorTorque")
+def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa: ANN401
+    """0 Nm. ERR_AXIS_PAR."""
+    _axis(group_of(task), axis)
+    return 0.0
