@@ -14,9 +14,11 @@ from rapidgen.protocol.mapping import mapping_hash
 from rapidgen.protocol.spec import Feature, ReplyCode, Wire
 
 RING = 128
+# Clients that the state port serves at a time.
+STATE_CLIENTS = 3
 # A multiple of the ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
 WRAP = 2**22
-FEATURES = Feature.PROGRESS
+FEATURES = Feature.PROGRESS | Feature.EVENTS | Feature.FEEDBACK
 _HEADER_AND_PREFIX = spec.PREFIX_BYTES + spec.HEADER_BYTES
 # Speed that rounding to single on the way must not push a point over.
 _SPEED_MARGIN = 1.001
@@ -33,7 +35,7 @@ def group_context(
 ) -> dict[str, object]:
     """What the modules of one motion group are rendered from."""
     x = layout.suffix(config, group)
-    joints = [_joint(config, joint, n) for n, joint in enumerate(group.joints, 1)]
+    joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
     constants = used_constants(templates)
     roles = [
         {"role": role.name, "task": layout.task_name(config, group, role)} for role in layout.ROLES
@@ -82,6 +84,11 @@ def group_context(
         "tool": _tool(group.tool),
         "wobj": _work_object(group.work_object),
         "head_point": spec.JOINT_TRAJ_PT.length + (spec.JOINT_TRAJ_PT.number << 32),
+        # A clock counts microseconds only on newer controllers [mem].
+        "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
+        "slots": STATE_CLIENTS + 1,
+        "feedback_wrap": literal(spec.FEEDBACK_WRAP),
+        "status_at": spec.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,
         "hello": _hello(config, group, build_id),
     }
 
@@ -110,7 +117,8 @@ def to_rapid(joint: Joint, value: float) -> float:
     return math.degrees(value) if joint.kind == "revolute" else value * _MM
 
 
-def _joint(config: RobotConfig, joint: Joint, n: int) -> dict[str, object]:
+def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]:
+    joint = group.joints[n - 1]
     policy = config.trajectory
     revolute = joint.kind == "revolute"
     part = "robax" if joint.axis.startswith("rax") else "extax"
@@ -124,6 +132,9 @@ def _joint(config: RobotConfig, joint: Joint, n: int) -> dict[str, object]:
         "low": literal(inward(to_rapid(joint, joint.lower), up=True)),
         "high": literal(inward(to_rapid(joint, joint.upper), up=False)),
         "speed": literal(round(to_rapid(joint, joint.speed) * _SPEED_MARGIN, 4)),
+        "lower": literal(joint.lower),
+        "upper": literal(joint.upper),
+        "arm": layout.arm(group, joint),
         "tolerance": literal(round(to_rapid(joint, tolerance), 4)),
         "factor": "ROS_DEG" if revolute else "ROS_MM",
     }
@@ -150,11 +161,11 @@ def _hello(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, 
     """The reply to HELLO as pack instructions, in the order of the specification."""
     joints = group.joints
     policy = config.trajectory
-    filled = [0.0] * (spec.MAX_JOINTS - len(joints))
-    numbers = re.findall(r"\d+", __version__)[:3]
+    numbers = range(1, len(joints) + 1)
+    filled = ["0"] * (spec.MAX_JOINTS - len(joints))
     values: dict[str, list[str]] = {
         "protocol": [str(spec.PROTOCOL_VERSION)],
-        "driver": numbers,
+        "driver": re.findall(r"\d+", __version__)[:3],
         "build_id": [f'"{build_id}"'],
         "mapping": [
             '"'
@@ -171,9 +182,9 @@ def _hello(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, 
         "min_segment": [literal(policy.min_segment)],
         "start_tolerance": [literal(policy.start_tolerance)],
         "start_tolerance_linear": [literal(policy.start_tolerance_linear)],
-        "lower": [literal(v) for v in [*(j.lower for j in joints), *filled]],
-        "upper": [literal(v) for v in [*(j.upper for j in joints), *filled]],
-        "speed": [literal(v) for v in [*(j.speed for j in joints), *filled]],
+        "lower": [*(f"ROS_lower_{n}" for n in numbers), *filled],
+        "upper": [*(f"ROS_upper_{n}" for n in numbers), *filled],
+        "speed": [*(literal(j.speed) for j in joints), *filled],
         "control_port": ["0"],
         "ring": [str(RING)],
         "preload": ["0"],

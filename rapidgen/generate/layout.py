@@ -6,7 +6,7 @@ group) and its reasons are in docs/driver.md.
 
 from dataclasses import dataclass, replace
 
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import Joint, MotionGroup, RobotConfig
 from rapidgen.system import (
     Attribute,
     CfgText,
@@ -22,7 +22,8 @@ from rapidgen.system import (
 )
 from rapidgen.system.model import TaskType
 
-COMMON, MESSAGES, SOCKET = "ROS_common", "ROS_messages", "ROS_socket"
+COMMON, LIMITS = "ROS_common", "ROS_limits"
+MESSAGES, SOCKET = "ROS_messages", "ROS_socket"
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,12 +41,12 @@ ROLES = (
     Role(
         "motion_server",
         "T_ROS_RECV",
-        (COMMON, MESSAGES, SOCKET, "ROS_motionServer"),
+        (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_motionServer"),
     ),
     Role("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
-    Role("state", "T_ROS_STATE", (COMMON, MESSAGES, SOCKET, "ROS_stateServer")),
+    Role("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
 )
-SYSTEM_MODULES = (COMMON, MESSAGES, SOCKET)
+SYSTEM_MODULES = (COMMON, LIMITS, MESSAGES, SOCKET)
 MODULES = (*SYSTEM_MODULES, "ROS_motionServer", "ROS_supervisor", "ROS_stateServer", "ROS_motion")
 
 
@@ -160,6 +161,24 @@ def unit_group(group: MotionGroup) -> str:
     """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_L of ROB_L."""
     head, _, tail = group.mechanical_unit.partition("_")
     return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
+
+
+def arm(group: MotionGroup, joint: Joint) -> str:
+    """Name of the ARM in the controller's MOC that holds the limits of a joint, empty: not known.
+
+    Robot axes have the unit's name and their number, also the seventh axis of a YuMi arm [code]:
+    rob1_1, rob_R_7. The arm of an external axis has its unit's name (backups of controllers), as
+    far as each unit has one axis.
+    """
+    kind, _, letter = joint.axis.partition("_")
+    if kind == "rax":
+        return f"{unit_group(group)}_{letter}"
+    if not group.external_units:
+        return f"{unit_group(group)}_{7 + 'abcdef'.index(letter)}"
+    external = [j for j in group.joints if j.axis.startswith("eax_")]
+    if len(external) != len(group.external_units):
+        return ""
+    return group.external_units[external.index(joint)]
 
 
 def sio_cfg() -> CfgText:

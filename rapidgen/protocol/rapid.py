@@ -38,6 +38,7 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
     found += [RapidConstant(f"ROS_SEQ_{s.name}", s, "special sequence") for s in spec.Sequence]
     found += [RapidConstant(f"ROS_TRI_{t.name}", t, "tri-state") for t in spec.TriState]
     found += [RapidConstant(f"ROS_MODE_{m.name}", m, "operating mode") for m in spec.Mode]
+    found += [RapidConstant(f"ROS_VALID_{v.name}", v, "bit of valid_fields") for v in spec.Valid]
     found += [RapidConstant(f"ROS_FEATURE_{f.name}", f, "bit in HELLO") for f in spec.Feature]
     found += [
         RapidConstant(f"ROS_TRAJ_{s.name}", s, "trajectory state") for s in spec.TrajectoryState

@@ -4,7 +4,7 @@ SYS and EIO are those of the system; of MOC there is ARM with the axes' limits (
 programs ask for them. A written value stays here: nothing is reconfigured by it.
 """
 
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import Joint, MotionGroup
 from rapidgen.system import CfgText, System, eio_cfg, sys_cfg
 from rapidgen.system.cfg import Attribute, Instance, Scalar, Section, write_cfg
 
@@ -17,7 +17,7 @@ class Configuration:
     def __init__(self, system: System, groups: tuple[MotionGroup, ...]) -> None:
         self._texts = {text.domain: text for text in (sys_cfg(system), eio_cfg(system))}
         version = next(iter(self._texts.values())).version
-        arms = tuple(_arm(group, i) for group in groups for i in range(len(group.joints)))
+        arms = tuple(_arm(group, joint) for group in groups for joint in group.joints)
         self._texts["MOC"] = CfgText("MOC", version, (Section("ARM", arms),))
         self._values: dict[tuple[str, str, str], _Values] = {}
         for domain, text in self._texts.items():
@@ -46,12 +46,30 @@ class Configuration:
         return write_cfg(self._texts[domain])
 
 
-def _arm(group: MotionGroup, index: int) -> Instance:
-    joint = group.joints[index]
+def _arm(group: MotionGroup, joint: Joint) -> Instance:
     return Instance(
         (
-            Attribute("Name", (f"{group.name}_{index + 1}",)),
+            Attribute("Name", (arm_name(group, joint),)),
             Attribute("upper_joint_bound", (joint.upper,)),
             Attribute("lower_joint_bound", (joint.lower,)),
         )
     )
+
+
+def arm_name(group: MotionGroup, joint: Joint) -> str:
+    """Name of the ARM of a joint, as in backups of controllers and in public RAPID.
+
+    rob1_1 to rob1_6 of ROB_1, rob_R_7 the seventh axis of a YuMi; an external axis is called as
+    its mechanical unit, with a number where that has several.
+    """
+    kind, _, axis = joint.axis.partition("_")
+    robot = group.mechanical_unit
+    robot = robot.lower().replace("_", "") if robot[-1:].isdigit() else f"rob{robot[3:]}"
+    if kind == "rax":
+        return f"{robot}_{axis}"
+    if not group.external_units:
+        return f"{robot}_{7 + 'abcdef'.index(axis)}"
+    external = [j for j in group.joints if j.axis.startswith("eax_")]
+    if len(external) == len(group.external_units):
+        return group.external_units[external.index(joint)]
+    return f"{group.external_units[0]}_{1 + external.index(joint)}"

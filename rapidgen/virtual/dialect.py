@@ -44,6 +44,10 @@ class Dialect:
     e_stop_routines: bool = True
     """An emergency stop runs the routines of QSTOP [mem]. False: it runs none."""
 
+    after_error: Literal["statement", "main"] = "statement"
+    """After an error that nobody handled the program pointer is at the faulty statement, which a
+    start of a NORMAL task tries again [S4 overview 3-23], or the task starts from main only."""
+
     fault_routines: bool = False
     """The task that an error stopped runs its STOP routines [mem]. The NORMAL tasks that are
     stopped with it always do."""
@@ -67,6 +71,24 @@ class Dialect:
 
     unpack_beyond: Literal["error", "zero"] = "error"
     """UnpackRawBytes behind the valid length: ERR_OUTOFBND, or the bytes count as 0. No source."""
+
+    unpack_ulint: Literal["exact", "single", "error"] = "exact"
+    """A ULINT read into a dnum: exact as far as a dnum counts (3HAC16581-1 lists the type, and
+    that it needs a dnum), rounded on a way through a num, or ERR_ARGVALERR."""
+
+    send_attends: bool = True
+    """Traps run while SocketSend waits for room, as in the waiting routines of [K §8.1]. False:
+    not before it has ended. No source."""
+
+    alias_by_name: bool = True
+    """AliasIO takes the name of a signal as a string [mem]. False: event 40214 and stop."""
+
+    axis_limits_told: bool = True
+    """ReadCfgData finds the limits of the axes, MOC/ARM [code]. False: ERR_CFG_NOTFND."""
+
+    error_reach: Literal["all", "own"] = "all"
+    """IError tells a task of everybody's events, as public loggers in tasks of their own expect
+    [code], or of those of its own only."""
 
     find_behind: Literal["none", "error"] = "none"
     """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver

@@ -121,6 +121,45 @@ def test_groups_and_analogue(plant):
     assert bench("GInput", io["gi1"]) == 4_294_967_296  # a num
 
 
+def test_limits_of_an_analogue_signal(make_bench):
+    """MinLog and MaxLog of EIO_SIGNAL [mem]; ERR_AO_LIM [manual]."""
+    limited = SignalSpec("aoSpeed", "AO", low=-2, high=10)
+    bench = make_bench(System("plant", (), signals=(limited,)))
+    signal = bench.controller.io["aoSpeed"]
+    for value in (-2, 10, 0):
+        bench("SetAO", signal, value)
+        assert signal.value == value
+    for value in (-2.1, 10.1):
+        with pytest.raises(RapidError) as raised:
+            bench("SetAO", signal, value)
+        assert raised.value.name == "ERR_AO_LIM"
+    assert signal.value == 0
+
+
+def test_signals_that_share_bits_of_a_device_change_together(make_bench):
+    """A group and single outputs on one device; inputs with the same numbers are others."""
+    specs = (
+        SignalSpec("go1", "GO", device="d652", size=4, bits=(0, 1, 2, 3)),
+        SignalSpec("do2", "DO", device="d652", bits=(2,)),
+        SignalSpec("do3", "DO", device="d652", bits=(3,)),
+        SignalSpec("di2", "DI", device="d652", bits=(2,)),
+        SignalSpec("doOther", "DO", device="d653", bits=(2,)),
+        SignalSpec("doRaised", "DO"),
+    )
+    raised = CrossConnection("", "doRaised", (("do2", False),))
+    bench = make_bench(System("plant", (), signals=specs, cross=(raised,)))
+    io = bench.controller.io
+    bench("SetGO", io["go1"], 0b0101)
+    assert [io[name].value for name in ("do2", "do3", "di2", "doOther")] == [1, 0, 0, 0]
+    assert io["doRaised"].value == 1
+    seen = []
+    io["go1"].changed.add(lambda: seen.append(io["go1"].value))
+    bench("Set", io["do3"])
+    bench("Reset", io["do2"])
+    assert seen == [0b1101, 0b1001]
+    assert io["doRaised"].value == 0
+
+
 def test_a_read_only_signal_is_not_the_programs(plant):
     bench, io = plant()
     with pytest.raises(RapidError) as caught:

@@ -285,6 +285,8 @@ def i_error(
     def look(event: Event) -> None:
         if domain not in (0, event.domain) or kind not in (0, event.type):
             return
+        if task.controller.dialect.error_reach == "own" and event.task != task.name:
+            return
         if number is not None and event.code % 10_000 != number:
             return
         task.interrupts.happen(order, event)

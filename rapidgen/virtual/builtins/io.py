@@ -6,7 +6,7 @@ Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \
 
 from collections.abc import Callable
 
-from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import AnySignal, IOSystem, Signal, SignalAlias
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
@@ -149,6 +149,8 @@ def input_is_high(_task: Task, signal: AnySignal) -> bool:
 def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     """Connect a declared signal with one of the configuration, given itself or by name."""
     given: str | AnySignal = source if isinstance(source, Signal | SignalAlias) else source.get()
+    if isinstance(given, str) and not task.controller.dialect.alias_by_name:
+        raise FatalError(40_214, "AliasIO takes a signal", f"'{given}' is a text")
     found = _io(task).get(given) if isinstance(given, str) else given.signal
     if found is None:
         raise RapidError("ERR_ALIASIO_DEF", f"no signal '{given}'")

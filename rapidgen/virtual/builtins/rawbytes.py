@@ -20,10 +20,11 @@ from rapidgen.virtual.rawbytes import (
 )
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
-from rapidgen.virtual.values import Ref
+from rapidgen.virtual.values import Ref, single
 
 DNUM_BITS = 52
 _MASK = (1 << DNUM_BITS) - 1
+_ULINT = 8
 
 
 @builtin("PackRawBytes", cost="string")
@@ -72,7 +73,9 @@ def unpack_raw_bytes(
     index = whole(start, "ERR_OUTOFBND")
     if task.controller.dialect.unpack_beyond == "zero":
         raw = RawBytes(bytes(raw.data).ljust(CAPACITY, b"\0"))
-    if int_type is not None:
+    if int_type == _ULINT:
+        value.set(_unsigned_long(task, integer_from(raw, index, int_type, network=bool(network))))
+    elif int_type is not None:
         value.set(integer_from(raw, index, int_type, network=bool(network)))
     elif float4:
         value.set(float_from(raw, index, network=bool(network)))
@@ -88,6 +91,15 @@ def unpack_raw_bytes(
         value.set(data.decode("latin-1") if text else data[0])
     else:
         raise _no_format("UnpackRawBytes")
+
+
+def _unsigned_long(task: Task, value: int) -> float:
+    match task.controller.dialect.unpack_ulint:
+        case "error":
+            raise RapidError("ERR_ARGVALERR", "\\IntX:=ULINT")
+        case "single":
+            return single(value)
+    return value
 
 
 def _no_format(name: str) -> FatalError:

@@ -255,12 +255,19 @@ def socket_send(
         left = left[taken:]
         return taken > 0
 
+    interrupts = task.interrupts
+    disabled = interrupts.disabled
     try:
+        if not task.controller.dialect.send_attends:
+            interrupts.disabled = True
         while left:
             if not task.wait_for(some_go, on=(endpoint.changed,), timeout=DEFAULT_TIME):
                 raise RapidError("ERR_SOCK_TIMEOUT", "the peer does not read")
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
+    finally:
+        if not task.controller.dialect.send_attends:
+            interrupts.disabled = disabled
 
 
 @builtin("SocketReceive", cost="socket")

@@ -3,7 +3,7 @@
 One machine, one range of ports, as on a loopback interface: the controller and its clients meet
 by port number alone. A connection is two pipes; bytes travel in segments of at most `MSS` that
 arrive in order, `latency` nanoseconds after they were sent. (Bytes are never lost: a cut
-connection falls silent, as with TCP when nobody acknowledges.)
+connection falls silent, as with TCP when nobody acknowledges: the sender's buffer fills.)
 """
 
 from collections import deque
@@ -53,7 +53,7 @@ class _Pipe:
         self.finished = False
         """FIN has arrived."""
         self.silent = False
-        """Nothing passes any more and nobody is told."""
+        """Nothing passes any more and nobody is told; what is written stays in `waiting`."""
 
 
 class MemoryEndpoint(Endpoint):
@@ -131,8 +131,6 @@ class MemoryNetwork(Network):
         pipe = own.outgoing
         if pipe is None:
             return 0
-        if pipe.silent:
-            return len(data)
         room = BUFFER - len(pipe.waiting)
         taken = data[:room]
         pipe.waiting += taken

@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "377d17182646";
+    CONST string ROS_BUILD_MOTION_SERVER := "14bffb57d953";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -26,30 +26,18 @@ MODULE ROS_motionServer
     ! A value this near outside a limit is the limit, rounded on its way (deg, mm).
     LOCAL CONST num ROUNDING := 0.0005;
 
-    ! Limits of the controller's axes (deg, mm), the speeds that a segment may ask for (deg/s,
-    ! mm/s), and how far from the first point the robot may stand.
-    LOCAL CONST num LOW_1 := -165;
-    LOCAL CONST num HIGH_1 := 165;
+    ! Of each joint: the speed that a segment may ask for (deg/s, mm/s), and how far from the
+    ! first point the robot may stand (deg, mm).
     LOCAL CONST num SPEED_1 := 250.25;
     LOCAL CONST num NEAR_1 := 0.5;
-    LOCAL CONST num LOW_2 := -110;
-    LOCAL CONST num HIGH_2 := 110;
     LOCAL CONST num SPEED_2 := 250.25;
     LOCAL CONST num NEAR_2 := 0.5;
-    LOCAL CONST num LOW_3 := -110;
-    LOCAL CONST num HIGH_3 := 70;
     LOCAL CONST num SPEED_3 := 250.25;
     LOCAL CONST num NEAR_3 := 0.5;
-    LOCAL CONST num LOW_4 := -160;
-    LOCAL CONST num HIGH_4 := 160;
     LOCAL CONST num SPEED_4 := 320.32;
     LOCAL CONST num NEAR_4 := 0.5;
-    LOCAL CONST num LOW_5 := -120;
-    LOCAL CONST num HIGH_5 := 120;
     LOCAL CONST num SPEED_5 := 320.32;
     LOCAL CONST num NEAR_5 := 0.5;
-    LOCAL CONST num LOW_6 := -400;
-    LOCAL CONST num HIGH_6 := 400;
     LOCAL CONST num SPEED_6 := 420.42;
     LOCAL CONST num NEAR_6 := 0.5;
 
@@ -100,7 +88,8 @@ MODULE ROS_motionServer
 
     PROC main()
         ROS_start_task ROS_shown_motion_server, ROS_BUILD_MOTION_SERVER
-            \third:=ROS_BUILD_MESSAGES \fourth:=ROS_BUILD_SOCKET;
+            \third:=ROS_BUILD_MESSAGES \fourth:=ROS_BUILD_SOCKET \fifth:=ROS_BUILD_LIMITS;
+        ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
         ROS_head := ROS_tail;
         ROS_phase := ROS_TRAJ_NONE;
@@ -407,43 +396,43 @@ MODULE ROS_motionServer
 
         UnpackRawBytes data, at + 20, joint_1 \Float4;
         joint_1 := joint_1 * ROS_DEG;
-        IF NOT (LOW_1 <= joint_1 AND joint_1 <= HIGH_1)
-            joint_1 := at_limit(joint_1, LOW_1, HIGH_1, 1);
+        IF NOT (ROS_low_1 <= joint_1 AND joint_1 <= ROS_high_1)
+            joint_1 := at_limit(joint_1, ROS_low_1, ROS_high_1, 1);
         IF Abs(joint_1 - before.robax.rax_1) > SPEED_1 * seconds
             hurry Abs(joint_1 - before.robax.rax_1) / SPEED_1, 1;
 
         UnpackRawBytes data, at + 24, joint_2 \Float4;
         joint_2 := joint_2 * ROS_DEG;
-        IF NOT (LOW_2 <= joint_2 AND joint_2 <= HIGH_2)
-            joint_2 := at_limit(joint_2, LOW_2, HIGH_2, 2);
+        IF NOT (ROS_low_2 <= joint_2 AND joint_2 <= ROS_high_2)
+            joint_2 := at_limit(joint_2, ROS_low_2, ROS_high_2, 2);
         IF Abs(joint_2 - before.robax.rax_2) > SPEED_2 * seconds
             hurry Abs(joint_2 - before.robax.rax_2) / SPEED_2, 2;
 
         UnpackRawBytes data, at + 28, joint_3 \Float4;
         joint_3 := joint_3 * ROS_DEG;
-        IF NOT (LOW_3 <= joint_3 AND joint_3 <= HIGH_3)
-            joint_3 := at_limit(joint_3, LOW_3, HIGH_3, 3);
+        IF NOT (ROS_low_3 <= joint_3 AND joint_3 <= ROS_high_3)
+            joint_3 := at_limit(joint_3, ROS_low_3, ROS_high_3, 3);
         IF Abs(joint_3 - before.robax.rax_3) > SPEED_3 * seconds
             hurry Abs(joint_3 - before.robax.rax_3) / SPEED_3, 3;
 
         UnpackRawBytes data, at + 32, joint_4 \Float4;
         joint_4 := joint_4 * ROS_DEG;
-        IF NOT (LOW_4 <= joint_4 AND joint_4 <= HIGH_4)
-            joint_4 := at_limit(joint_4, LOW_4, HIGH_4, 4);
+        IF NOT (ROS_low_4 <= joint_4 AND joint_4 <= ROS_high_4)
+            joint_4 := at_limit(joint_4, ROS_low_4, ROS_high_4, 4);
         IF Abs(joint_4 - before.robax.rax_4) > SPEED_4 * seconds
             hurry Abs(joint_4 - before.robax.rax_4) / SPEED_4, 4;
 
         UnpackRawBytes data, at + 36, joint_5 \Float4;
         joint_5 := joint_5 * ROS_DEG;
-        IF NOT (LOW_5 <= joint_5 AND joint_5 <= HIGH_5)
-            joint_5 := at_limit(joint_5, LOW_5, HIGH_5, 5);
+        IF NOT (ROS_low_5 <= joint_5 AND joint_5 <= ROS_high_5)
+            joint_5 := at_limit(joint_5, ROS_low_5, ROS_high_5, 5);
         IF Abs(joint_5 - before.robax.rax_5) > SPEED_5 * seconds
             hurry Abs(joint_5 - before.robax.rax_5) / SPEED_5, 5;
 
         UnpackRawBytes data, at + 40, joint_6 \Float4;
         joint_6 := joint_6 * ROS_DEG;
-        IF NOT (LOW_6 <= joint_6 AND joint_6 <= HIGH_6)
-            joint_6 := at_limit(joint_6, LOW_6, HIGH_6, 6);
+        IF NOT (ROS_low_6 <= joint_6 AND joint_6 <= ROS_high_6)
+            joint_6 := at_limit(joint_6, ROS_low_6, ROS_high_6, 6);
         IF Abs(joint_6 - before.robax.rax_6) > SPEED_6 * seconds
             hurry Abs(joint_6 - before.robax.rax_6) / SPEED_6, 6;
 

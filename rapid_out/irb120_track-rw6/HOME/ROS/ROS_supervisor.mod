@@ -10,7 +10,7 @@ MODULE ROS_supervisor
     ! the robot standing. It halts on request, and when something happened after
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
 
-    CONST string ROS_BUILD_SUPERVISOR := "34f2ecc7b0c4";
+    CONST string ROS_BUILD_SUPERVISOR := "2338a650449c";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;

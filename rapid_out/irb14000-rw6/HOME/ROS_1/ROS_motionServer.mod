@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "c18628cb0e56";
+    CONST string ROS_BUILD_MOTION_SERVER := "4c3485b26f30";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -26,34 +26,20 @@ MODULE ROS_motionServer
     ! A value this near outside a limit is the limit, rounded on its way (deg, mm).
     LOCAL CONST num ROUNDING := 0.0005;
 
-    ! Limits of the controller's axes (deg, mm), the speeds that a segment may ask for (deg/s,
-    ! mm/s), and how far from the first point the robot may stand.
-    LOCAL CONST num LOW_1 := -168.5;
-    LOCAL CONST num HIGH_1 := 168.5;
+    ! Of each joint: the speed that a segment may ask for (deg/s, mm/s), and how far from the
+    ! first point the robot may stand (deg, mm).
     LOCAL CONST num SPEED_1 := 180.18;
     LOCAL CONST num NEAR_1 := 0.5;
-    LOCAL CONST num LOW_2 := -143.5;
-    LOCAL CONST num HIGH_2 := 43.5;
     LOCAL CONST num SPEED_2 := 180.18;
     LOCAL CONST num NEAR_2 := 0.5;
-    LOCAL CONST num LOW_3 := -123.5;
-    LOCAL CONST num HIGH_3 := 80;
     LOCAL CONST num SPEED_3 := 180.18;
     LOCAL CONST num NEAR_3 := 0.5;
-    LOCAL CONST num LOW_4 := -290;
-    LOCAL CONST num HIGH_4 := 290;
     LOCAL CONST num SPEED_4 := 400.4;
     LOCAL CONST num NEAR_4 := 0.5;
-    LOCAL CONST num LOW_5 := -88;
-    LOCAL CONST num HIGH_5 := 138;
     LOCAL CONST num SPEED_5 := 400.4;
     LOCAL CONST num NEAR_5 := 0.5;
-    LOCAL CONST num LOW_6 := -229;
-    LOCAL CONST num HIGH_6 := 229;
     LOCAL CONST num SPEED_6 := 400.4;
     LOCAL CONST num NEAR_6 := 0.5;
-    LOCAL CONST num LOW_7 := -168.5;
-    LOCAL CONST num HIGH_7 := 168.5;
     LOCAL CONST num SPEED_7 := 180.18;
     LOCAL CONST num NEAR_7 := 0.5;
 
@@ -108,7 +94,8 @@ MODULE ROS_motionServer
 
     PROC main()
         ROS_start_task ROS_shown_motion_server_1, ROS_BUILD_MOTION_SERVER
-            \third:=ROS_BUILD_MESSAGES \fourth:=ROS_BUILD_SOCKET;
+            \third:=ROS_BUILD_MESSAGES \fourth:=ROS_BUILD_SOCKET \fifth:=ROS_BUILD_LIMITS;
+        ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
         ROS_head_1 := ROS_tail_1;
         ROS_phase_1 := ROS_TRAJ_NONE;
@@ -416,50 +403,50 @@ MODULE ROS_motionServer
 
         UnpackRawBytes data, at + 20, joint_1 \Float4;
         joint_1 := joint_1 * ROS_DEG;
-        IF NOT (LOW_1 <= joint_1 AND joint_1 <= HIGH_1)
-            joint_1 := at_limit(joint_1, LOW_1, HIGH_1, 1);
+        IF NOT (ROS_low_1 <= joint_1 AND joint_1 <= ROS_high_1)
+            joint_1 := at_limit(joint_1, ROS_low_1, ROS_high_1, 1);
         IF Abs(joint_1 - before.robax.rax_1) > SPEED_1 * seconds
             hurry Abs(joint_1 - before.robax.rax_1) / SPEED_1, 1;
 
         UnpackRawBytes data, at + 24, joint_2 \Float4;
         joint_2 := joint_2 * ROS_DEG;
-        IF NOT (LOW_2 <= joint_2 AND joint_2 <= HIGH_2)
-            joint_2 := at_limit(joint_2, LOW_2, HIGH_2, 2);
+        IF NOT (ROS_low_2 <= joint_2 AND joint_2 <= ROS_high_2)
+            joint_2 := at_limit(joint_2, ROS_low_2, ROS_high_2, 2);
         IF Abs(joint_2 - before.robax.rax_2) > SPEED_2 * seconds
             hurry Abs(joint_2 - before.robax.rax_2) / SPEED_2, 2;
 
         UnpackRawBytes data, at + 28, joint_3 \Float4;
         joint_3 := joint_3 * ROS_DEG;
-        IF NOT (LOW_3 <= joint_3 AND joint_3 <= HIGH_3)
-            joint_3 := at_limit(joint_3, LOW_3, HIGH_3, 3);
+        IF NOT (ROS_low_3 <= joint_3 AND joint_3 <= ROS_high_3)
+            joint_3 := at_limit(joint_3, ROS_low_3, ROS_high_3, 3);
         IF Abs(joint_3 - before.robax.rax_3) > SPEED_3 * seconds
             hurry Abs(joint_3 - before.robax.rax_3) / SPEED_3, 3;
 
         UnpackRawBytes data, at + 32, joint_4 \Float4;
         joint_4 := joint_4 * ROS_DEG;
-        IF NOT (LOW_4 <= joint_4 AND joint_4 <= HIGH_4)
-            joint_4 := at_limit(joint_4, LOW_4, HIGH_4, 4);
+        IF NOT (ROS_low_4 <= joint_4 AND joint_4 <= ROS_high_4)
+            joint_4 := at_limit(joint_4, ROS_low_4, ROS_high_4, 4);
         IF Abs(joint_4 - before.robax.rax_4) > SPEED_4 * seconds
             hurry Abs(joint_4 - before.robax.rax_4) / SPEED_4, 4;
 
         UnpackRawBytes data, at + 36, joint_5 \Float4;
         joint_5 := joint_5 * ROS_DEG;
-        IF NOT (LOW_5 <= joint_5 AND joint_5 <= HIGH_5)
-            joint_5 := at_limit(joint_5, LOW_5, HIGH_5, 5);
+        IF NOT (ROS_low_5 <= joint_5 AND joint_5 <= ROS_high_5)
+            joint_5 := at_limit(joint_5, ROS_low_5, ROS_high_5, 5);
         IF Abs(joint_5 - before.robax.rax_5) > SPEED_5 * seconds
             hurry Abs(joint_5 - before.robax.rax_5) / SPEED_5, 5;
 
         UnpackRawBytes data, at + 40, joint_6 \Float4;
         joint_6 := joint_6 * ROS_DEG;
-        IF NOT (LOW_6 <= joint_6 AND joint_6 <= HIGH_6)
-            joint_6 := at_limit(joint_6, LOW_6, HIGH_6, 6);
+        IF NOT (ROS_low_6 <= joint_6 AND joint_6 <= ROS_high_6)
+            joint_6 := at_limit(joint_6, ROS_low_6, ROS_high_6, 6);
         IF Abs(joint_6 - before.robax.rax_6) > SPEED_6 * seconds
             hurry Abs(joint_6 - before.robax.rax_6) / SPEED_6, 6;
 
         UnpackRawBytes data, at + 44, joint_7 \Float4;
         joint_7 := joint_7 * ROS_DEG;
-        IF NOT (LOW_7 <= joint_7 AND joint_7 <= HIGH_7)
-            joint_7 := at_limit(joint_7, LOW_7, HIGH_7, 7);
+        IF NOT (ROS_low_7 <= joint_7 AND joint_7 <= ROS_high_7)
+            joint_7 := at_limit(joint_7, ROS_low_7, ROS_high_7, 7);
         IF Abs(joint_7 - before.extax.eax_a) > SPEED_7 * seconds
             hurry Abs(joint_7 - before.extax.eax_a) / SPEED_7, 7;
 

@@ -10,7 +10,7 @@ MODULE ROS_supervisor
     ! the robot standing. It halts on request, and when something happened after
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
 
-    CONST string ROS_BUILD_SUPERVISOR := "c18628cb0e56";
+    CONST string ROS_BUILD_SUPERVISOR := "4c3485b26f30";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;

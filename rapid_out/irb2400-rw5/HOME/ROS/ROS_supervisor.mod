@@ -10,7 +10,7 @@ MODULE ROS_supervisor
     ! the robot standing. It halts on request, and when something happened after
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
 
-    CONST string ROS_BUILD_SUPERVISOR := "b0b6ec0a379b";
+    CONST string ROS_BUILD_SUPERVISOR := "0b518698530a";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;

@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "ae31be14427d";
+    CONST string ROS_BUILD_MOTION_SERVER := "8552e3b2d9a4";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -26,22 +26,14 @@ MODULE ROS_motionServer
     ! A value this near outside a limit is the limit, rounded on its way (deg, mm).
     LOCAL CONST num ROUNDING := 0.0005;
 
-    ! Limits of the controller's axes (deg, mm), the speeds that a segment may ask for (deg/s,
-    ! mm/s), and how far from the first point the robot may stand.
-    LOCAL CONST num LOW_1 := -140;
-    LOCAL CONST num HIGH_1 := 140;
+    ! Of each joint: the speed that a segment may ask for (deg/s, mm/s), and how far from the
+    ! first point the robot may stand (deg, mm).
     LOCAL CONST num SPEED_1 := 415.415;
     LOCAL CONST num NEAR_1 := 0.5;
-    LOCAL CONST num LOW_2 := -150;
-    LOCAL CONST num HIGH_2 := 150;
     LOCAL CONST num SPEED_2 := 659.659;
     LOCAL CONST num NEAR_2 := 0.5;
-    LOCAL CONST num LOW_3 := -180;
-    LOCAL CONST num HIGH_3 := 0;
     LOCAL CONST num SPEED_3 := 1001;
     LOCAL CONST num NEAR_3 := 5;
-    LOCAL CONST num LOW_4 := -400;
-    LOCAL CONST num HIGH_4 := 400;
     LOCAL CONST num SPEED_4 := 2402.4;
     LOCAL CONST num NEAR_4 := 0.5;
 
@@ -94,7 +86,8 @@ MODULE ROS_motionServer
 
     PROC main()
         ROS_start_task ROS_shown_motion_server, ROS_BUILD_MOTION_SERVER
-            \third:=ROS_BUILD_MESSAGES \fourth:=ROS_BUILD_SOCKET;
+            \third:=ROS_BUILD_MESSAGES \fourth:=ROS_BUILD_SOCKET \fifth:=ROS_BUILD_LIMITS;
+        ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
         ROS_head := ROS_tail;
         ROS_phase := ROS_TRAJ_NONE;
@@ -400,29 +393,29 @@ MODULE ROS_motionServer
 
         UnpackRawBytes data, at + 20, joint_1 \Float4;
         joint_1 := joint_1 * ROS_DEG;
-        IF NOT (LOW_1 <= joint_1 AND joint_1 <= HIGH_1)
-            joint_1 := at_limit(joint_1, LOW_1, HIGH_1, 1);
+        IF NOT (ROS_low_1 <= joint_1 AND joint_1 <= ROS_high_1)
+            joint_1 := at_limit(joint_1, ROS_low_1, ROS_high_1, 1);
         IF Abs(joint_1 - before.robax.rax_1) > SPEED_1 * seconds
             hurry Abs(joint_1 - before.robax.rax_1) / SPEED_1, 1;
 
         UnpackRawBytes data, at + 24, joint_2 \Float4;
         joint_2 := joint_2 * ROS_DEG;
-        IF NOT (LOW_2 <= joint_2 AND joint_2 <= HIGH_2)
-            joint_2 := at_limit(joint_2, LOW_2, HIGH_2, 2);
+        IF NOT (ROS_low_2 <= joint_2 AND joint_2 <= ROS_high_2)
+            joint_2 := at_limit(joint_2, ROS_low_2, ROS_high_2, 2);
         IF Abs(joint_2 - before.robax.rax_2) > SPEED_2 * seconds
             hurry Abs(joint_2 - before.robax.rax_2) / SPEED_2, 2;
 
         UnpackRawBytes data, at + 28, joint_3 \Float4;
         joint_3 := joint_3 * ROS_MM;
-        IF NOT (LOW_3 <= joint_3 AND joint_3 <= HIGH_3)
-            joint_3 := at_limit(joint_3, LOW_3, HIGH_3, 3);
+        IF NOT (ROS_low_3 <= joint_3 AND joint_3 <= ROS_high_3)
+            joint_3 := at_limit(joint_3, ROS_low_3, ROS_high_3, 3);
         IF Abs(joint_3 - before.robax.rax_3) > SPEED_3 * seconds
             hurry Abs(joint_3 - before.robax.rax_3) / SPEED_3, 3;
 
         UnpackRawBytes data, at + 32, joint_4 \Float4;
         joint_4 := joint_4 * ROS_DEG;
-        IF NOT (LOW_4 <= joint_4 AND joint_4 <= HIGH_4)
-            joint_4 := at_limit(joint_4, LOW_4, HIGH_4, 4);
+        IF NOT (ROS_low_4 <= joint_4 AND joint_4 <= ROS_high_4)
+            joint_4 := at_limit(joint_4, ROS_low_4, ROS_high_4, 4);
         IF Abs(joint_4 - before.robax.rax_4) > SPEED_4 * seconds
             hurry Abs(joint_4 - before.robax.rax_4) / SPEED_4, 4;
 
