@@ -1,6 +1,6 @@
 """The paired Python client: sync and async."""
 
-from rapidgen.client.aio import AsyncExecution, AsyncRobot
+from rapidgen.client.aio import AsyncExecution, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
 from rapidgen.client.core import Timeouts
 from rapidgen.client.errors import (
@@ -12,34 +12,41 @@ from rapidgen.client.errors import (
     MotionFailed,
     MotionStopped,
     NotReady,
+    NotSupported,
     ProtocolError,
+    RequestRefused,
     RobotError,
     RobotTimeout,
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.run import Result
-from rapidgen.client.state import Driver, Progress, State, Status
-from rapidgen.client.sync import Execution, Robot
+from rapidgen.client.motion import Result
+from rapidgen.client.state import Driver, Event, Feedback, Progress, State, Status
+from rapidgen.client.sync import Execution, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 
 __all__ = [
     "AsyncCell",
     "AsyncExecution",
     "AsyncRobot",
+    "AsyncStream",
     "Cell",
     "ConnectionFailed",
     "ConnectionLost",
     "Driver",
+    "Event",
     "Execution",
+    "Feedback",
     "IncompatibleDriver",
     "InvalidTrajectory",
     "MotionError",
     "MotionFailed",
     "MotionStopped",
     "NotReady",
+    "NotSupported",
     "Progress",
     "ProtocolError",
+    "RequestRefused",
     "Result",
     "Robot",
     "RobotError",
@@ -47,6 +54,7 @@ __all__ = [
     "State",
     "Status",
     "StopFailed",
+    "Stream",
     "Timeouts",
     "Trajectory",
     "TrajectoryRefused",

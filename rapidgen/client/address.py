@@ -1,21 +1,24 @@
-"""Where a robot is: `HOST`, `HOST:MOTION,STATE` or a configuration's ports."""
+"""Where a robot is: `HOST`, `HOST:MOTION,STATE[,CONTROL]` or a configuration's ports."""
 
 import ipaddress
 import re
 from dataclasses import dataclass
 
-from rapidgen.client.errors import fault
+from rapidgen.client.errors import ConnectionFailed, fault
 from rapidgen.config.model import Ports
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.protocol.spec import Port
 
-_FORM = re.compile(r"(?P<host>\[[^\]]+\]|[^:\[\],]+)(?::(?P<motion>\d+)(?:,(?P<state>\d+))?)?")
+_FORM = re.compile(
+    r"(?P<host>\[[^\]]+\]|[^:\[\],]+)"
+    r"(?::(?P<motion>\d+)(?:,(?P<state>\d+)(?:,(?P<control>\d+))?)?)?"
+)
 LOOPBACK = "127.0.0.1"
 
 
 @dataclass(frozen=True, slots=True)
 class Address:
-    """A host with the ports of one motion group."""
+    """A host with the ports of one motion group; `control` 0: none, or nobody knows which."""
 
     host: str
     motion: int = int(Port.MOTION)
@@ -24,11 +27,24 @@ class Address:
 
     def __str__(self) -> str:
         host = f"[{self.host}]" if ":" in self.host else self.host
-        return f"{host}:{self.motion},{self.state}"
+        usual = self.motion + 1 if self.state == self.motion + 2 else 0
+        control = "" if self.control == usual else f",{self.control}"
+        return f"{host}:{self.motion},{self.state}{control}"
 
     def port(self, which: Port) -> int:
-        """The number of a port of this group."""
-        return {Port.MOTION: self.motion, Port.STATE: self.state, Port.CONTROL: self.control}[which]
+        """The number of a port of this group. Raises ConnectionFailed where nobody knows it."""
+        number = {Port.MOTION: self.motion, Port.STATE: self.state, Port.CONTROL: self.control}[
+            which
+        ]
+        if not number:
+            raise ConnectionFailed(
+                fault(
+                    "RG601",
+                    f"nobody knows the {which.name.lower()} port of {self}",
+                    "tell it too: HOST:MOTION,STATE,CONTROL",
+                )
+            )
+        return number
 
     @property
     def is_loopback(self) -> bool:
@@ -42,10 +58,11 @@ class Address:
 
 
 def parse_address(text: str, ports: Ports | None = None) -> Address:
-    """`HOST[:MOTION[,STATE]]`; what is not said is taken from `ports`.
+    """`HOST[:MOTION[,STATE[,CONTROL]]]`; what is not said is taken from `ports`.
 
-    A lone motion port is followed by the state port two above it, as 11000 by 11002. Raises
-    DiagnosticError (RG607).
+    A lone motion port is followed by the state port two above it, as 11000 by 11002. The control
+    port moves along with the others: where they are moved alike it is too, else it is not known.
+    Raises DiagnosticError (RG607).
     """
     found = _FORM.fullmatch(text.strip())
     own = ports or Ports()
@@ -53,13 +70,23 @@ def parse_address(text: str, ports: Ports | None = None) -> Address:
         host = found["host"].strip("[]")
         motion = int(found["motion"] or own.motion)
         state = int(found["state"] or (motion + 2 if found["motion"] else own.state))
-        control = own.control if not found["motion"] else motion + 1
-        if all(0 < port < 65536 for port in (motion, state)):
-            return Address(host, motion, state, min(control, 65535))
+        control = _control(own, motion, state) if found["control"] is None else found["control"]
+        if all(0 < port < 65536 for port in (motion, state)) and 0 <= int(control) < 65536:
+            return Address(host, motion, state, int(control))
     raise DiagnosticError(
         fault(
             "RG607",
             f"'{text}' is no address of a robot",
-            "HOST, HOST:MOTION or HOST:MOTION,STATE, for example 192.168.125.1:11000,11002",
+            "HOST, HOST:MOTION, HOST:MOTION,STATE or HOST:MOTION,STATE,CONTROL, for example "
+            "192.168.125.1:11000,11002",
         )
     )
+
+
+def _control(own: Ports, motion: int, state: int) -> int:
+    """The control port behind a motion and a state port, 0: nobody knows."""
+    moved = motion - own.motion
+    if not own.control or state - own.state != moved:
+        return 0
+    control = own.control + moved
+    return control if 0 < control < 65536 else 0

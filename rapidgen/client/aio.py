@@ -4,15 +4,17 @@ Only `create_connection`, `time`, `create_future` and `call_later` of the runnin
 """
 
 import asyncio
-from collections.abc import AsyncIterator, Callable, Iterator
+from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from os import PathLike
 from types import TracebackType
 from typing import Self, TypeVar, cast
 
-from rapidgen.client import flows
+import numpy.typing as npt
+
+from rapidgen.client import control_flows, flows, stream_flows
 from rapidgen.client.address import Address
-from rapidgen.client.core import Core, Timeouts
+from rapidgen.client.core import STOP_FRAME, Core, Timeouts
 from rapidgen.client.errors import (
     ConnectionFailed,
     MotionStopped,
@@ -21,14 +23,15 @@ from rapidgen.client.errors import (
     fault,
     os_reason,
 )
-from rapidgen.client.flows import Connect, Flow, Send, Wait
+from rapidgen.client.feed import Feed, batches
+from rapidgen.client.flows import Close, Connect, Effect, Flow, Send, Wait
 from rapidgen.client.group import Group
+from rapidgen.client.motion import Motion, Result, Way
 from rapidgen.client.recording import Recording
-from rapidgen.client.run import Result, Run
-from rapidgen.client.state import Driver, Progress, State
+from rapidgen.client.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.client.view import View
+from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.protocol.bulk import FRAME_BYTES
@@ -87,6 +90,7 @@ class AsyncRobot:
         watch: bool = False,
         plain: bool = False,
         reconnect: float = 0.0,
+        feedback: bool = False,
     ) -> None:
         self._loop: asyncio.AbstractEventLoop | None = None
         self.address, known = resolve(target, address, group)
@@ -97,9 +101,11 @@ class AsyncRobot:
             watch=watch,
             plain=plain,
             reconnect=reconnect,
+            feedback=feedback,
         )
         self._links: dict[Port, _Link] = {}
         self._waiters: set[asyncio.Future[None]] = set()
+        self._timer: asyncio.TimerHandle | None = None
 
     def _time(self) -> float:
         return self._loop.time() if self._loop is not None else 0.0
@@ -129,6 +135,9 @@ class AsyncRobot:
 
     def _hang_up(self) -> None:
         self._core.closed()
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
         links, self._links = list(self._links.values()), {}
         for link in links:
             if link.transport is not None:
@@ -202,19 +211,69 @@ class AsyncRobot:
         finally:
             self._core.tracker.listeners.remove(recording.add)
 
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """The last entries of the controller's event log, where the driver tells them."""
+        return tuple(self._core.tracker.events)
+
+    async def next_event(
+        self, timeout: float | None = None, *, after: Event | None = None
+    ) -> Event:
+        """The next event, or the one behind `after`. Raises RobotTimeout, ConnectionLost."""
+        return await self._run(flows.next_event(self._core, timeout, after))
+
+    async def next_feedback(self, timeout: float | None = None) -> Feedback:
+        """The next joints with the controller's time.
+
+        Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
+        """
+        return await self._run(flows.next_feedback(self._core, timeout))
+
     # Motion
 
     def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
         """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
         return self._core.plan(trajectory).warnings
 
-    async def execute(self, trajectory: Trajectory) -> "AsyncExecution":
+    async def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> "AsyncExecution":
         """Send a trajectory; returns when the controller has taken it and begins to move.
 
-        Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused when
-        nothing will move, RobotTimeout, ConnectionLost. Cancelling it stops the robot.
+        `way` is `download` (whole, before anything moves) or `stream` (the rest is sent while
+        the robot moves); by default a trajectory that the driver's ring does not hold is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused
+        when nothing will move, NotSupported, RobotTimeout, ConnectionLost. Cancelling it stops
+        the robot.
         """
-        return AsyncExecution(self, await self._run(flows.execute(self._core, trajectory)))
+        run = await self._run(stream_flows.execute(self._core, trajectory, way))
+        return AsyncExecution(self, run)
+
+    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> "AsyncStream":
+        """A trajectory without an end that is known: see `AsyncStream`. Nothing is sent yet.
+
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver
+        that does not stream gets the points as a whole, at the end.
+        """
+        return AsyncStream(self, Feed(names, may_download=fallback))
+
+    async def pause(self) -> None:
+        """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
+        await self._run(control_flows.pause(self._core, True))
+
+    async def resume(self) -> None:
+        """Go on behind a pause. Raises as `pause`."""
+        await self._run(control_flows.pause(self._core, False))
+
+    async def set_speed(self, percent: float) -> None:
+        """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
+        await self._run(control_flows.speed(self._core, percent))
+
+    async def read_signal(self, signal: str | int) -> float:
+        """A signal that the configuration exposes, by name or number. Raises as `pause`."""
+        return await self._run(control_flows.signal(self._core, signal, None))
+
+    async def write_signal(self, signal: str | int, value: float) -> float:
+        """Set a signal; the value as it was read then. Raises as `pause`."""
+        return await self._run(control_flows.signal(self._core, signal, value))
 
     async def stop(self) -> State | None:
         """Stop at once; the state in which the robot stands.
@@ -233,7 +292,10 @@ class AsyncRobot:
         while True:
             error, failure = failure, None
             try:
-                effect = flow.send(outcome) if error is None else flow.throw(error)
+                try:
+                    effect = flow.send(outcome) if error is None else flow.throw(error)
+                finally:
+                    self._pump()
             except StopIteration as end:
                 value: T = end.value
                 return value
@@ -242,9 +304,32 @@ class AsyncRobot:
             except (RobotError, asyncio.CancelledError) as raised:
                 failure = raised
 
-    async def _perform(self, effect: Connect | Send | Wait) -> bool:
+    def _pump(self) -> None:
+        """Send what is due, as far as there is room for it."""
+        core = self._core
+        stops = core.blind_stops()
+        for port, link in self._links.items():
+            if link.transport is None:
+                continue
+            if port in stops:
+                link.transport.write(STOP_FRAME)
+            while link.room.is_set() and (data := core.due(port)) is not None:
+                link.transport.write(data)
+        if core.is_busy and self._timer is None and self._loop is not None:
+            self._timer = self._loop.call_later(_SLICE, self._tick)
+
+    def _tick(self) -> None:
+        self._timer = None
+        self._core.poll()
+        self._pump()
+        self._notify()
+
+    async def _perform(self, effect: Effect) -> bool:
         if isinstance(effect, Wait):
             return await self._wait(effect)
+        if isinstance(effect, Close):
+            self._close(effect.port)
+            return True
         if isinstance(effect, Connect):
             await self._connect(effect)
             return True
@@ -296,7 +381,14 @@ class AsyncRobot:
                 timer.cancel()
                 self._waiters.discard(waiter)
             self._core.poll()
+            self._pump()
         return True
+
+    def _close(self, port: Port) -> None:
+        link = self._links.pop(port, None)
+        self._core.talks[port].is_open = False
+        if link is not None and link.transport is not None:
+            link.transport.close()
 
     def _notify(self) -> None:
         for waiter in self._waiters:
@@ -342,12 +434,14 @@ class AsyncRobot:
                 del self._links[link.port]
                 if link.transport is not None:
                     link.transport.close()
+            self._pump()
             self._notify()
 
     def _lost(self, link: _Link, why: str) -> None:
         if self._links.get(link.port) is link:
             del self._links[link.port]
             self._core.lost(link.port, why)
+            self._pump()
             self._notify()
 
 
@@ -359,7 +453,7 @@ def _wake(waiter: "asyncio.Future[None]") -> None:
 class AsyncExecution(View):
     """A trajectory that the controller has taken."""
 
-    def __init__(self, robot: AsyncRobot, run: Run) -> None:
+    def __init__(self, robot: AsyncRobot, run: Motion) -> None:
         super().__init__(run)
         self._robot = robot
 
@@ -369,7 +463,7 @@ class AsyncExecution(View):
         return self._run.progress
 
     async def result(self, timeout: float | None = None) -> Result:
-        """Wait for the end; by default four times the planned time and 30 s.
+        """Wait for the end; by default for as long as the robot gets on or is paused.
 
         Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout when it did not end in
         time (it goes on). Cancelling this stops the robot.
@@ -381,3 +475,89 @@ class AsyncExecution(View):
         if not self._run.is_over:
             self._stopped = await self._robot.stop()
         return self._stopped
+
+
+class AsyncStream(StreamView):
+    """Points that the robot executes while more of them come.
+
+    `async with robot.stream() as stream:` ends it and waits for the robot at the end of the block;
+    when the block is left by an exception, the robot is stopped. Each point has the time s from
+    the stream's beginning and joints in rad or m; the first is where the robot stands. Motion
+    begins when the driver has enough of them, or at `flush`, `end` and `result`.
+
+    What is wrong with points is told before they are sent (InvalidTrajectory, the stream goes
+    on), by the controller at the first ones (TrajectoryRefused, nothing moved) or at later ones:
+    then the robot executes those before, and MotionFailed tells reason, point and joint.
+    """
+
+    def __init__(self, robot: AsyncRobot, feed: Feed) -> None:
+        super().__init__(feed)
+        self._robot = robot
+
+    async def __aenter__(self) -> Self:
+        return self
+
+    async def __aexit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            await self.cancel()
+        elif self.total:
+            await self.result()
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now; `total` are the points so far."""
+        return self._feed.progress
+
+    async def append(self, times: npt.ArrayLike, positions: npt.ArrayLike) -> None:
+        """Add points: `times` (n,) s from the beginning, `positions` (n, k).
+
+        Waits while the controller has no room. Raises InvalidTrajectory (nothing of these was
+        sent), NotReady, TrajectoryRefused, MotionFailed, MotionStopped, NotSupported,
+        RobotTimeout, ConnectionLost. Cancelling this stops the robot.
+        """
+        await self._do(stream_flows.append(self._robot._core, self._feed, times, positions))
+
+    async def extend(
+        self,
+        points: Iterable[tuple[float, Sequence[float]]]
+        | AsyncIterable[tuple[float, Sequence[float]]],
+    ) -> None:
+        """Add points (time, joints) from an iterable, also one without end, batch by batch.
+
+        Those of an asynchronous one, which may let itself be waited for, go one by one.
+        """
+        if isinstance(points, AsyncIterable):
+            async for time, joints in points:
+                await self.append([time], [joints])
+            return
+        for times, positions in batches(points, stream_flows.batch_size(self._robot._core)):
+            await self.append(times, positions)
+
+    async def flush(self) -> None:
+        """Let the robot start with what there is. Raises as `append`."""
+        await self._do(stream_flows.flush(self._robot._core, self._feed))
+
+    async def end(self) -> None:
+        """Nothing follows: the last point is a stop point. Raises as `append`."""
+        await self._do(stream_flows.end(self._robot._core, self._feed))
+
+    async def result(self, timeout: float | None = None) -> Result:
+        """End it, and wait until all was executed; by default for as long as the robot gets on.
+
+        Raises as `Execution.result`.
+        """
+        return await self._do(stream_flows.finish(self._robot._core, self._feed, timeout))
+
+    async def cancel(self) -> State | None:
+        """Stop the robot; the state in which it stands. Nothing when it is over."""
+        if self._feed.run is not None and not self._feed.run.is_over:
+            self._stopped = await self._robot.stop()
+        return self._stopped
+
+    async def _do(self, flow: Flow[T]) -> T:
+        return await self._robot._run(flow)

@@ -10,7 +10,8 @@ from rapidgen.client import flows
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core import Core
 from rapidgen.client.errors import InvalidTrajectory, RobotError
-from rapidgen.client.run import Result, Run
+from rapidgen.client.motion import Result
+from rapidgen.client.run import Run
 from rapidgen.client.state import State
 from rapidgen.client.sync import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
@@ -30,7 +31,7 @@ def _prepare_all(
     for name, trajectory in trajectories.items():
         cores[name].ready()
         try:
-            cores[name].plan(trajectory)
+            cores[name].plan(trajectory, "download")
         except InvalidTrajectory as error:
             found += error.diagnostics
     if found:

@@ -19,6 +19,8 @@ _CHUNK = 64 * FRAME_BYTES
 _RECEIVE = 65536
 _SLICE = 0.05
 """s after which a blocked sender looks whether it shall stop."""
+_TICK = 0.1
+"""s: time itself is looked at this often while nothing comes."""
 
 
 class Channel:
@@ -51,6 +53,8 @@ class Channel:
         self._lock = threading.Lock()
         self._rest = memoryview(b"")
         """What is still missing of a frame whose beginning is on the wire."""
+        self._is_offered = False
+        """Whether nobody else sends that rest."""
 
     def send(self, data: bytes, timeout: float, stopping: Callable[[], bool]) -> bool:
         """Send whole frames; False when `stopping` cut it short at a frame's end.
@@ -67,13 +71,21 @@ class Channel:
                 # Looked at again: a STOP may have come between the test and the lock.
                 if stopping():
                     return False
-                sent = self._write(view[at : at + _CHUNK])
-                at += sent
-                end = -(-at // FRAME_BYTES) * FRAME_BYTES
-                self._rest = view[at : min(end, len(view))]
+                if self._is_offered and self._rest:
+                    # What was offered before goes out first.
+                    sent = self._write(self._rest)
+                    self._rest = self._rest[sent:]
+                else:
+                    sent = self._write(view[at : at + _CHUNK])
+                    at += sent
+                    end = -(-at // FRAME_BYTES) * FRAME_BYTES
+                    self._rest = view[at : min(end, len(view))]
+                    self._is_offered = False
             if sent:
                 waited = 0.0
             elif waited >= timeout:
+                # What is missing of a frame goes out before anything else does.
+                self._is_offered = True
                 raise RobotTimeout(
                     fault("RG603", f"the controller took no byte for {timeout:g} s", "look at it")
                 )
@@ -94,11 +106,50 @@ class Channel:
                 if sent:
                     continue
                 if waited >= timeout:
+                    self._rest, self._is_offered = view, True
                     raise RobotTimeout(
                         fault("RG603", f"the controller took no byte for {timeout:g} s")
                     )
                 self._wait_writable(_SLICE)
                 waited += _SLICE
+
+    def offer(self, frames: Callable[[], bytes | None]) -> None:
+        """Send what `frames` gives, one after another, as far as the kernel takes it now.
+
+        The rest of a frame goes out with the next call; nothing waits here. Raises
+        ConnectionLost.
+        """
+        if not self._lock.acquire(blocking=False):
+            return
+        try:
+            while True:
+                if self._rest:
+                    if not self._is_offered:
+                        return
+                    self._rest = self._rest[self._write(self._rest) :]
+                    if self._rest:
+                        return
+                data = frames()
+                if data is None:
+                    return
+                self._rest = memoryview(data)
+                self._is_offered = True
+        finally:
+            self._lock.release()
+
+    def offer_behind(self, data: bytes) -> None:
+        """Send behind the frame whose beginning is on the wire, as far as it goes now.
+
+        Not where somebody waits to send something urgent: that is a STOP too.
+        """
+        if not self._lock.acquire(timeout=_SLICE):
+            return
+        try:
+            view = memoryview(bytes(self._rest) + data)
+            self._rest = view[self._write(view) :]
+            self._is_offered = True
+        finally:
+            self._lock.release()
 
     def _write(self, view: memoryview) -> int:
         try:
@@ -131,17 +182,22 @@ class Channel:
 class Reader:
     """The one thread that reads all connections of a robot.
 
-    `received(channel, data)` and `lost(channel, why)` are called on it.
+    `received(channel, data)` and `lost(channel, why)` are called on it, and `tick()` now and
+    then while `is_busy()`.
     """
 
     def __init__(
         self,
         received: Callable[[Channel, bytes], None],
         lost: Callable[[Channel, str], None],
+        tick: Callable[[], None],
+        is_busy: Callable[[], bool],
         name: str,
     ) -> None:
         self._received = received
         self._lost = lost
+        self._tick = tick
+        self._is_busy = is_busy
         self._selector = selectors.DefaultSelector()
         self._wake, self._waker = socket.socketpair()
         self._wake.setblocking(False)
@@ -175,7 +231,10 @@ class Reader:
 
     def _loop(self) -> None:
         while not self._ended:
-            for key, _ in self._selector.select():
+            events = self._selector.select(_TICK if self._is_busy() else None)
+            if not events:
+                self._tick()
+            for key, _ in events:
                 if key.fileobj is self._wake:
                     self._change()
                 elif key.data in self._selector_channels():

@@ -1,6 +1,7 @@
 """A trajectory against a robot: every fault at once, before a byte is sent.
 
-The result is a Plan: the axis values and durations that go onto the wire.
+The result is a Plan, for a trajectory that is there as a whole, or a Piece of one that comes in
+pieces: the axis values and durations that go onto the wire.
 """
 
 from collections.abc import Sequence
@@ -14,6 +15,7 @@ from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.group import Group
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, suggest
+from rapidgen.protocol.spec import PAIR_LIMIT, PAIR_SCALE
 
 _SPEED_ROUNDING = 1 + 1e-4
 """float32 positions and durations may ask for this much more than was meant."""
@@ -38,6 +40,26 @@ class Plan:
         return float(self.durations.sum())
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Before:
+    """What a piece goes on from: points there were, time s and axis values (k,) of the last."""
+
+    points: int
+    time: float
+    wire: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Piece:
+    """Points of a stream: `wire` (n, k) axis values and `durations` (n,) s, on the steps of 1e-6
+    that the wire has, inside the limits."""
+
+    wire: Array
+    durations: Array
+    last: Before
+    warnings: tuple[Diagnostic, ...]
+
+
 def plan(
     trajectory: Trajectory,
     group: Group,
@@ -53,36 +75,100 @@ def plan(
     Raises InvalidTrajectory with all faults.
     """
     limit = group.policy.capacity if capacity is None else capacity
-    found = _capacity(trajectory, limit) + _names(trajectory, group)
-    if found or not len(trajectory):
-        # Without a fit of the columns nothing else can be asked.
-        if not len(trajectory):
-            found.append(
-                _finding("RG619", "the trajectory has no points", "give at least one point")
-            )
-        raise InvalidTrajectory(found, exit_code=1)
-    ordered = trajectory.reordered(group.names)
-    times, positions = ordered.times, ordered.positions
-    found += _finite(ordered, group)
-    whole = np.isfinite(positions).all(axis=1) & np.isfinite(times)
+    ordered = _fitting(trajectory, group, _capacity(trajectory, limit))
+    times = ordered.times
+    first = float(times[0]) if times[0] > 0 else group.policy.min_segment
     with np.errstate(invalid="ignore", over="ignore"):
-        found += _times(ordered)
-        wire = group.to_wire(positions)
-        first = float(times[0]) if times[0] > 0 else group.policy.min_segment
+        wire = group.to_wire(ordered.positions)
         durations = np.concatenate([[first], np.diff(times)])
-        found += _limits(ordered, group, wire, whole)
-        found += _speeds(ordered, group, wire, durations, start)
+        found = _content(ordered, group, wire, durations, start, None)
         if len(wire) > 1 or not (times[0] > 0 or goes_to_single):
             found += _start(ordered, group, wire, start)
-        found += _short(ordered, group, durations)
     if len(wire) == 1:
         wire = np.repeat(wire, 2, axis=0)
         # A rapidgen driver goes by the second frame's duration, abb_driver takes both.
         durations = np.array([first, first if goes_to_single else group.policy.min_segment])
-    errors = [d for d in found if d.severity is Severity.ERROR]
-    if errors:
-        raise InvalidTrajectory(found, exit_code=1)
+    _raise_errors(found)
     return Plan(ordered, wire, durations, tuple(found))
+
+
+def piece(
+    trajectory: Trajectory, group: Group, *, before: Before | None, start: Sequence[float] | None
+) -> Piece:
+    """Check points that go on from `before`; without one they are the first of a stream, and
+    the robot stands at `start` (ten axis values). Times count from the stream's beginning.
+
+    Raises InvalidTrajectory with all faults; points have their numbers in the stream.
+    """
+    ordered = _fitting(trajectory, group, [])
+    times = ordered.times
+    first = float(times[0]) if times[0] > 0 else group.policy.min_segment
+    since = times[0] - first if before is None else before.time
+    with np.errstate(invalid="ignore", over="ignore"):
+        wire = group.to_wire(ordered.positions)
+        durations = np.diff(times, prepend=since)
+        found = _content(ordered, group, wire, durations, start, before)
+        if before is None:
+            found += _start(ordered, group, wire, start)
+        found += _fits(ordered, wire, durations, before)
+    _raise_errors(found)
+    # Times are put on the grid, not durations: nothing adds up over a long stream.
+    steps = np.diff(np.rint(times * PAIR_SCALE), prepend=np.rint(since * PAIR_SCALE))
+    least = np.rint(np.minimum(durations, group.policy.min_segment) * PAIR_SCALE)
+    wire = on_the_grid(wire, group)
+    points = len(ordered) + (before.points if before else 0)
+    last = Before(points, float(times[-1]), wire[-1])
+    return Piece(wire, np.maximum(steps, least) / PAIR_SCALE, last, tuple(found))
+
+
+def fits_a_stream(plan: Plan) -> bool:
+    """Whether the wire's pairs can hold every value of it."""
+    largest: float = max(np.abs(plan.wire).max(), plan.durations.max())
+    return bool(largest <= PAIR_LIMIT)
+
+
+def on_the_grid(wire: Array, group: Group) -> Array:
+    """Axis values (n, k) in steps of the wire's pairs, none of them outside the limits."""
+    with np.errstate(invalid="ignore"):
+        low = np.ceil(np.array([joint.lower for joint in group.joints]) * PAIR_SCALE)
+        high = np.floor(np.array([joint.upper for joint in group.joints]) * PAIR_SCALE)
+    steps: Array = np.clip(np.rint(wire * PAIR_SCALE), low, high) / PAIR_SCALE
+    return steps
+
+
+def _fitting(trajectory: Trajectory, group: Group, found: list[Diagnostic]) -> Trajectory:
+    """The trajectory with the robot's columns: without them nothing else can be asked."""
+    found = found + _names(trajectory, group)
+    if not len(trajectory):
+        found.append(_finding("RG619", "the trajectory has no points", "give at least one point"))
+    if found:
+        raise InvalidTrajectory(found, exit_code=1)
+    return trajectory.reordered(group.names)
+
+
+def _content(
+    ordered: Trajectory,
+    group: Group,
+    wire: Array,
+    durations: Array,
+    start: Sequence[float] | None,
+    before: Before | None,
+) -> list[Diagnostic]:
+    """What is the same of a whole trajectory and of a piece."""
+    origin = before.points if before else 0
+    whole = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
+    return [
+        *_finite(ordered, group, origin),
+        *_times(ordered, before),
+        *_limits(ordered, group, wire, whole, origin),
+        *_speeds(ordered, group, wire, durations, start, before),
+        *_short(ordered, group, durations, origin),
+    ]
+
+
+def _raise_errors(found: list[Diagnostic]) -> None:
+    if any(d.severity is Severity.ERROR for d in found):
+        raise InvalidTrajectory(found, exit_code=1)
 
 
 def _finding(
@@ -145,7 +231,7 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
     return found
 
 
-def _finite(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
+def _finite(trajectory: Trajectory, group: Group, origin: int) -> list[Diagnostic]:
     found = []
     bad = ~np.isfinite(trajectory.positions)
     for column in np.flatnonzero(bad.any(axis=0)).tolist():
@@ -154,35 +240,38 @@ def _finite(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
         found.append(
             _finding(
                 "RG613",
-                f"{group.names[column]} is {value} at {_points(points)}",
+                f"{group.names[column]} is {value} at {_points(points, origin)}",
                 at=(trajectory, int(points[0])),
             )
         )
     return found
 
 
-def _times(trajectory: Trajectory) -> list[Diagnostic]:
+def _times(trajectory: Trajectory, before: Before | None) -> list[Diagnostic]:
     times = trajectory.times
+    origin = before.points if before else 0
     if not np.isfinite(times).all():
         points = np.flatnonzero(~np.isfinite(times))
         return [
             _finding(
                 "RG613",
-                f"the time is {times[points[0]]} at {_points(points)}",
+                f"the time is {times[points[0]]} at {_points(points, origin)}",
                 at=(trajectory, int(points[0])),
             )
         ]
     found = []
-    if times[0] < 0:
+    if before is None and times[0] < 0:
         found.append(
             _finding("RG612", f"the first time is {times[0]:g} s", "times count from the start")
         )
     late = np.flatnonzero(np.diff(times) <= 0) + 1
+    if before is not None and times[0] <= before.time:
+        late = np.concatenate([[0], late])
     if len(late):
         found.append(
             _finding(
                 "RG612",
-                f"the time does not increase at {_points(late)}",
+                f"the time does not increase at {_points(late, origin)}",
                 "each point needs a later time than the one before",
                 at=(trajectory, int(late[0])),
             )
@@ -191,7 +280,11 @@ def _times(trajectory: Trajectory) -> list[Diagnostic]:
 
 
 def _limits(
-    trajectory: Trajectory, group: Group, wire: Array, whole: npt.NDArray[np.bool_]
+    trajectory: Trajectory,
+    group: Group,
+    wire: Array,
+    whole: npt.NDArray[np.bool_],
+    origin: int,
 ) -> list[Diagnostic]:
     found = []
     for column, joint in enumerate(group.joints):
@@ -207,9 +300,9 @@ def _limits(
         found.append(
             _finding(
                 "RG614",
-                f"{joint.name} is outside its limits at {_points(points)}",
+                f"{joint.name} is outside its limits at {_points(points, origin)}",
                 f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
-                f"point {worst} has {values[worst]:.4f} {unit}",
+                f"point {worst + origin} has {values[worst]:.4f} {unit}",
                 *(notes if coupled else ()),
                 at=(trajectory, int(points[0])),
             )
@@ -223,15 +316,20 @@ def _speeds(
     wire: Array,
     durations: Array,
     start: Sequence[float] | None,
+    before: Before | None,
 ) -> list[Diagnostic]:
     """Segment speeds; the approach to a first point with a time of its own counts as one."""
-    before = wire[:1] if start is None else np.array([start[: wire.shape[1]]])
-    steps = np.abs(np.diff(np.concatenate([before, wire]), axis=0))
+    if before is not None:
+        came_from = before.wire[None]
+    else:
+        came_from = wire[:1] if start is None else np.array([start[: wire.shape[1]]])
+    steps = np.abs(np.diff(np.concatenate([came_from, wire]), axis=0))
     rates = np.divide(
         steps, durations[:, None], out=np.zeros_like(steps), where=durations[:, None] > 0
     )
-    if trajectory.times[0] <= 0:
+    if before is None and trajectory.times[0] <= 0:
         rates[0] = 0.0
+    origin = before.points if before else 0
     found = []
     for column, joint in enumerate(group.joints):
         points = np.flatnonzero(rates[:, column] > joint.speed * _SPEED_ROUNDING)
@@ -242,7 +340,7 @@ def _speeds(
         found.append(
             _finding(
                 "RG615",
-                f"{joint.name} is too fast on the way to {_points(points)}",
+                f"{joint.name} is too fast on the way to {_points(points, origin)}",
                 f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
                 f"`scaled({joint.speed / worst:.2f})` would fit",
                 at=(trajectory, int(points[0])),
@@ -280,7 +378,7 @@ def _start(
     ]
 
 
-def _short(trajectory: Trajectory, group: Group, durations: Array) -> list[Diagnostic]:
+def _short(trajectory: Trajectory, group: Group, durations: Array, origin: int) -> list[Diagnostic]:
     least = group.policy.min_segment
     points = np.flatnonzero((durations < least - _TIME_ROUNDING) & (durations > 0))
     if not len(points):
@@ -288,7 +386,7 @@ def _short(trajectory: Trajectory, group: Group, durations: Array) -> list[Diagn
     return [
         _finding(
             "RG618",
-            f"the segment to {_points(points)} is shorter than the path planner follows",
+            f"the segment to {_points(points, origin)} is shorter than the path planner follows",
             f"{durations[points].min():.4f} s, at least {least:g} s: `resampled({least:g})`",
             at=(trajectory, int(points[0])),
             severity=Severity.ERROR if group.has_limits else Severity.WARNING,
@@ -296,7 +394,24 @@ def _short(trajectory: Trajectory, group: Group, durations: Array) -> list[Diagn
     ]
 
 
-def _points(points: npt.NDArray[np.intp]) -> str:
-    if len(points) == 1:
-        return f"point {points[0]}"
-    return f"point {points[0]} and {len(points) - 1} more"
+def _fits(
+    trajectory: Trajectory, wire: Array, durations: Array, before: Before | None
+) -> list[Diagnostic]:
+    values = np.concatenate([wire, durations[:, None]], axis=1)
+    points = np.flatnonzero((np.abs(values) > PAIR_LIMIT).any(axis=1))
+    if not len(points):
+        return []
+    origin = before.points if before else 0
+    return [
+        _finding(
+            "RG623",
+            f"a value is too large for a stream at {_points(points, origin)}",
+            f"{PAIR_LIMIT:.2f} s, rad or m are the most: `resampled(10)` divides a long segment",
+            at=(trajectory, int(points[0])),
+        )
+    ]
+
+
+def _points(points: npt.NDArray[np.intp], origin: int = 0) -> str:
+    first = points[0] + origin
+    return f"point {first}" if len(points) == 1 else f"point {first} and {len(points) - 1} more"

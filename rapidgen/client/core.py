@@ -5,41 +5,41 @@ Its owner holds a lock (sync) or a loop (async) and moves the bytes.
 
 from collections import deque
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, replace
 from typing import TypedDict
 
 from rapidgen import __version__
-from rapidgen.client.checks import Plan, plan
+from rapidgen.client.checks import Plan, fits_a_stream, plan
 from rapidgen.client.errors import (
     ConnectionLost,
     NotReady,
     ProtocolError,
     RobotError,
+    RobotTimeout,
     TrajectoryRefused,
     fault,
 )
 from rapidgen.client.group import PLAIN_CAPACITY, Group
+from rapidgen.client.heartbeat import Heartbeat
+from rapidgen.client.motion import Way, place_of, reason_of, reason_text
 from rapidgen.client.run import Run
 from rapidgen.client.state import State
+from rapidgen.client.stream import StreamRun
+from rapidgen.client.talk import Conversation, Pending
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol import (
-    ContentError,
-    FrameSplitter,
-    FramingError,
-    decode,
-    encode,
-    messages,
-)
+from rapidgen.protocol import ContentError, FramingError, decode, encode, messages
+from rapidgen.protocol.codec import number_of
 from rapidgen.protocol.spec import (
+    HEARTBEAT,
+    INDEX_WRAP,
     JOINT_TRAJ_PT,
     MAX_JOINTS,
+    POINTS,
     PROTOCOL_VERSION,
-    REASON_TEXTS,
     Comm,
     Feature,
     Port,
-    Reason,
     Sequence,
     TriState,
 )
@@ -75,29 +75,9 @@ class Timeouts:
     """Reply to the end frame; 20 ms more for each point."""
     stop: float = 5.0
     """Reply to STOP, and again until the robot stands."""
-
-
-@dataclass(slots=True, eq=False)
-class Pending:
-    """A request that waits for its reply."""
-
-    number: int
-    reply: messages.Content | None = None
-
-
-@dataclass(slots=True)
-class Conversation:
-    """One connection on which requests are answered in their order."""
-
-    splitter: FrameSplitter = field(default_factory=FrameSplitter)
-    pending: deque[Pending] = field(default_factory=deque)
-    is_open: bool = False
-
-    def request(self, number: int) -> Pending:
-        """Expect a reply of this message type."""
-        waiting = Pending(number)
-        self.pending.append(waiting)
-        return waiting
+    heartbeat: float = 2.0
+    """While something moves the controller hears from the client, where it has a control port,
+    and stops the robot when it did not for so long; 0: it does not ask for that."""
 
 
 class Core:
@@ -112,12 +92,17 @@ class Core:
         watch: bool = False,
         plain: bool = False,
         reconnect: float = 0.0,
+        feedback: bool = False,
     ) -> None:
         """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
 
-        `reconnect`: for how many s a lost connection is tried again; 0: not.
+        `reconnect`: for how many s a lost connection is tried again; 0: not. `feedback`: ask
+        for joints with the controller's own time and velocities.
         """
         self.watch = watch
+        self.subscribe = Feature.PROGRESS | Feature.EVENTS
+        if feedback:
+            self.subscribe |= Feature.FEEDBACK
         self.reconnect = reconnect
         self.timeouts = timeouts
         self.clock = clock
@@ -128,7 +113,13 @@ class Core:
         self.talks = {Port.MOTION: Conversation(), Port.CONTROL: Conversation()}
         self.fault: RobotError | None = None
         """Why the last connection was lost."""
-        self.run: Run | None = None
+        self.run: Run | StreamRun | None = None
+        self.override = 1.0
+        """Share of the programmed speed that was asked for."""
+        self.heartbeat = Heartbeat(timeouts.heartbeat)
+        self._stopped_blindly: Run | StreamRun | None = None
+        self._streams = 0
+        self._outbox: deque[tuple[Pending, bytes]] = deque()
         self._group: Group | None = None
         if group is not None:
             self.use(group)
@@ -148,6 +139,9 @@ class Core:
             self.state_open = True
         else:
             self.talks[port] = Conversation(is_open=True)
+        if port is Port.CONTROL:
+            self.heartbeat.restart()
+            self._outbox.clear()
 
     def received(self, port: Port, data: bytes) -> bool:
         """Take bytes; False when the connection must be closed (it cannot be followed)."""
@@ -177,12 +171,16 @@ class Core:
             except ContentError as error:
                 self.tracker.note(str(error))
                 continue
-            if frame.comm != Comm.REPLY or not talk.pending:
+            if isinstance(content, messages.Stopped):
+                self._stood(content)
+                continue
+            if frame.comm != Comm.REPLY or not talk.answered(frame.number, content):
                 self.tracker.note("nobody asked for this message")
-            elif talk.pending[0].number != frame.number:
-                self.tracker.note(f"a reply to {talk.pending[0].number} was expected")
-            else:
-                talk.pending.popleft().reply = content
+
+    def _stood(self, told: messages.Stopped) -> None:
+        """The controller says where the robot stands after a halt."""
+        if self.run is not None and self._group is not None:
+            self.run.stood = self._group.from_wire(told.joints)
 
     def lost(self, port: Port, why: str) -> None:
         """A connection broke."""
@@ -199,7 +197,8 @@ class Core:
         else:
             self.talks[port].is_open = False
         self.fault = error
-        # A lost control connection takes nothing from a motion under way.
+        # A lost control connection takes nothing from a motion under way; the controller stops
+        # it by itself where it awaited a heartbeat there.
         if self.run is not None and port is not Port.CONTROL:
             self.run.failed(error)
 
@@ -216,8 +215,77 @@ class Core:
 
     def poll(self) -> None:
         """Let what is under way look at the newest state and at the clock."""
-        if self.run is not None:
-            self.run.step()
+        run = self.run
+        if run is None:
+            return
+        if not run.is_over and self.heartbeat.is_late(self.clock()):
+            run.failed(
+                RobotTimeout(
+                    fault(
+                        "RG603",
+                        "the control port does not answer any more while the robot may be moving",
+                        "a STOP was sent; look at the robot",
+                    ),
+                    **self.evidence(),
+                )
+            )
+        run.step()
+
+    # What goes out by itself
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether `due` must be asked now and then, though nothing comes in."""
+        run = self.run
+        return (run is not None and not run.is_over) or self.heartbeat.is_awaited
+
+    def due(self, port: Port) -> bytes | None:
+        """The next frame for this connection, None: nothing. It is taken for sent."""
+        if port not in self.talks or not self.talks[port].is_open:
+            return None
+        if port is Port.CONTROL:
+            if self._outbox:
+                pending, frame = self._outbox.popleft()
+                self.talks[port].pending.append(pending)
+                return frame
+            return self._beat()
+        run = self.run
+        if isinstance(run, StreamRun) and run.has_due:
+            return run.next_frame(self.talks[port].request(POINTS.number))
+        return None
+
+    def _beat(self) -> bytes | None:
+        if self.heartbeat.refused:
+            self.tracker.note("the controller takes no heartbeat")
+            self.heartbeat.timeout = 0.0
+        now = self.clock()
+        moves = self.run is not None and not self.run.is_over
+        timeout = self.heartbeat.due(now, moves=moves)
+        if timeout is None:
+            return None
+        self.heartbeat.sent(now, timeout, self.talks[Port.CONTROL].request(HEARTBEAT.number))
+        return encode(messages.Heartbeat(timeout), Comm.REQUEST)
+
+    def post(self, content: messages.Content) -> Pending:
+        """A request for the control port; it goes out next."""
+        pending = Pending(number_of(content))
+        self._outbox.append((pending, encode(content, Comm.REQUEST)))
+        return pending
+
+    def blind_stops(self) -> list[Port]:
+        """Connections on which a STOP must go out now: nobody sees any more what moves.
+
+        Told once for each motion; the requests are taken for made.
+        """
+        run = self.run
+        blind = ConnectionLost | RobotTimeout | ProtocolError
+        if run is None or run is self._stopped_blindly or not isinstance(run.error, blind):
+            return []
+        self._stopped_blindly = run
+        ports = [port for port, talk in self.talks.items() if talk.is_open]
+        for port in ports:
+            self.request_stop(port)
+        return ports
 
     # What callers ask
 
@@ -235,10 +303,16 @@ class Core:
         """The last messages and states, for an exception."""
         return {"messages": self.tracker.messages, "states": self.tracker.states}
 
-    def hello(self) -> bytes:
+    def without_control(self, why: str) -> None:
+        """There is no control connection, though the driver has the port."""
+        self.tracker.note(why)
+        self.tracker.driver = replace(self.tracker.driver, control_fault=why)
+
+    def hello(self, *, subscribe: bool = True) -> bytes:
         """The request that asks who is there."""
+        wanted = int(self.subscribe) if subscribe else 0
         major, minor, patch = (int(part) for part in __version__.split(".")[:3])
-        asked = messages.Hello(PROTOCOL_VERSION, (major, minor, patch), int(Feature.PROGRESS))
+        asked = messages.Hello(PROTOCOL_VERSION, (major, minor, patch), wanted)
         return encode(asked, Comm.REQUEST)
 
     @property
@@ -250,20 +324,50 @@ class Core:
         # Who does not say how many it holds may be abb_driver, which drops the others.
         return min(PLAIN_CAPACITY, self._group.policy.capacity if self._group else PLAIN_CAPACITY)
 
-    def plan(self, trajectory: Trajectory) -> Plan:
-        """Check a trajectory. Raises InvalidTrajectory, NotReady (no state yet)."""
-        start = self.tracker.wire_joints
-        if self._group is None or start is None:
-            raise NotReady(
-                fault("RG621", "the robot has not told where it stands", "connect first")
-            )
+    @property
+    def can_stream(self) -> bool:
+        """Whether the driver takes points while it executes those before."""
+        hello = self.tracker.driver.hello
+        return (
+            hello is not None and Feature.STREAMING in Feature(hello.features) and hello.batch > 0
+        )
+
+    def way_for(self, trajectory: Trajectory) -> Way:
+        """How a trajectory goes to the controller when nobody says: one that the ring does not
+        hold is streamed, so that motion need not wait for the last point."""
+        hello = self.tracker.driver.hello
+        if not self.can_stream or hello is None or len(trajectory) <= hello.ring:
+            return "download"
+        return "stream" if fits_a_stream(self.plan(trajectory)) else "download"
+
+    def plan(self, trajectory: Trajectory, way: Way | None = None) -> Plan:
+        """Check a trajectory: for `download` it must be no longer than the driver holds.
+
+        Raises InvalidTrajectory, NotReady (no state yet).
+        """
+        ends = way == "download" or not self.can_stream
         return plan(
             trajectory,
-            self._group,
-            start=start,
-            capacity=self.capacity,
+            self.known_group,
+            start=self.start,
+            capacity=self.capacity if ends else len(trajectory),
             goes_to_single=self.tracker.driver.is_rapidgen,
         )
+
+    @property
+    def start(self) -> tuple[float, ...]:
+        """The ten axis values where the robot stands. Raises NotReady before they came."""
+        start = self.tracker.wire_joints
+        if start is None:
+            raise _unknown()
+        return start
+
+    @property
+    def known_group(self) -> Group:
+        """Names, units and limits. Raises NotReady before they are known."""
+        if self._group is None:
+            raise _unknown()
+        return self._group
 
     def hindrances(self) -> list[str]:
         """Why the robot cannot move now, by its own word."""
@@ -294,8 +398,24 @@ class Core:
 
     def begin(self, plan: Plan) -> Run:
         """A run of this plan, from now on the one under way."""
-        assert self._group is not None
-        self.run = Run(plan, self._group, self.tracker, silence=self.timeouts.silence)
+        self.run = Run(plan, self.known_group, self.tracker, silence=self.timeouts.silence)
+        self.override = 1.0
+        return self.run
+
+    def begin_stream(self) -> StreamRun:
+        """A stream, from now on the motion under way."""
+        hello = self.tracker.driver.hello
+        assert hello is not None
+        self._streams = self._streams % (INDEX_WRAP - 1) + 1
+        self.run = StreamRun(
+            self._streams,
+            hello,
+            self.known_group,
+            self.tracker,
+            silence=self.timeouts.silence,
+            reply=self.timeouts.reply,
+        )
+        self.override = 1.0
         return self.run
 
     def answered(self, run: Run, reply: messages.Content) -> None:
@@ -311,32 +431,26 @@ class Core:
         raise error
 
     def _refusal(self, reply: messages.Content) -> TrajectoryRefused:
-        assert self._group is not None
-        reason: Reason | None = None
-        point, joint, text, where = -1, 0, "no reason given", ""
+        point, joint, text = -1, 0, "no reason given"
+        reason = None
         if isinstance(reply, messages.Refused):
             point, joint = reply.point, reply.joint
-            reason = Reason(reply.reason) if reply.reason in list(Reason) else None
-            text = REASON_TEXTS[reason] if reason is not None else f"reason {reply.reason}"
-            where = f" (point {point}" if point >= 0 else ""
-            if 1 <= joint <= len(self._group.names):
-                where += f"{', ' if where else ' ('}{self._group.names[joint - 1]}"
-            where += ")" if where else ""
+            reason, text = reason_of(reply.reason), reason_text(reply.reason)
+        where = place_of(self.known_group, point, joint)
         return TrajectoryRefused(
-            fault("RG620", f"the controller refused: {text}{where}", "nothing moved"),
+            fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
             reason=reason,
             point=point,
             joint=joint,
             **self.evidence(),
         )
 
-    @property
-    def stop_port(self) -> Port:
-        """The connection for STOP: one of its own where the driver has it."""
-        return Port.CONTROL if self.talks[Port.CONTROL].is_open else Port.MOTION
-
     def request_stop(self, port: Port) -> Pending:
         """A STOP is about to be sent on this connection."""
-        if self.run is not None and not self.run.is_over:
+        if self.run is not None:
             self.run.stopping = True
         return self.talks[port].request(JOINT_TRAJ_PT.number)
+
+
+def _unknown() -> NotReady:
+    return NotReady(fault("RG621", "the robot has not told where it stands", "connect first"))

@@ -8,6 +8,8 @@
     ├── ProtocolError             the peer does not speak simple_message
     ├── IncompatibleDriver        another version or joint map: build and deploy again
     ├── NotReady                  motors, mode, e-stop, or a motion under way: mend that, try again
+    ├── NotSupported              this driver cannot do that: build another one, or do without
+    ├── RequestRefused            a pause, a speed or a signal was refused; nothing else changed
     ├── InvalidTrajectory         mend the trajectory; nothing was sent
     ├── TrajectoryRefused         the controller said no; nothing moved
     └── MotionError               the robot moved, and not to the end
@@ -75,8 +77,30 @@ class NotReady(RobotError):
     """The robot cannot move now: motors, mode, emergency stop, or a motion under way."""
 
 
+class NotSupported(RobotError):
+    """The driver on the controller, or the configuration, does not have what was asked for."""
+
+
+class RequestRefused(RobotError):
+    """The controller did not do what was asked over the control port.
+
+    `reason` is None when the driver gave none.
+    """
+
+    def __init__(
+        self,
+        diagnostic: Diagnostic,
+        *,
+        reason: "Reason | None" = None,
+        messages: Iterable[tuple[float, str]] = (),
+        states: "Iterable[State]" = (),
+    ) -> None:
+        super().__init__(diagnostic, messages=messages, states=states)
+        self.reason = reason
+
+
 class InvalidTrajectory(RobotError):
-    """Every fault of a trajectory, found before a byte was sent."""
+    """Every fault of a trajectory, found before a byte of it was sent."""
 
 
 class TrajectoryRefused(RobotError):
@@ -104,7 +128,8 @@ class TrajectoryRefused(RobotError):
 class MotionError(RobotError):
     """The robot began to move and did not reach the end.
 
-    `reached` is the number of points known to be reached, None when the driver does not say.
+    `reached` is the number of points known to be reached, None when the driver does not say;
+    `point` from 0 (-1 none) and `joint` from 1 (0 none) are those at fault.
     """
 
     def __init__(
@@ -113,12 +138,16 @@ class MotionError(RobotError):
         *,
         reason: "Reason | None" = None,
         reached: int | None = None,
+        point: int = -1,
+        joint: int = 0,
         messages: Iterable[tuple[float, str]] = (),
         states: "Iterable[State]" = (),
     ) -> None:
         super().__init__(diagnostic, messages=messages, states=states)
         self.reason = reason
         self.reached = reached
+        self.point = point
+        self.joint = joint
 
 
 class MotionStopped(MotionError):

@@ -11,28 +11,33 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from rapidgen.client.core import STOP_FRAME, Core, Pending
+from rapidgen.client.core import STOP_FRAME, Core
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
     IncompatibleDriver,
+    NotSupported,
     RobotError,
     RobotTimeout,
     StopFailed,
     fault,
 )
 from rapidgen.client.group import Group
-from rapidgen.client.run import Result, Run
-from rapidgen.client.state import State
+from rapidgen.client.motion import Motion, Phase, Result
+from rapidgen.client.run import Run
+from rapidgen.client.state import Event, Feedback, State
+from rapidgen.client.talk import Pending
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.protocol import messages
 from rapidgen.protocol.bulk import FRAME_BYTES, encode_trajectory
 from rapidgen.protocol.spec import (
+    HELLO,
     JOINT_TRAJ_PT,
     MAX_JOINTS,
     PROTOCOL_VERSION,
     Feature,
     Port,
+    TrajectoryState,
     TriState,
 )
 
@@ -43,7 +48,7 @@ _RETRY = 0.5
 """s between two attempts to connect again."""
 _STILL_SAMPLES = 5
 """Joint messages without a movement after which a robot stands, whatever its status says."""
-_INTERRUPTIONS = (KeyboardInterrupt, CancelledError)
+INTERRUPTIONS = (KeyboardInterrupt, CancelledError)
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +86,14 @@ class Wait:
     timeout: float
 
 
-Effect = Connect | Send | Wait
+@dataclass(frozen=True, slots=True)
+class Close:
+    """Close a connection that is of no use."""
+
+    port: Port
+
+
+Effect = Connect | Send | Wait | Close
 Flow = Generator[Effect, Any, T]
 
 
@@ -114,7 +126,29 @@ def connect(core: Core) -> Flow[None]:
         return
     yield Connect(Port.MOTION, limits.connect)
     if Feature.CONTROL in tracker.driver.features:
-        yield Connect(Port.CONTROL, limits.connect)
+        yield from _meet_control(core)
+
+
+def _meet_control(core: Core) -> Flow[None]:
+    """Open the control connection, if it is one of this very driver; else do without."""
+    trouble = "another driver answers on the control port"
+    try:
+        yield Connect(Port.CONTROL, core.timeouts.connect)
+        talk = core.talks[Port.CONTROL]
+        pending = talk.request(HELLO.number)
+        yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
+        yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.hello)
+        known, told = core.tracker.hello, pending.reply
+        assert isinstance(known, messages.HelloReply)
+        if isinstance(told, messages.HelloReply) and told.same_driver(known):
+            return
+        if told is None:
+            trouble = "nobody answers on the control port"
+        if talk.is_open:
+            yield Close(Port.CONTROL)
+    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
+        trouble = str(error)
+    core.without_control(trouble)
 
 
 def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
@@ -167,8 +201,8 @@ def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
     try:
         yield from send_points(core, run, data)
         yield from finish(core, run, data)
-    except _INTERRUPTIONS:
-        yield from _stop_and_leave(core)
+    except INTERRUPTIONS:
+        yield from stop_and_leave(core)
         raise
     except RobotError as error:
         run.failed(error)
@@ -187,7 +221,7 @@ def prepare(core: Core, trajectory: Trajectory) -> tuple[Run, bytes]:
     if not core.talks[Port.MOTION].is_open:
         raise core.disconnected()
     core.ready()
-    plan = core.plan(trajectory)
+    plan = core.plan(trajectory, "download")
     data = encode_trajectory(plan.wire, plan.durations)
     return core.begin(plan), data
 
@@ -219,7 +253,6 @@ def accepted(core: Core, run: Run, pending: Pending) -> Flow[None]:
     if run.error is not None:
         raise run.error
     if pending.reply is None:
-        yield from _stop_and_leave(core)
         raise RobotTimeout(
             fault(
                 "RG603",
@@ -231,24 +264,21 @@ def accepted(core: Core, run: Run, pending: Pending) -> Flow[None]:
         )
 
 
-def result(core: Core, run: Run, timeout: float | None) -> Flow[Result]:
-    """Wait for the end of a run. Without a time-out: four times the planned time and 30 s."""
-    patience = 4 * run.plan.total + 30 if timeout is None else timeout
+def result(core: Core, run: Motion, timeout: float | None) -> Flow[Result]:
+    """Wait for the end of a motion; without a time-out for as long as it gets on."""
     try:
-        yield Wait(lambda: run.is_over, patience)
-        # Blind or cut off while the robot may be moving: stop it, as far as that can be.
-        if isinstance(run.error, RobotTimeout | ConnectionLost):
-            yield from _stop_and_leave(core)
-    except _INTERRUPTIONS:
-        yield from _stop_and_leave(core)
+        yield from patiently(core, run, lambda: run.is_over, timeout)
+    except INTERRUPTIONS:
+        yield from stop_and_leave(core)
         raise
     if run.error is not None:
         raise run.error
     if run.result is None:
+        waited = patience(core, run) if timeout is None else timeout
         raise RobotTimeout(
             fault(
                 "RG603",
-                f"the motion did not end within {patience:.1f} s; it goes on",
+                f"the motion did not end within {waited:.1f} s; it goes on",
                 "wait longer with result(timeout), or stop()",
             ),
             **core.evidence(),
@@ -256,38 +286,87 @@ def result(core: Core, run: Run, timeout: float | None) -> Flow[Result]:
     return run.result
 
 
-def _stop_and_leave(core: Core) -> Flow[None]:
-    """Write a STOP if there is a connection for it; nobody waits for the answer."""
-    port = core.stop_port
-    if not core.talks[port].is_open:
+def patience(core: Core, run: Motion) -> float:
+    """Seconds without a sign of getting on after which nobody waits any longer."""
+    return 4 * run.longest / core.override + 30
+
+
+def patiently(
+    core: Core, run: Motion, condition: Callable[[], bool], timeout: float | None = None
+) -> Flow[None]:
+    """Wait until the condition holds, or `timeout` s; without, for as long as the motion gets on
+    or is paused."""
+    if timeout is not None:
+        yield Wait(condition, timeout)
         return
-    core.request_stop(port)
-    try:
-        yield Send(port, STOP_FRAME, core.timeouts.stop, urgent=True)
-    except RobotError as error:
-        core.tracker.note(str(error))
+    while True:
+        mark = run.mark
+
+        def stirs(mark: tuple[object, ...] = mark) -> bool:
+            return condition() or run.mark != mark
+
+        yield Wait(stirs, patience(core, run))
+        if condition():
+            return
+        if run.mark == mark and run.progress.state is not TrajectoryState.PAUSED:
+            return
+
+
+def stop_and_leave(core: Core) -> Flow[None]:
+    """Write a STOP on every connection for it; nobody waits for the answer."""
+    for port, talk in core.talks.items():
+        if not talk.is_open:
+            continue
+        try:
+            yield from _send_stop(core, port)
+        except RobotError as error:
+            core.tracker.note(str(error))
+
+
+def _send_stop(core: Core, port: Port) -> Flow[Pending]:
+    if not core.talks[port].is_open:
+        yield Connect(port, core.timeouts.connect)
+    pending = core.request_stop(port)
+    yield Send(port, STOP_FRAME, core.timeouts.stop, urgent=True)
+    return pending
 
 
 def stop(core: Core) -> Flow[State | None]:
     """Stop at once, whatever else is under way; the state in which the robot stands.
 
-    Connects to the motion port when there is no connection. None without a state connection
-    (then nobody saw it stand). Raises StopFailed.
+    Over the control port where there is one, which no point delays; and over the motion port
+    when what was sent there is not all answered: it may be read after the STOP. Connects to the
+    motion port when there is no connection. None without a state connection (then nobody saw it
+    stand). Raises StopFailed.
     """
-    port = core.stop_port
     run = core.run
-    try:
-        if not core.talks[port].is_open:
-            yield Connect(port, core.timeouts.connect)
-        pending: Pending = core.request_stop(port)
-        yield Send(port, STOP_FRAME, core.timeouts.stop, urgent=True)
-    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
-        raise _not_stopped(core, f"STOP could not be sent ({error})") from error
-    talk = core.talks[port]
-    yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.stop)
-    if pending.reply is None:
+    talks = core.talks
+    control = talks[Port.CONTROL]
+    limit = core.timeouts.stop
+    heard = None
+    if control.is_open:
+        try:
+            heard = yield from _send_stop(core, Port.CONTROL)
+        except (ConnectionLost, RobotTimeout) as error:
+            core.tracker.note(f"STOP could not be sent over the control port ({error})")
+    read = None
+    if heard is None or talks[Port.MOTION].pending:
+        read = yield from _stop_behind_points(core)
+    if heard is not None:
+        yield Wait(lambda: heard.reply is not None or not control.is_open, limit / 2)
+        if heard.reply is None and read is None:
+            core.tracker.note("the control port did not answer STOP")
+            read = yield from _stop_behind_points(core)
+    if read is not None:
+        left = limit + _PER_POINT * _unread(run)
+        yield Wait(lambda: read.reply is not None or not talks[Port.MOTION].is_open, left)
+    asked = [pending for pending in (heard, read) if pending is not None]
+    if any(isinstance(pending.reply, messages.Failure) for pending in asked):
+        raise _not_stopped(core, "the controller could not stop")
+    last = asked[-1]
+    if last.reply is None:
         raise _not_stopped(core, "the controller did not answer STOP")
-    if not isinstance(pending.reply, messages.Acknowledged):
+    if not isinstance(last.reply, messages.Acknowledged):
         raise _not_stopped(core, "the controller could not stop")
     if not core.state_open:
         return None
@@ -295,6 +374,19 @@ def stop(core: Core) -> Flow[State | None]:
     if run is not None and not run.is_over:
         run.stopped()
     return state
+
+
+def _stop_behind_points(core: Core) -> Flow[Pending]:
+    """STOP over the motion port: carried out after what was sent there."""
+    try:
+        return (yield from _send_stop(core, Port.MOTION))
+    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
+        raise _not_stopped(core, f"STOP could not be sent ({error})") from error
+
+
+def _unread(run: Motion | None) -> int:
+    """Points that the controller may have to read before a STOP behind them."""
+    return run.total if run is not None and run.phase is Phase.SENDING else 0
 
 
 def _until_standing(core: Core) -> Flow[State]:
@@ -354,3 +446,42 @@ def next_state(core: Core, timeout: float | None) -> Flow[State]:
     return (
         yield from wait_until(core, lambda state: state.number > seen, patience, "the next state")
     )
+
+
+def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[Event]:
+    """The next entry of the controller's log, or the one behind `after`; without a time-out as
+    long as there is a link."""
+    yield from alive(core)
+    tracker = core.tracker
+    seen = tracker.event_count if after is None else after.number
+    patience = float("inf") if timeout is None else timeout
+    yield Wait(lambda: tracker.event_count > seen or not core.state_open, patience)
+    found = [event for event in tracker.events if event.number > seen]
+    if found:
+        return found[0]
+    if not core.state_open:
+        raise core.disconnected()
+    raise RobotTimeout(fault("RG603", f"no event came within {timeout:g} s"), **core.evidence())
+
+
+def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
+    """The next joints with the controller's time."""
+    yield from alive(core)
+    tracker = core.tracker
+    if Feature.FEEDBACK not in tracker.driver.features & core.subscribe:
+        raise NotSupported(
+            fault(
+                "RG624",
+                "the driver sends no feedback with the controller's time",
+                "Robot(..., feedback=True) asks for it, where the driver has it",
+            )
+        )
+    seen = tracker.feedbacks
+    limit = core.timeouts.state if timeout is None else timeout
+    yield Wait(lambda: tracker.feedbacks > seen or not core.state_open, limit)
+    feedback = tracker.feedback
+    if feedback is not None and tracker.feedbacks > seen:
+        return feedback
+    if not core.state_open:
+        raise core.disconnected()
+    raise RobotTimeout(fault("RG603", f"no feedback came within {limit:g} s"), **core.evidence())

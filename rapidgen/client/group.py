@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.errors import IncompatibleDriver, fault
-from rapidgen.config.model import Joint, MotionGroup, RobotConfig, TrajectoryPolicy
+from rapidgen.config.model import Joint, MotionGroup, RobotConfig, Signal, TrajectoryPolicy
 from rapidgen.protocol.mapping import mapping_hash
 from rapidgen.protocol.messages import HelloReply
 
@@ -30,11 +30,13 @@ class Group:
     policy: TrajectoryPolicy
     has_limits: bool = True
     """False: neither a configuration nor the driver told the limits."""
+    signals: tuple[Signal, ...] = ()
+    """What the configuration exposes, in the order of their numbers."""
 
     @classmethod
     def of(cls, config: RobotConfig, group: MotionGroup) -> "Group":
         """The group of a configuration."""
-        return cls(group.name, JointMap.of(group), config.trajectory)
+        return cls(group.name, JointMap.of(group), config.trajectory, signals=tuple(config.signals))
 
     @classmethod
     def told(cls, hello: HelloReply) -> "Group":
@@ -122,6 +124,10 @@ class Group:
     def from_wire(self, values: Sequence[float]) -> tuple[float, ...]:
         """URDF joint values of the ten axis values of a message."""
         return self.map.to_urdf(values[: len(self.joints)])
+
+    def rates_from_wire(self, values: Sequence[float]) -> tuple[float, ...]:
+        """URDF joint velocities of the ten axis velocities of a message."""
+        return self.map.rates_to_urdf(values[: len(self.joints)])
 
     def require(self, hello: HelloReply) -> None:
         """Raise IncompatibleDriver when the driver was made for other joints."""

@@ -1,23 +1,20 @@
-"""One trajectory under way: decides from states alone when it is over, and how. Sans-IO.
+"""One trajectory that was sent whole: decides from states alone when it is over. Sans-IO.
 
-A driver that tells PROGRESS is believed. Any other is judged by position **and** in_motion
-**and** time: a path that ends where it began, or crosses its end, is not done early, and a
-robot that never moved has not arrived.
+A driver without PROGRESS is judged by position **and** in_motion **and** time: a path that ends
+where it began, or crosses its end, is not done early, and a robot that never moved has not
+arrived.
 """
-
-from dataclasses import dataclass
-from enum import Enum, auto
 
 import numpy as np
 
 from rapidgen.client.checks import Plan
-from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
+from rapidgen.client.errors import MotionFailed, MotionStopped, fault
 from rapidgen.client.group import Group
-from rapidgen.client.state import Progress, State
+from rapidgen.client.motion import Motion, Phase
+from rapidgen.client.state import Progress, State, trajectory_state
 from rapidgen.client.tracker import Tracker
-from rapidgen.diagnostics import Diagnostic
-from rapidgen.protocol import messages
-from rapidgen.protocol.spec import REASON_TEXTS, Reason, TrajectoryState, TriState
+from rapidgen.client.trajectory import Array
+from rapidgen.protocol.spec import REASON_TEXTS, TrajectoryState, TriState
 
 GOAL_TOLERANCE = 0.01
 """rad or m: as industrial_robot_client."""
@@ -29,141 +26,51 @@ _EARLY = 0.25
 """s by which a robot may be early: it skips a first point that it stands on."""
 
 
-class Phase(Enum):
-    """Where a run is."""
-
-    SENDING = auto()
-    MOVING = auto()
-    OVER = auto()
-
-
-@dataclass(frozen=True, slots=True)
-class Result:
-    """A trajectory that was executed to its end.
-
-    `deviation` is the largest distance of a joint from the last point, rad or m.
-    """
-
-    points: int
-    seconds: float
-    planned_seconds: float
-    deviation: float
-    state: State
-
-
-class Run:
-    """A trajectory from its first byte to its end. Its owner holds a lock or a loop."""
+class Run(Motion):
+    """A trajectory from its first byte to its end."""
 
     def __init__(self, plan: Plan, group: Group, tracker: Tracker, *, silence: float) -> None:
+        super().__init__(group, tracker, silence)
         self.plan = plan
-        self.phase = Phase.SENDING
-        self.result: Result | None = None
-        self.error: RobotError | None = None
-        self.stopping = False
-        self.number: int | None = None
-        self._group = group
-        self._tracker = tracker
-        self._silence = silence
-        self._before = tracker.progress
+        self.trajectory = plan.trajectory
+        self.warnings = plan.warnings
         self._was_in_error = tracker.status.in_error is TriState.TRUE
         self._start = tracker.state
-        self._began = tracker.clock()
-        self._first_sample = tracker.samples
-        self._first_progress = tracker.progresses
         self._seen_moving = False
         self._stood_since: float | None = None
-        self._goal = plan.trajectory.positions[-1]
         self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
 
     @property
-    def is_over(self) -> bool:
-        """Whether `result` or `error` is there."""
-        return self.phase is Phase.OVER
+    def total(self) -> int:
+        """Points that were asked for."""
+        return len(self.plan.trajectory)
 
-    def accepted(self, number: int | None) -> None:
-        """The controller took the trajectory (under this number, where it tells one)."""
-        if self.is_over:
-            return
-        self.phase = Phase.MOVING
-        self.number = number
-        self._began = self._tracker.clock()
-        self._first_sample = self._tracker.samples
-        self._first_progress = self._tracker.progresses
+    @property
+    def planned_seconds(self) -> float:
+        """Seconds that the controller is asked to take."""
+        return self.plan.total
 
-    def failed(self, error: RobotError) -> None:
-        """It is over; only the first reason counts."""
-        if not self.is_over:
-            self.phase = Phase.OVER
-            self.error = error
+    @property
+    def goal(self) -> Array:
+        """The last point, rad or m in URDF order."""
+        last: Array = self.plan.trajectory.positions[-1]
+        return last
 
-    def stopped(self) -> None:
-        """A STOP was confirmed and the robot stands."""
-        self._end(MotionStopped, fault("RG631", "stopped on request"), Reason.STOPPED)
+    @property
+    def longest(self) -> float:
+        """Seconds that may pass without a sign of getting on: a plain driver gives none."""
+        return self.plan.total
 
     def step(self) -> None:
-        """Look at the newest state. Call after each message, and now and then without one."""
+        """Look at the newest state; without PROGRESS at where the robot is."""
+        super().step()
         tracker = self._tracker
-        if self.phase is not Phase.MOVING:
-            return
-        silent = tracker.clock() - tracker.heard
-        if silent > self._silence:
-            self.failed(
-                RobotTimeout(
-                    fault(
-                        "RG603",
-                        f"no state for {silent:.1f} s while the robot may be moving",
-                        "look at the robot; a STOP was sent",
-                    ),
-                    messages=tracker.messages,
-                    states=tracker.states,
-                )
-            )
-            return
-        told = self._told()
-        if told is not None:
-            self._by_progress(told)
-        elif tracker.progress is None and tracker.samples > self._first_sample:
+        if (
+            self.phase is Phase.MOVING
+            and tracker.progress is None
+            and tracker.samples > self._first_sample
+        ):
             self._by_position()
-
-    def _told(self) -> messages.Progress | None:
-        """PROGRESS of this very trajectory.
-
-        Its number and state are written by one task of the controller and read by another: what
-        was put together while the trajectory came in may have the number of this one and the
-        state of the one before. So it counts from the second message after the acceptance.
-        """
-        if self._tracker.progresses < self._first_progress + 2:
-            return None
-        progress = self._tracker.progress
-        if progress is None:
-            return None
-        if self.number is not None:
-            return progress if progress.trajectory == self.number else None
-        before = self._before.trajectory if self._before else 0
-        return progress if progress.trajectory != before else None
-
-    def _by_progress(self, told: messages.Progress) -> None:
-        reason = Reason(told.reason) if told.reason in list(Reason) else None
-        match told.state:
-            case TrajectoryState.DONE:
-                if self._tracker.status.in_motion is not TriState.TRUE:
-                    self._succeed()
-            case TrajectoryState.STOPPED:
-                if not self.stopping:
-                    text = "stopped by another request or by the operator"
-                    self._end(MotionStopped, fault("RG631", text), reason, told.reached)
-                elif self._tracker.status.in_motion is not TriState.TRUE:
-                    self.stopped()
-            case TrajectoryState.FAILED | TrajectoryState.REFUSED:
-                text = REASON_TEXTS.get(reason, "no reason") if reason else f"reason {told.reason}"
-                place = f" at point {told.point}" if told.point >= 0 else ""
-                joint = self._joint(told.joint)
-                found = fault(
-                    "RG630",
-                    f"the controller ended the motion{place}{joint}: {text}",
-                    "look at the robot; what was executed is a prefix of what was asked",
-                )
-                self._end(MotionFailed, found, reason, told.reached)
 
     def _by_position(self) -> None:
         state = self._tracker.state
@@ -222,52 +129,15 @@ class Run:
         pairs = zip(state.joints, self._start.joints, strict=True)
         return any(abs(a - b) > _MOVED for a, b in pairs)
 
-    def _deviation(self, state: State) -> float:
-        return float(np.abs(np.array(state.joints) - self._goal).max())
-
-    def _joint(self, number: int) -> str:
-        names = self._group.names
-        return f", {names[number - 1]}" if 1 <= number <= len(names) else ""
-
-    def _succeed(self) -> None:
-        state = self._tracker.state
-        assert state is not None
-        self.phase = Phase.OVER
-        self.result = Result(
-            points=len(self.plan.trajectory),
-            seconds=self._tracker.clock() - self._began,
-            planned_seconds=self.plan.total,
-            deviation=self._deviation(state),
-            state=state,
-        )
-
-    def _end(
-        self,
-        kind: type[MotionStopped] | type[MotionFailed],
-        diagnostic: Diagnostic,
-        reason: Reason | None,
-        reached: int | None = None,
-    ) -> None:
-        tracker = self._tracker
-        told = self._told()
-        self.failed(
-            kind(
-                diagnostic,
-                reason=reason,
-                reached=reached if reached is not None or told is None else told.reached,
-                messages=tracker.messages,
-                states=tracker.states,
-            )
-        )
-
     @property
     def progress(self) -> Progress:
         """How far it is, now."""
         total = len(self.plan.trajectory)
         told = self._told() if self.phase is not Phase.SENDING else None
-        if told is not None and told.state in list(TrajectoryState):
+        state = trajectory_state(told.state) if told is not None else None
+        if told is not None and state is not None:
             return Progress(
-                TrajectoryState(told.state),
+                state,
                 total,
                 told.received,
                 told.planned,

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 
 from rapidgen.protocol import messages
 from rapidgen.protocol.spec import (
+    EventType,
     Feature,
     Mode,
     Reason,
@@ -12,6 +13,8 @@ from rapidgen.protocol.spec import (
     TriState,
     split_error_code,
 )
+
+_TRAJECTORY_STATES = {int(state): state for state in TrajectoryState}
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +63,8 @@ class State:
     number: int
     """Joint messages since the connection was made."""
     clock: Callable[[], float] = field(repr=False, compare=False)
+    trajectory: TrajectoryState | None = None
+    """State of the newest trajectory, None where the driver does not tell."""
 
     def __getitem__(self, name: str) -> float:
         """The value of the joint `name`. Raises KeyError."""
@@ -85,10 +90,45 @@ class State:
 
 
 @dataclass(frozen=True, slots=True)
+class Feedback:
+    """Joints with the controller's own time, of a driver that was asked for them.
+
+    `joints` and `velocity` are as in State, `time` s of the controller's clock, which goes on
+    where the wire's begins again; `received` s of the client's.
+    """
+
+    names: tuple[str, ...]
+    joints: tuple[float, ...]
+    velocity: tuple[float, ...]
+    time: float
+    received: float
+    number: int
+    """Feedbacks since the connection was made."""
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """An entry of the controller's event log; `time` s of the client's clock."""
+
+    time: float
+    code: int
+    """Domain and number as the pendant shows them: 50024 is number 24 of domain 5."""
+    type: EventType
+    title: str
+    number: int
+    """Events since the connection was made."""
+
+    def __str__(self) -> str:
+        return f"{self.code} {self.title}"
+
+
+@dataclass(frozen=True, slots=True)
 class Driver:
     """Who answered: a rapidgen driver by its HELLO, or plain simple_message."""
 
     hello: messages.HelloReply | None = None
+    control_fault: str = ""
+    """Why there is no control connection, though the driver has the port."""
 
     @property
     def is_rapidgen(self) -> bool:
@@ -114,9 +154,18 @@ class Driver:
             missing.append("say why it refuses or stops")
         if Feature.PROGRESS not in self.features:
             missing.append("tell when a trajectory is done: position, in_motion and time decide")
-        if Feature.CONTROL not in self.features:
-            missing.append("take STOP beside points: it waits behind what was sent")
+        if Feature.STREAMING not in self.features:
+            missing.append("take points while it moves: a trajectory is sent whole, and ends")
+        if Feature.CONTROL not in self.features or self.control_fault:
+            why = f" ({self.control_fault})" if self.control_fault else ""
+            missing.append(f"take STOP beside points: it waits behind what was sent{why}")
+            missing.append("pause, change the speed, or watch for this client's heartbeat")
         return tuple(missing)
+
+
+def trajectory_state(value: int) -> TrajectoryState | None:
+    """A trajectory state of the wire; None for a number that is none."""
+    return _TRAJECTORY_STATES.get(value)
 
 
 def tri_state(value: int) -> TriState:

@@ -2,25 +2,28 @@
 
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from os import PathLike
 from types import TracebackType
 from typing import Self, TypeVar
 
-from rapidgen.client import flows
+import numpy.typing as npt
+
+from rapidgen.client import control_flows, flows, stream_flows
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
-from rapidgen.client.core import Core, Timeouts
+from rapidgen.client.core import STOP_FRAME, Core, Timeouts
 from rapidgen.client.errors import MotionStopped, RobotError, fault
-from rapidgen.client.flows import Connect, Flow, Send, Wait
+from rapidgen.client.feed import Feed, batches
+from rapidgen.client.flows import Close, Connect, Effect, Flow, Wait
 from rapidgen.client.group import Group
+from rapidgen.client.motion import Motion, Result, Way
 from rapidgen.client.recording import Recording
-from rapidgen.client.run import Result, Run
-from rapidgen.client.state import Driver, Progress, State
+from rapidgen.client.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.client.view import View
+from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.protocol.spec import Port
@@ -37,7 +40,8 @@ class Robot:
     `HOST[:MOTION[,STATE]]`; a configuration is looked for at `address`, else on this machine.
     `group` names the motion group where there are several. `watch` never opens the motion port.
     `plain` does not ask for a rapidgen driver. `reconnect` is for how many s a lost connection
-    is tried again by the next call; nothing is ever sent again.
+    is tried again by the next call; nothing is ever sent again. `feedback` asks for joints with
+    the controller's own time and velocities.
 
     All methods may be called from any thread. Joints are rad and m in URDF order.
     """
@@ -52,6 +56,7 @@ class Robot:
         watch: bool = False,
         plain: bool = False,
         reconnect: float = 0.0,
+        feedback: bool = False,
     ) -> None:
         self.address, known = resolve(target, address, group)
         self._core = Core(
@@ -61,6 +66,7 @@ class Robot:
             watch=watch,
             plain=plain,
             reconnect=reconnect,
+            feedback=feedback,
         )
         self._changed = threading.Condition()
         self._channels: dict[Port, Channel] = {}
@@ -170,6 +176,23 @@ class Robot:
             with self._changed:
                 self._core.tracker.listeners.remove(recording.add)
 
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """The last entries of the controller's event log, where the driver tells them."""
+        with self._changed:
+            return tuple(self._core.tracker.events)
+
+    def next_event(self, timeout: float | None = None, *, after: Event | None = None) -> Event:
+        """The next event, or the one behind `after`. Raises RobotTimeout, ConnectionLost."""
+        return self._run(flows.next_event(self._core, timeout, after))
+
+    def next_feedback(self, timeout: float | None = None) -> Feedback:
+        """The next joints with the controller's time.
+
+        Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
+        """
+        return self._run(flows.next_feedback(self._core, timeout))
+
     # Motion
 
     def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
@@ -177,13 +200,43 @@ class Robot:
         with self._changed:
             return self._core.plan(trajectory).warnings
 
-    def execute(self, trajectory: Trajectory) -> "Execution":
+    def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> "Execution":
         """Send a trajectory; returns when the controller has taken it and begins to move.
 
-        Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused when
-        nothing will move, RobotTimeout, ConnectionLost.
+        `way` is `download` (whole, before anything moves) or `stream` (the rest is sent while
+        the robot moves); by default a trajectory that the driver's ring does not hold is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused
+        when nothing will move, NotSupported, RobotTimeout, ConnectionLost.
         """
-        return Execution(self, self._run(flows.execute(self._core, trajectory)))
+        return Execution(self, self._run(stream_flows.execute(self._core, trajectory, way)))
+
+    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> "Stream":
+        """A trajectory without an end that is known: see `Stream`. Nothing is sent yet.
+
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver
+        that does not stream gets the points as a whole, at the end.
+        """
+        return Stream(self, Feed(names, may_download=fallback))
+
+    def pause(self) -> None:
+        """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
+        self._run(control_flows.pause(self._core, True))
+
+    def resume(self) -> None:
+        """Go on behind a pause. Raises as `pause`."""
+        self._run(control_flows.pause(self._core, False))
+
+    def set_speed(self, percent: float) -> None:
+        """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
+        self._run(control_flows.speed(self._core, percent))
+
+    def read_signal(self, signal: str | int) -> float:
+        """A signal that the configuration exposes, by name or number. Raises as `pause`."""
+        return self._run(control_flows.signal(self._core, signal, None))
+
+    def write_signal(self, signal: str | int, value: float) -> float:
+        """Set a signal; the value as it was read then. Raises as `pause`."""
+        return self._run(control_flows.signal(self._core, signal, value))
 
     def stop(self) -> State | None:
         """Stop at once, from any thread; the state in which the robot stands.
@@ -201,7 +254,10 @@ class Robot:
             error, failure = failure, None
             try:
                 with self._changed:
-                    effect = flow.send(outcome) if error is None else flow.throw(error)
+                    try:
+                        effect = flow.send(outcome) if error is None else flow.throw(error)
+                    finally:
+                        self._pump()
             except StopIteration as end:
                 value: T = end.value
                 return value
@@ -210,9 +266,31 @@ class Robot:
             except (RobotError, KeyboardInterrupt) as raised:
                 failure = raised
 
-    def _perform(self, effect: Connect | Send | Wait) -> bool:
+    def _pump(self) -> None:
+        """Send what is due, as far as it goes without waiting. The lock is held."""
+        core = self._core
+        stops = core.blind_stops()
+        for port, channel in self._channels.items():
+            try:
+                if port in stops:
+                    channel.offer_behind(STOP_FRAME)
+                channel.offer(lambda port=port: core.due(port))  # type: ignore[misc]
+            except RobotError as error:
+                # The reader hears of it too.
+                core.tracker.note(str(error))
+
+    def _tick(self) -> None:
+        with self._changed:
+            self._core.poll()
+            self._pump()
+            self._changed.notify_all()
+
+    def _perform(self, effect: Effect) -> bool:
         if isinstance(effect, Wait):
             return self._wait(effect)
+        if isinstance(effect, Close):
+            self._close(effect.port)
+            return True
         if isinstance(effect, Connect):
             self._connect(effect)
             return True
@@ -234,13 +312,27 @@ class Robot:
                     return False
                 self._changed.wait(min(left, _SLICE))
                 self._core.poll()
+                self._pump()
             return True
+
+    def _close(self, port: Port) -> None:
+        with self._changed:
+            channel = self._channels.pop(port, None)
+            self._core.talks[port].is_open = False
+            if channel is not None and self._reader is not None:
+                self._reader.remove(channel)
 
     def _connect(self, effect: Connect) -> None:
         channel = Channel(self.address, effect.port, effect.timeout)
         with self._changed:
             if self._reader is None:
-                self._reader = Reader(self._received, self._lost, str(self.address))
+                self._reader = Reader(
+                    self._received,
+                    self._lost,
+                    self._tick,
+                    lambda: self._core.is_busy,
+                    str(self.address),
+                )
             old = self._channels.get(effect.port)
             if old is not None:
                 self._reader.remove(old)
@@ -255,6 +347,7 @@ class Robot:
                     del self._channels[channel.port]
                     assert self._reader is not None
                     self._reader.remove(channel)
+                self._pump()
                 self._changed.notify_all()
 
     def _lost(self, channel: Channel, why: str) -> None:
@@ -262,13 +355,14 @@ class Robot:
             if self._channels.get(channel.port) is channel:
                 del self._channels[channel.port]
                 self._core.lost(channel.port, why)
+                self._pump()
                 self._changed.notify_all()
 
 
 class Execution(View):
     """A trajectory that the controller has taken."""
 
-    def __init__(self, robot: Robot, run: Run) -> None:
+    def __init__(self, robot: Robot, run: Motion) -> None:
         super().__init__(run)
         self._robot = robot
 
@@ -279,7 +373,7 @@ class Execution(View):
             return self._run.progress
 
     def result(self, timeout: float | None = None) -> Result:
-        """Wait for the end; by default four times the planned time and 30 s.
+        """Wait for the end; by default for as long as the robot gets on or is paused.
 
         Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout when it did not end in
         time (it goes on). Ctrl-C here stops the robot.
@@ -291,3 +385,79 @@ class Execution(View):
         if not self._run.is_over:
             self._stopped = self._robot.stop()
         return self._stopped
+
+
+class Stream(StreamView):
+    """Points that the robot executes while more of them come.
+
+    `with robot.stream() as stream:` ends it and waits for the robot at the end of the block;
+    when the block is left by an exception, the robot is stopped. Each point has the time s from
+    the stream's beginning and joints in rad or m; the first is where the robot stands. Motion
+    begins when the driver has enough of them, or at `flush`, `end` and `result`.
+
+    What is wrong with points is told before they are sent (InvalidTrajectory, the stream goes
+    on), by the controller at the first ones (TrajectoryRefused, nothing moved) or at later ones:
+    then the robot executes those before, and MotionFailed tells reason, point and joint.
+    """
+
+    def __init__(self, robot: Robot, feed: Feed) -> None:
+        super().__init__(feed)
+        self._robot = robot
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: TracebackType | None,
+    ) -> None:
+        if error is not None:
+            self.cancel()
+        elif self.total:
+            self.result()
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now; `total` are the points so far."""
+        with self._robot._changed:
+            return self._feed.progress
+
+    def append(self, times: npt.ArrayLike, positions: npt.ArrayLike) -> None:
+        """Add points: `times` (n,) s from the beginning, `positions` (n, k).
+
+        Waits while the controller has no room. Raises InvalidTrajectory (nothing of these was
+        sent), NotReady, TrajectoryRefused, MotionFailed, MotionStopped, NotSupported,
+        RobotTimeout, ConnectionLost. Ctrl-C here stops the robot.
+        """
+        self._do(stream_flows.append(self._robot._core, self._feed, times, positions))
+
+    def extend(self, points: Iterable[tuple[float, Sequence[float]]]) -> None:
+        """Add points (time, joints) from an iterable, also one without end, batch by batch."""
+        for times, positions in batches(points, stream_flows.batch_size(self._robot._core)):
+            self.append(times, positions)
+
+    def flush(self) -> None:
+        """Let the robot start with what there is. Raises as `append`."""
+        self._do(stream_flows.flush(self._robot._core, self._feed))
+
+    def end(self) -> None:
+        """Nothing follows: the last point is a stop point. Raises as `append`."""
+        self._do(stream_flows.end(self._robot._core, self._feed))
+
+    def result(self, timeout: float | None = None) -> Result:
+        """End it, and wait until all was executed; by default for as long as the robot gets on.
+
+        Raises as `Execution.result`.
+        """
+        return self._do(stream_flows.finish(self._robot._core, self._feed, timeout))
+
+    def cancel(self) -> State | None:
+        """Stop the robot; the state in which it stands. Nothing when it is over."""
+        if self._feed.run is not None and not self._feed.run.is_over:
+            self._stopped = self._robot.stop()
+        return self._stopped
+
+    def _do(self, flow: Flow[T]) -> T:
+        return self._robot._run(flow)

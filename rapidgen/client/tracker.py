@@ -8,10 +8,20 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from rapidgen.client.group import Group
-from rapidgen.client.state import Driver, State, Status, status_of
+from rapidgen.client.state import (
+    Driver,
+    Event,
+    Feedback,
+    State,
+    Status,
+    status_of,
+    trajectory_state,
+)
 from rapidgen.protocol import ContentError, FrameSplitter, decode, messages, spec
 from rapidgen.protocol.frames import Frame
+from rapidgen.protocol.spec import FEEDBACK_WRAP, EventType
 
+KEPT_EVENTS = 64
 KEPT_MESSAGES = 32
 KEPT_STATES = 16
 _RATE_WINDOW = 16
@@ -38,6 +48,13 @@ class Tracker:
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
         self.progresses = 0
+        self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
+        """The last entries of the controller's log, oldest first."""
+        self.event_count = 0
+        self.feedbacks = 0
+        self._feedback: messages.JointFeedback | None = None
+        self._fed_at = 0.0
+        self._laps = 0
         self.heard = clock()
         """When the last message came."""
         self.listeners: list[Callable[[Sample], None]] = []
@@ -58,6 +75,10 @@ class Tracker:
         self._times.clear()
         self._status = None
         self.samples = 0
+        self.event_count = 0
+        self.feedbacks = 0
+        self._feedback = None
+        self._laps = 0
         self.heard = self.clock()
         self._state = None
 
@@ -96,11 +117,38 @@ class Tracker:
             case messages.Progress():
                 self.progress = content
                 self.progresses += 1
+            case messages.JointFeedback():
+                self._fed(content, now)
+            case messages.Event():
+                self.event_count += 1
+                self.events.append(_event(content, now, self.event_count))
             case messages.HelloReply():
                 self.hello = content
                 self.driver = Driver(content)
             case messages.HelloRefusal():
                 self.hello = content
+
+    def _fed(self, content: messages.JointFeedback, now: float) -> None:
+        if self._feedback is not None and content.time < self._feedback.time - FEEDBACK_WRAP / 2:
+            self._laps += 1
+        self._feedback = content
+        self._fed_at = now
+        self.feedbacks += 1
+
+    @property
+    def feedback(self) -> Feedback | None:
+        """The newest one, None before the first."""
+        told, group = self._feedback, self._group
+        if told is None or group is None:
+            return None
+        return Feedback(
+            names=group.names,
+            joints=group.from_wire(told.positions),
+            velocity=group.rates_from_wire(told.velocities),
+            time=told.time + self._laps * FEEDBACK_WRAP,
+            received=self._fed_at,
+            number=self.feedbacks,
+        )
 
     @property
     def is_complete(self) -> bool:
@@ -170,6 +218,7 @@ class Tracker:
             rate=self.rate,
             number=number,
             clock=self.clock,
+            trajectory=trajectory_state(self.progress.state) if self.progress else None,
         )
 
     def _velocity(self) -> tuple[float, ...]:
@@ -183,6 +232,18 @@ class Tracker:
             return (0.0,) * len(self._group.names)
         now, then = self._group.from_wire(last.joints), self._group.from_wire(first.joints)
         return tuple((a - b) / span for a, b in zip(now, then, strict=True))
+
+
+def _event(content: messages.Event, now: float, number: int) -> Event:
+    # An event of a type that nobody knows is told as the gravest.
+    known = content.type in list(EventType)
+    return Event(
+        time=now,
+        code=10_000 * content.domain + content.number,
+        type=EventType(content.type) if known else EventType.ERROR,
+        title=content.title,
+        number=number,
+    )
 
 
 def _text(entry: Frame | str) -> str:

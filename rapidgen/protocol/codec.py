@@ -42,6 +42,11 @@ _REPLY_BY_CLASS = {
 _HELLO_VERSION = Layout(spec.HELLO.replies[0].fields[:1])
 
 
+def number_of(content: Content) -> int:
+    """The message number of a topic or request."""
+    return _BY_CLASS[type(content)][0]
+
+
 def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
     """A topic or request as one frame. Raises ContentError for a value its field cannot hold."""
     number, layout = _BY_CLASS[type(content)]

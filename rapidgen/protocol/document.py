@@ -52,8 +52,10 @@ _STREAMS = f"""\
   -1 does, and it belongs to its connection. After END nothing follows. A batch without points is
   a question for the reply, and carries END or FLUSH.
 - A client sends no more points than `room` of the last reply, at the beginning than `ring` of
-  HELLO. `first` is the number of points that the driver has accepted. Motion begins when
-  `preload` seconds are there, or the ring is full, or END or FLUSH came.
+  HELLO. A point given to the planner makes room: `accepted` may always grow to `planned` + `ring`,
+  for `planned` of a reply and of PROGRESS alike. `first` is the number of points that the driver
+  has accepted.
+- Motion begins when `preload` seconds are there, or the ring is full, or END or FLUSH came.
 - A batch with a wrong checksum, a length that does not fit, a hole or more points than room is
   refused as a whole. At a fault in one point those before it are accepted. Either way the stream
   is cut: accepted points are executed in order, the last as a stop point, then it has FAILED with

@@ -95,6 +95,10 @@ class HelloReply(NamedTuple):
     batch: int
     signals: int
 
+    def same_driver(self, other: "HelloReply") -> bool:
+        """Whether both are of one driver: the same build for the same joints."""
+        return (self.build_id, self.mapping) == (other.build_id, other.mapping)
+
 
 class HelloRefusal(NamedTuple):
     """HELLO answered by a driver whose protocol version does not fit."""

@@ -11,12 +11,9 @@ import threading
 import time
 from dataclasses import dataclass, field
 
-HEAD = struct.Struct("<4i")
+from fake_stream import HEAD, StreamModel, frame
+
 POINT = struct.Struct("<i10fff")
-
-
-def frame(number, comm, reply, data=b""):
-    return HEAD.pack(12 + len(data), number, comm, reply) + data
 
 
 def joint_frame(joints):
@@ -71,6 +68,12 @@ class Script:
     silent_after: float = float("inf")
     """No state after so many s of motion."""
     control: bool = False
+    foreign_control: bool = False
+    """The control port is another driver's."""
+    stream: StreamModel | None = None
+    """Takes points while it moves; needs `speed` of its own."""
+    raw_control: bytes = b""
+    """Sent on the control port before anything else."""
 
 
 class FakeController:
@@ -87,6 +90,8 @@ class FakeController:
         self.connections = 0
         self.trajectory = 0
         self.progress = [0, 0, 0, 0, 0, 0, -1, 0]
+        self.extra = b""
+        """Sent once behind the next state to a client that said HELLO."""
         self._plan = None
         self._started = 0.0
         self._moving = False
@@ -103,7 +108,8 @@ class FakeController:
 
     @property
     def address(self):
-        return f"127.0.0.1:{self.ports['motion']},{self.ports['state']}"
+        control = self.ports["control"] if self.script.control else 0
+        return f"127.0.0.1:{self.ports['motion']},{self.ports['state']},{control}"
 
     def __enter__(self):
         return self
@@ -145,7 +151,7 @@ class FakeController:
             self.connections += 1
             with self.lock:
                 self._clients.add((name, client))
-            serve = self._state if name == "state" else self._motion
+            serve = {"state": self._state, "motion": self._motion, "control": self._control}[name]
             thread = threading.Thread(target=self._guarded, args=(serve, name, client), daemon=True)
             self._threads.append(thread)
             thread.start()
@@ -174,6 +180,12 @@ class FakeController:
 
     def _take(self, client, piece):
         _, number, comm, _ = HEAD.unpack_from(piece)
+        if number == 1302:
+            with self.lock:
+                self.script.stream.advance(time.monotonic())
+                reply = self.script.stream.points(piece)
+            client.sendall(reply)
+            return
         values = POINT.unpack_from(piece, 16)
         sequence = values[0]
         self.frames.append((number, comm, sequence))
@@ -220,6 +232,8 @@ class FakeController:
 
     def _halt(self):
         with self.lock:
+            if self.script.stream is not None:
+                self.script.stream.halt(6, 40)
             if self._moving:
                 self.progress[1] = 6
                 self.progress[5] = 40
@@ -247,6 +261,39 @@ class FakeController:
         share = (elapsed - times[passed - 1]) / (times[passed] - times[passed - 1])
         self.position = [a + share * (b - a) for a, b in zip(before, after, strict=True)]
 
+    # The control port
+
+    def _control(self, client):
+        if self.script.raw_control:
+            client.sendall(self.script.raw_control)
+        buffer = b""
+        while data := client.recv(4096):
+            buffer += data
+            while len(buffer) >= 4 and len(buffer) >= 4 + (n := struct.unpack("<i", buffer[:4])[0]):
+                piece, buffer = buffer[: 4 + n], buffer[4 + n :]
+                number = HEAD.unpack_from(piece)[1]
+                if number == 1300:
+                    client.sendall(self._hello(self.script.foreign_control))
+                elif number == 11:
+                    self._take(client, piece)
+                    self._tell_stop(client)
+                elif self.script.stream is not None:
+                    with self.lock:
+                        self.script.stream.advance(time.monotonic())
+                        reply = self.script.stream.control(number, piece[16:])
+                    client.sendall(reply)
+        if self.script.stream is not None:
+            with self.lock:
+                self.script.stream.control_lost()
+
+    def _tell_stop(self, client):
+        stream = self.script.stream
+        if stream is not None and stream.trajectory:
+            with self.lock:
+                answer = stream.control(11, b"")
+            # The reply to STOP was sent already.
+            client.sendall(answer[len(frame(11, 3, 1)) :])
+
     # The state port
 
     def _state(self, client):
@@ -273,10 +320,20 @@ class FakeController:
                     subscribed = True
             with self.lock:
                 self._advance()
+                moving, progress = (
+                    self._moving,
+                    frame(1301, 1, 0, struct.pack("<8i", *self.progress)),
+                )
+                if script.stream is not None:
+                    script.stream.advance(time.monotonic())
+                    if script.stream.trajectory:
+                        self.position = list(script.stream.position)
+                        moving, progress = script.stream.is_moving, script.stream.progress()
                 out += joint_frame(self.position)
-                out += status_frame(**{"in_motion": int(self._moving), **script.status})
+                out += status_frame(**{"in_motion": int(moving), **script.status})
                 if subscribed:
-                    out += frame(1301, 1, 0, struct.pack("<8i", *self.progress))
+                    out += progress + self.extra
+                    self.extra = b""
                 moving_for = time.monotonic() - self._started if self._moving else 0.0
             if moving_for < script.silent_after:
                 pending.append(out)
@@ -292,8 +349,10 @@ class FakeController:
             client.sendall(data[at : at + size])
         client.setblocking(False)
 
-    def _hello(self):
+    def _hello(self, foreign=False):
         script = self.script
+        stream = script.stream
+        features = 1 | 16 | 32 | (2 if script.control else 0) | (4 if stream else 0)
         if script.protocol != 2:
             return frame(1300, 3, 2, struct.pack("<i", script.protocol))
         limits = [3.0] * script.joints + [0.0] * (10 - script.joints)
@@ -303,9 +362,9 @@ class FakeController:
             0,
             1,
             0,
-            b"0123456789ab",
+            b"ba9876543210" if foreign else b"0123456789ab",
             script.mapping.encode(),
-            1 | (2 if script.control else 0),
+            features,
             script.capacity,
             script.joints,
             0,
@@ -316,10 +375,10 @@ class FakeController:
             *[-v for v in limits],
             *limits,
             *[4.0] * 10,
-            0,
-            128,
-            0.0,
-            0,
-            0,
+            self.ports["control"] if script.control else 0,
+            stream.ring if stream else 0,
+            stream.preload if stream else 0.0,
+            stream.batch if stream else 0,
+            len(stream.signals) if stream else 0,
         )
         return frame(1300, 3, 1, data)

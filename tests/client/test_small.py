@@ -9,6 +9,7 @@ from rapidgen.client import (
     AsyncCell,
     AsyncRobot,
     Cell,
+    ConnectionFailed,
     ConnectionLost,
     InvalidTrajectory,
     MotionFailed,
@@ -23,7 +24,7 @@ from rapidgen.client.target import groups_of, resolve
 from rapidgen.client.watch import changes, error_text
 from rapidgen.config.model import Ports
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.protocol.spec import Mode, Reason, TriState
+from rapidgen.protocol.spec import Mode, Port, Reason, TriState
 
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.2] * 6], seconds=0.15)
 LONG = PATH.scaled(0.05)
@@ -34,8 +35,11 @@ LONG = PATH.scaled(0.05)
     [
         ("10.0.0.1", Address("10.0.0.1", 11000, 11002, 11001)),
         ("robot.lab:12000", Address("robot.lab", 12000, 12002, 12001)),
-        ("10.0.0.1:12000,13000", Address("10.0.0.1", 12000, 13000, 12001)),
-        ("[::1]:1,2", Address("::1", 1, 2, 2)),
+        ("10.0.0.1:12000,13000", Address("10.0.0.1", 12000, 13000, 0)),
+        ("10.0.0.1:12000,13000,14000", Address("10.0.0.1", 12000, 13000, 14000)),
+        ("10.0.0.1:12000,12002,0", Address("10.0.0.1", 12000, 12002, 0)),
+        ("[::1]:1,3", Address("::1", 1, 3, 2)),
+        ("10.0.0.1:65533", Address("10.0.0.1", 65533, 65535, 65534)),
     ],
 )
 def test_addresses(text, expected):
@@ -43,14 +47,22 @@ def test_addresses(text, expected):
     assert parse_address(str(expected)) == expected
 
 
-@pytest.mark.parametrize("text", ["", ":1", "a:b", "a:1,2,3", "a:0", "a:70000", "a:1:2", "a b:,"])
+@pytest.mark.parametrize(
+    "text", ["", ":1", "a:b", "a:1,2,3,4", "a:1,2,70000", "a:0", "a:70000", "a:1:2", "a b:,"]
+)
 def test_addresses_that_are_none(text):
     with pytest.raises(DiagnosticError, match="RG607"):
         parse_address(text)
 
 
 def test_ports_of_the_configuration_are_the_default():
-    assert parse_address("a", Ports(21000, 21001, 21002)).state == 21002
+    own = Ports(21000, 20000, 21002)
+    assert parse_address("a", own) == Address("a", 21000, 21002, 20000)
+    # moved alike, the control port is too; else nobody knows where it is
+    assert parse_address("a:22000,22002", own).control == 21000
+    assert parse_address("a:22000,23000", own).control == 0
+    with pytest.raises(ConnectionFailed, match="nobody knows the control port"):
+        parse_address("a:22000,23000", own).port(Port.CONTROL)
 
 
 @pytest.mark.parametrize(

@@ -130,7 +130,7 @@ def test_the_driver_refuses_what_the_client_would_not_send(boot):
         for column, value, reason in ((2, 9.0, "JOINT_LIMIT"), (0, float("nan"), "NOT_FINITE")):
             made = plan(path)
             made.wire[1, column] = value
-            robot._core.plan = lambda _, made=made: made
+            robot._core.plan = lambda *_, made=made: made
             with pytest.raises(TrajectoryRefused) as error:
                 robot.execute(path)
             assert error.value.reason is Reason[reason]

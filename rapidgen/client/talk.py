@@ -1,0 +1,38 @@
+"""A connection on which requests are answered, those of one type in their order. Sans-IO."""
+
+from collections import deque
+from dataclasses import dataclass, field
+
+from rapidgen.protocol import FrameSplitter, messages
+
+
+@dataclass(slots=True, eq=False)
+class Pending:
+    """A request that waits for its reply."""
+
+    number: int
+    reply: messages.Content | None = None
+
+
+@dataclass(slots=True)
+class Conversation:
+    """What is under way on one connection."""
+
+    splitter: FrameSplitter = field(default_factory=FrameSplitter)
+    pending: deque[Pending] = field(default_factory=deque)
+    is_open: bool = False
+
+    def request(self, number: int) -> Pending:
+        """Expect a reply of this message type."""
+        waiting = Pending(number)
+        self.pending.append(waiting)
+        return waiting
+
+    def answered(self, number: int, reply: messages.Content) -> bool:
+        """Give a reply to the oldest request of its type; False when there is none."""
+        for waiting in self.pending:
+            if waiting.number == number:
+                waiting.reply = reply
+                self.pending.remove(waiting)
+                return True
+        return False

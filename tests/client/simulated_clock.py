@@ -1,0 +1,169 @@
+"""An asyncio loop whose time is simulated, and a scripted driver on it: no sockets, no waiting.
+
+For long streams: hours of them pass in seconds.
+"""
+
+import asyncio
+import selectors
+import struct
+from collections import deque
+
+from fake_controller import HEAD, frame, joint_frame, status_frame
+
+
+class _Jump(selectors.BaseSelector):
+    """Lets time pass instead of waiting."""
+
+    def __init__(self, loop):
+        self._loop = loop
+
+    def select(self, timeout=None):
+        assert timeout is not None, "nothing is ahead"
+        self._loop.now += max(0.0, timeout)
+        return []
+
+    def register(self, *_):
+        raise NotImplementedError
+
+    unregister = register
+
+    def get_map(self):
+        return {}
+
+
+class SimulatedLoop(asyncio.BaseEventLoop):
+    """Connections go to `driver.connect(port)`."""
+
+    def __init__(self, driver):
+        super().__init__()
+        self.now = 0.0
+        self._selector = _Jump(self)
+        self._clock_resolution = 1e-9
+        self.driver = driver
+        driver.loop = self
+
+    def time(self):
+        return self.now
+
+    def _process_events(self, events):
+        """There are none."""
+
+    def _write_to_self(self):
+        """Nobody calls from another thread."""
+
+    async def create_connection(self, factory, host=None, port=None, **_):
+        protocol = factory()
+        transport = _Pipe(self, protocol, port)
+        protocol.connection_made(transport)
+        self.driver.opened(transport)
+        await asyncio.sleep(0)
+        return transport, protocol
+
+
+class _Pipe(asyncio.Transport):
+    """What is written arrives a little later."""
+
+    latency = 0.001
+
+    def __init__(self, loop, protocol, port):
+        super().__init__()
+        self.loop, self.protocol, self.port = loop, protocol, port
+        self.closed = False
+        self.there, self.back = deque(), deque()
+
+    # Two timers of the same moment fire in any order: what they deliver is in a queue.
+
+    def write(self, data):
+        if not self.closed:
+            self.there.append(bytes(data))
+            self.loop.call_later(self.latency, self._arrive)
+
+    def _arrive(self):
+        self.loop.driver.received(self, self.there.popleft())
+
+    def tell(self, data):
+        """From the driver to the client."""
+        if not self.closed:
+            self.back.append(data)
+            self.loop.call_later(self.latency, self._tell)
+
+    def _tell(self):
+        data = self.back.popleft()
+        if not self.closed:
+            self.protocol.data_received(data)
+
+    def set_write_buffer_limits(self, high=None, low=None):
+        """There is always room."""
+
+    def close(self):
+        if not self.closed:
+            self.closed = True
+            self.loop.driver.lost(self)
+            self.loop.call_soon(self.protocol.connection_lost, None)
+
+
+class SimulatedDriver:
+    """A StreamModel behind the three ports of a driver."""
+
+    MOTION, CONTROL, STATE = 11000, 11001, 11002
+
+    def __init__(self, model, *, state_period=0.1, control=True):
+        self.model, self.period, self.control = model, state_period, control
+        self.loop = None
+        self.log = []
+        """(time, port, message number)"""
+
+    def opened(self, pipe):
+        if pipe.port == self.STATE:
+            self._tell_state(pipe)
+
+    def lost(self, pipe):
+        if pipe.port == self.CONTROL:
+            self.model.control_lost()
+
+    def received(self, pipe, data):
+        self.model.advance(self.loop.time())
+        while data:
+            (length,) = struct.unpack_from("<i", data)
+            piece, data = data[: 4 + length], data[4 + length :]
+            number = HEAD.unpack_from(piece)[1]
+            self.log.append((self.loop.time(), pipe.port, number))
+            if number == 1300:
+                pipe.tell(self._hello())
+            elif number == 1302:
+                pipe.tell(self.model.points(piece))
+            elif pipe.port == self.CONTROL:
+                pipe.tell(self.model.control(number, piece[16:]))
+            elif number == 11:
+                self.model.halt(6, 40)
+                pipe.tell(frame(11, 3, 1))
+
+    def _tell_state(self, pipe):
+        if pipe.closed:
+            return
+        model = self.model
+        model.advance(self.loop.time())
+        told = joint_frame(model.position) + status_frame(in_motion=int(model.is_moving))
+        pipe.tell(told + (model.progress() if model.trajectory else b""))
+        self.loop.call_later(self.period, self._tell_state, pipe)
+
+    def _hello(self):
+        model = self.model
+        limits = [3.0] * model.joints + [0.0] * (10 - model.joints)
+        features = 1 | 4 | (2 if self.control else 0)
+        head = (2, 0, 1, 0, b"0123456789ab", b"", features, 1000, model.joints, 0)
+        data = struct.pack("<4i12s12s4i4f", *head, self.period, 0.1, 0.00873, 0.005)
+        data += struct.pack("<30f", *[-v for v in limits], *limits, *[4.0] * 10)
+        port = self.CONTROL if self.control else 0
+        data += struct.pack("<iifii", port, model.ring, model.preload, model.batch, 2)
+        return frame(1300, 3, 1, data)
+
+
+def run_simulated(driver, main):
+    """Run a coroutine on a loop of simulated time."""
+    loop = SimulatedLoop(driver)
+    try:
+        return loop.run_until_complete(main)
+    finally:
+        loop.run_until_complete(loop.shutdown_asyncgens())
+        loop.close()

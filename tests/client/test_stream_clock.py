@@ -1,0 +1,446 @@
+"""AsyncRobot streams to a scripted driver on a simulated clock: long ones, and exact times."""
+
+import asyncio
+import itertools
+import tracemalloc
+from collections import deque
+
+import numpy as np
+import pytest
+from fake_stream import DONE, StreamModel
+from simulated_clock import SimulatedDriver, run_simulated
+
+from rapidgen.client import (
+    AsyncRobot,
+    ConnectionLost,
+    InvalidTrajectory,
+    MotionFailed,
+    MotionStopped,
+    NotReady,
+    RobotTimeout,
+    Timeouts,
+    Trajectory,
+)
+from rapidgen.protocol import spec
+from rapidgen.protocol.spec import Reason, TrajectoryState
+
+
+def wave(step=0.1):
+    """Points without end, from where the robot stands."""
+    for n in itertools.count():
+        yield n * step, [0.3 * np.sin(n * 0.02)] * 6
+
+
+def streamed(main, **options):
+    """What `main(robot, driver)` gives, and the driver."""
+    control = options.pop("control", True)
+    timeouts = options.pop("timeouts", Timeouts())
+    period = options.pop("state_period", 0.1)
+    model = StreamModel(**options)
+    driver = SimulatedDriver(model, control=control, state_period=period)
+
+    async def with_robot():
+        async with AsyncRobot("127.0.0.1", timeouts=timeouts) as robot:
+            return await main(robot, driver)
+
+    return run_simulated(driver, with_robot()), driver
+
+
+def test_a_hundred_thousand_points():
+    count = 100_000
+
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.extend(itertools.islice(wave(), count))
+        return await stream.result()
+
+    result, driver = streamed(main, state_period=0.5)
+    model = driver.model
+    assert model.reached == result.points == count
+    assert model.state == DONE
+    assert result.starved == 0
+    assert result.way == "stream"
+    assert result.deviation < 1e-6
+    # without a stall: it took the time of its points and no more
+    assert result.seconds == pytest.approx(0.1 * count, abs=2.0)
+    assert model.most_waiting <= model.ring
+    # 30 points a message but for a few
+    assert np.mean(model.sizes) > 28
+    asked = [q for _, q in itertools.islice(wave(), count)]
+    executed = [q for _, q in model.executed]
+    assert np.abs(np.array(executed) - np.array(asked)).max() <= 0.5e-6 + 1e-12
+    # nothing adds up: the durations of all points give the time of the last
+    assert sum(round(d * 1e6) for d, _ in model.executed) == round(0.1 * count * 1e6)
+
+
+def test_a_stream_without_end_needs_no_more_memory_the_longer_it_is():
+    async def main(robot, driver):
+        driver.model.keep = False
+        driver.log = deque(maxlen=10)
+        points, marks = wave(), []
+        tracemalloc.start()
+        stream = robot.stream()
+        for _ in range(4):
+            await stream.extend(itertools.islice(points, 1500))
+            marks.append(tracemalloc.get_traced_memory()[0])
+        tracemalloc.stop()
+        await stream.cancel()
+        return marks
+
+    marks, _ = streamed(main)
+    # 3,000 points kept would be more than 500,000 bytes
+    assert abs(marks[-1] - marks[1]) < 100_000
+
+
+def test_motion_begins_before_the_last_point_was_made():
+    async def main(robot, driver):
+        seen = []
+
+        def points():
+            for n, (t, q) in enumerate(itertools.islice(wave(), 3000)):
+                seen.append((n, driver.model.reached))
+                yield t, q
+
+        async with robot.stream() as stream:
+            await stream.extend(points())
+        first = next(n for n, reached in seen if reached)
+        return first, max(n - reached for n, reached in seen)
+
+    (first, ahead), driver = streamed(main)
+    # what the client makes ahead is bounded by the ring and a few batches
+    assert first <= driver.model.ring + 4 * 30
+    assert ahead <= driver.model.ring + 4 * 30
+
+
+def test_indices_wrap(monkeypatch):
+    # 2^23 points would take too long: fewer bits, the same arithmetic
+    import fake_stream
+
+    from rapidgen.client import stream as module
+    from rapidgen.protocol import bulk
+
+    for place in (module, bulk):
+        monkeypatch.setattr(place, "INDEX_WRAP", 512)
+    monkeypatch.setattr(fake_stream, "WRAP", 512)
+
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.extend(itertools.islice(wave(), 3000))
+            progress = stream.progress
+        return progress, await stream.result()
+
+    (progress, result), driver = streamed(main)
+    assert result.points == 3000
+    assert 2700 < progress.reached <= progress.planned <= progress.received <= 3000
+    assert driver.model.reached == 3000
+
+
+def test_unwrapping():
+    from rapidgen.client.stream import unwrapped
+
+    wrap = spec.INDEX_WRAP
+    assert unwrapped(5, 3) == 5
+    assert unwrapped(3, 5) == 3
+    assert unwrapped(2, wrap - 1) == wrap + 2
+    assert unwrapped(wrap - 2, 3 * wrap + 1) == 3 * wrap - 2
+
+
+def test_it_starves_stands_and_goes_on():
+    async def main(robot, driver):
+        points = list(itertools.islice(wave(), 40))
+        stream = robot.stream()
+        await stream.append(*zip(*points[:20], strict=True))
+        state = await robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
+        assert stream.progress.state is TrajectoryState.STARVED
+        assert stream.progress.reached == 20
+        assert state.joints == pytest.approx(points[19][1], abs=1e-6)
+        assert stream.starved == 1
+        assert any("ran out of points at point 20" in text for _, text in robot.messages)
+        # less than the driver likes to have: it waits for more, until it is told
+        await stream.append(*zip(*points[20:22], strict=True))
+        await asyncio.sleep(3)
+        assert stream.progress.state is TrajectoryState.STARVED
+        await stream.flush()
+        await robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
+        await robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
+        await stream.append(*zip(*points[22:], strict=True))
+        await robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
+        return await stream.result()
+
+    result, driver = streamed(main)
+    assert (result.points, result.starved) == (40, 2)
+    assert len(driver.model.executed) == 40
+
+
+def test_a_fault_in_a_point_ends_it_in_order_and_says_which():
+    async def main(robot, driver):
+        stream = robot.stream()
+        with pytest.raises(MotionFailed, match=r"at point 5000, joint_3: .* outside its") as error:
+            await stream.extend(wave())
+        assert (error.value.point, error.value.joint) == (5000, 3)
+        assert error.value.reason is Reason.JOINT_LIMIT
+        assert error.value.reached == 5000
+        assert stream.is_over
+        assert stream.progress.state is TrajectoryState.FAILED
+        return error.value.states[-1]
+
+    state, driver = streamed(main, point_fault=(5000, Reason.JOINT_LIMIT, 3))
+    assert len(driver.model.executed) == 5000
+    assert state.joints == pytest.approx(driver.model.executed[-1][1])
+
+
+def test_a_fault_of_the_caller_is_told_before_it_is_sent_and_the_stream_goes_on():
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.append([0.0, 0.2], [[0.0] * 6, [0.01] * 6])
+            for times, joint, code in (
+                ([0.3, 0.4], [9.0] * 6, "RG614"),
+                ([0.2, 0.4], [0.0] * 6, "RG612"),
+                ([0.25, 0.4], [0.01] * 6, "RG618"),
+                ([0.3, float("nan")], [0.0] * 6, "RG613"),
+                ([0.3, 0.4], [2.9] * 6, "RG615"),
+                ([0.3, 50.0], [0.01] * 6, "RG623"),
+            ):
+                with pytest.raises(InvalidTrajectory) as error:
+                    await stream.append(times, [[0.01] * 6, joint])
+                assert {d.code for d in error.value.diagnostics} >= {code}
+                if code in ("RG614", "RG615"):
+                    # points have their numbers in the stream
+                    assert "point 3" in str(error.value)
+            await stream.append([0.4], [[0.02] * 6])
+        return await stream.result()
+
+    result, driver = streamed(main)
+    assert result.points == 3
+    assert [d for d, _ in driver.model.executed] == [0.1, 0.2, 0.2]
+
+
+@pytest.mark.parametrize("far", [True, False])
+def test_the_first_point_is_where_the_robot_stands(far):
+    async def main(robot, driver):
+        with pytest.raises(InvalidTrajectory, match="does not start"):
+            await robot.stream().append([0.0], [[0.5 if far else 0.02] * 6])
+        # nothing was begun
+        async with robot.stream() as stream:
+            await stream.append([0.0, 1.0], [[0.0] * 6, [0.1] * 6])
+
+    _, driver = streamed(main)
+    assert driver.model.trajectory == 1
+
+
+def test_pause_resume_and_speed():
+    async def main(robot, driver):
+        stream = robot.stream()
+        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        await asyncio.sleep(2)
+        await robot.pause()
+        await asyncio.sleep(0.3)
+        state = robot.state
+        assert state.trajectory is TrajectoryState.PAUSED
+        # however long it is held: nobody gives up
+        waiting = asyncio.ensure_future(stream.result())
+        await asyncio.sleep(600)
+        assert robot.state.joints == state.joints
+        assert not waiting.done()
+        began = driver.loop.time()
+        await robot.resume()
+        await robot.set_speed(50)
+        result = await waiting
+        with pytest.raises(ValueError, match="1 to 100"):
+            await robot.set_speed(0)
+        return result, driver.loop.time() - began
+
+    (result, took), _ = streamed(main)
+    assert result.points == 100
+    assert took == pytest.approx(2 * 8, abs=1)
+
+
+@pytest.mark.parametrize("control", [True, False])
+def test_stop_and_what_stands(control):
+    async def main(robot, driver):
+        stream = robot.stream()
+        filling = asyncio.ensure_future(stream.extend(wave()))
+        await asyncio.sleep(30)
+        asked = driver.loop.time()
+        state = await robot.stop()
+        with pytest.raises(MotionStopped) as error:
+            await filling
+        assert error.value.reason is Reason.STOPPED
+        with pytest.raises(MotionStopped):
+            await stream.append([1e6], [[0.0] * 6])
+        assert stream.stopped_position == pytest.approx(state.joints)
+        stops = [(t, port) for t, port, number in driver.log if number == 11]
+        assert stops[0] == (pytest.approx(asked + 0.001), driver.CONTROL if control else 11000)
+        # and the next one
+        async with robot.stream() as stream:
+            await stream.append([0, 1], [state.joints, state.joints])
+
+    _, driver = streamed(main, control=control)
+    assert driver.model.trajectory == 2
+    # nothing of the stopped stream behind the STOP
+    first = next(n for n, (_, _, number) in enumerate(driver.log) if number == 11)
+    behind = [entry for entry in driver.log[first + 1 :] if entry[2] == 1302]
+    assert len(behind) == 1 + (behind[0][0] != behind[-1][0])
+
+
+def test_an_exception_in_the_block_stops_the_robot():
+    async def main(robot, driver):
+        async def fail(stream):
+            async with stream:
+                await stream.append([0, 5], [[0.0] * 6, [0.1] * 6])
+                await stream.flush()
+                await asyncio.sleep(1)
+                raise ZeroDivisionError
+
+        stream = robot.stream()
+        with pytest.raises(ZeroDivisionError):
+            await fail(stream)
+        assert stream.is_over
+
+    _, driver = streamed(main)
+    assert driver.model.state == TrajectoryState.STOPPED
+
+
+def test_heartbeats_come_while_it_moves_and_end_with_it():
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
+        await asyncio.sleep(5)
+        return driver.model.heartbeats
+
+    beats, _ = streamed(main, timeouts=Timeouts(heartbeat=2))
+    assert beats[-1] == 0
+    assert set(beats[:-1]) == {2}
+    # every half second, on a clock of 0.1 s
+    assert 15 <= len(beats) <= 25
+
+
+def test_heartbeats_come_with_a_download_too_and_not_without_a_motion():
+    async def main(robot, driver):
+        await asyncio.sleep(10)
+        assert not driver.model.heartbeats
+        stream = robot.stream()
+        await stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
+        driver.model.control(1306, b"\0\0\0\0")
+        await stream.result()
+
+    streamed(main)
+
+
+def test_a_client_that_dies_is_missed():
+    async def main(robot, driver):
+        stream = robot.stream()
+        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        await asyncio.sleep(2)
+        # as a process that was frozen: its timers do not run, its kernel keeps the connections
+        robot._timer.cancel()
+        robot._pump = lambda: None
+        await asyncio.sleep(2.5)
+        assert driver.model.state == TrajectoryState.FAILED
+        assert driver.model.reason == Reason.CLIENT_LOST
+        del robot._pump
+        with pytest.raises(MotionFailed, match="client") as error:
+            await stream.result()
+        assert error.value.reason is Reason.CLIENT_LOST
+
+    streamed(main)
+
+
+def test_no_heartbeats_where_nobody_wants_them():
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.append([0, 3], [[0.0] * 6, [0.1] * 6])
+        return driver.model.heartbeats
+
+    assert streamed(main, timeouts=Timeouts(heartbeat=0))[0] == []
+
+
+def test_a_control_port_that_falls_silent_stops_the_motion():
+    async def main(robot, driver):
+        stream = robot.stream()
+        filling = asyncio.ensure_future(stream.extend(wave()))
+        await asyncio.sleep(5)
+        driver.model.control = lambda *_: b""
+        driver.model.heartbeat_until = None
+        with pytest.raises(RobotTimeout, match="control port"):
+            await filling
+        await asyncio.sleep(0.5)
+
+    _, driver = streamed(main)
+    # the motion port is there
+    assert driver.model.state == TrajectoryState.STOPPED
+    assert any(port == 11000 for _, port, number in driver.log if number == 11)
+
+
+def test_a_batch_that_nobody_answers_stops_the_motion():
+    async def main(robot, driver):
+        with pytest.raises(RobotTimeout, match="did not answer a batch"):
+            await robot.stream().extend(wave())
+        await asyncio.sleep(0.5)
+
+    _, driver = streamed(main, lose_replies_from=20)
+    assert driver.model.state == TrajectoryState.STOPPED
+
+
+def test_a_lost_connection_stops_the_motion_though_nobody_waits():
+    async def main(robot, driver):
+        stream = robot.stream()
+        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        await asyncio.sleep(2)
+        state = next(link for port, link in robot._links.items() if port.name == "STATE")
+        state.transport.close()
+        await asyncio.sleep(0.5)
+        assert driver.model.state == TrajectoryState.STOPPED
+        with pytest.raises(ConnectionLost):
+            await stream.result()
+
+    streamed(main)
+
+
+def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
+    async def main(robot, driver):
+        assert robot._core.way_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == (
+            "download"
+        )
+        long = Trajectory.from_points([[0.0] * 6] * 5000, seconds=0.1)
+        robot.check(long)
+        execution = await robot.execute(long)
+        assert execution.way == "stream"
+        # 1,000 are the most that the driver holds as a whole
+        with pytest.raises(NotReady):
+            await robot.execute(long, way="download")
+        began = driver.model.reached
+        result = await execution.result()
+        assert execution.trajectory.positions.shape == (5000, 6)
+        with pytest.raises(InvalidTrajectory, match="holds 1000"):
+            await robot.execute(long, way="download")
+        return began, result
+
+    (began, result), _ = streamed(main)
+    assert began < 128
+    assert result.points == 5000
+    assert result.way == "stream"
+
+
+def test_somebody_else_stops_it():
+    async def main(robot, driver):
+        filling = asyncio.ensure_future(robot.stream().extend(wave()))
+        await asyncio.sleep(5)
+        driver.model.halt(TrajectoryState.STOPPED, Reason.STOPPED)
+        with pytest.raises(MotionStopped, match="another request"):
+            await filling
+
+    streamed(main)
+
+
+def test_cancelling_an_append_stops_the_robot():
+    async def main(robot, driver):
+        filling = asyncio.ensure_future(robot.stream().extend(wave()))
+        await asyncio.sleep(5)
+        filling.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await filling
+        await asyncio.sleep(0.5)
+
+    _, driver = streamed(main)
+    assert driver.model.state == TrajectoryState.STOPPED
