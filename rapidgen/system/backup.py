@@ -6,6 +6,7 @@ system.xml, else the one in the cfg header.
 """
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.diagnostics import Diagnostic, Severity
@@ -97,15 +98,8 @@ def _with_modules(
     for place in ("SYSMOD", "PROGMOD"):
         for path in module_files(inside(folder, f"RAPID/TASK{number}/{place}")):
             loaded.append(load_module(path))
-    return TaskSpec(
-        task.name,
-        task.type,
-        task.trust,
-        task.entry,
-        task.motion,
-        task.mechanical_unit_group,
-        load_entries(task, entries, home, tuple(loaded), sys_cfg.path, notes),
-    )
+    modules = load_entries(task, entries, home, tuple(loaded), sys_cfg.path, notes)
+    return replace(task, modules=modules)
 
 
 def _cfg(folder: Path, name: str) -> CfgText:

@@ -3,6 +3,7 @@
 import hashlib
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from rapidgen.system.interpret import (
     tasks_of,
 )
 from rapidgen.system.loading import Origin, load_entries
-from rapidgen.system.model import System, TaskSpec
+from rapidgen.system.model import System
 from rapidgen.system.paths import inside, read_limited
 
 MANIFEST = "manifest.json"
@@ -62,15 +63,7 @@ def read_folder(folder: Path | str) -> System:
     origins = _origins(folder, manifest)
     entries = modules_of(sys_cfg)
     tasks = tuple(
-        TaskSpec(
-            task.name,
-            task.type,
-            task.trust,
-            task.entry,
-            task.motion,
-            task.mechanical_unit_group,
-            load_entries(task, entries, home, (), sys_cfg.path, None, origins),
-        )
+        replace(task, modules=load_entries(task, entries, home, (), sys_cfg.path, None, origins))
         for task in tasks_of(sys_cfg)
     )
     major, minor = manifest["robotware"]

@@ -16,6 +16,7 @@ from rapidgen.system.model import (
     EventRoutine,
     MechanicalUnitGroup,
     ModuleFile,
+    QueueSpec,
     SignalSpec,
     SignalType,
     System,
@@ -29,6 +30,9 @@ from rapidgen.system.model import (
 # [mem] The file says "None" where the pendant shows NoSafety.
 _TRUST_TEXT: dict[str, str] = {"NONE": "NoSafety", "NOSAFETY": "NoSafety"}
 _MAX_ACTORS = 5
+_MAX_BIT = 1 << 16
+"""Bits of a device; a map beyond is no map."""
+_QUEUE = QueueSpec()
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,6 +76,11 @@ def tasks_of(cfg: CfgText) -> tuple[TaskSpec, ...]:
                 instance.text("Entry") or "main",
                 instance.flag("MotionTask"),
                 instance.text("UseMechanicalUnitGroup"),
+                queue=QueueSpec(
+                    instance.text("RmqType").upper() != "NONE",
+                    int(instance.number("RmqMaxMsgSize")) or _QUEUE.max_size,
+                    int(instance.number("RmqMaxNoOfMsg")) or _QUEUE.max_messages,
+                ),
             )
         )
     return tuple(found)
@@ -133,7 +142,7 @@ def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
     found = []
     for instance in cfg.instances("EIO_SIGNAL"):
         kind = _word(cfg, instance, "SignalType", instance.text("SignalType"), SignalType)
-        mapped = instance.text("DeviceMap") or instance.text("UnitMap")
+        bits = _bits(instance.text("DeviceMap") or instance.text("UnitMap"))
         found.append(
             SignalSpec(
                 _name(cfg, instance),
@@ -141,7 +150,10 @@ def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
                 instance.text("Access") or "Default",
                 instance.number("Default"),
                 instance.text("Device") or instance.text("Unit"),
-                int(instance.number("Size")) or _bits(mapped) if kind in ("GI", "GO") else 1,
+                int(instance.number("Size")) or len(bits) or 1 if kind in ("GI", "GO") else 1,
+                bits,
+                instance.number("MinLog"),
+                instance.number("MaxLog"),
             )
         )
     return tuple(found)
@@ -272,6 +284,12 @@ def _task(task: TaskSpec) -> Instance:
         attributes.append(("TrustLevel", "None" if task.trust == "NoSafety" else task.trust))
     if task.motion:
         attributes.append(("MotionTask",))
+    if not task.queue.open:
+        attributes.append(("RmqType", "None"))
+    if task.queue.max_size != _QUEUE.max_size:
+        attributes.append(("RmqMaxMsgSize", task.queue.max_size))
+    if task.queue.max_messages != _QUEUE.max_messages:
+        attributes.append(("RmqMaxNoOfMsg", task.queue.max_messages))
     return _instance(*attributes)
 
 
@@ -300,6 +318,8 @@ def _signal(signal: SignalSpec, unit: str) -> Instance:
     ]
     if signal.device:
         attributes.append((unit, signal.device))
+    if signal.bits:
+        attributes.append((f"{unit}Map", ",".join(map(str, signal.bits))))
     if signal.type in ("GI", "GO"):
         attributes.append(("Size", signal.size))
     if signal.access != "Default":
@@ -307,6 +327,8 @@ def _signal(signal: SignalSpec, unit: str) -> Instance:
     if signal.default:
         whole = int(signal.default)
         attributes.append(("Default", whole if whole == signal.default else signal.default))
+    if signal.low or signal.high:
+        attributes += [("MinLog", signal.low), ("MaxLog", signal.high)]
     return _instance(*attributes)
 
 
@@ -358,15 +380,17 @@ def _word(cfg: CfgText, instance: Instance, attribute: str, word: str, kind: obj
     return found
 
 
-def _bits(mapped: str) -> int:
-    """Bits in a map such as `0-7` or `0-3,8`; 1 when there is none."""
+def _bits(mapped: str) -> tuple[int, ...]:
+    """Bits in a map such as `0-7` or `0-3,8`, the first one least significant [mem]."""
     if not re.fullmatch(r"[\d\s,-]+", mapped):
-        return 1
-    count = 0
+        return ()
+    found: list[int] = []
     for part in mapped.split(","):
         ends = [int(end) for end in part.split("-") if end.strip()]
-        count += abs(ends[-1] - ends[0]) + 1 if ends else 0
-    return max(count, 1)
+        if ends and max(ends) < _MAX_BIT:
+            step = 1 if ends[-1] >= ends[0] else -1
+            found += range(ends[0], ends[-1] + step, step)
+    return tuple(found)
 
 
 def _fault(cfg: CfgText, instance: Instance, label: str, help: str = "") -> DiagnosticError:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.system.cfg import CfgText, parse_cfg
@@ -59,17 +60,7 @@ def read_files(
         if spec is None:
             spec = TaskSpec(task, entry=entry, motion=task in motion)
         modules = tuple(load_module(path) for path in paths)
-        specs.append(
-            TaskSpec(
-                spec.name,
-                spec.type,
-                spec.trust,
-                spec.entry,
-                spec.motion,
-                spec.mechanical_unit_group,
-                modules,
-            )
-        )
+        specs.append(replace(spec, modules=modules))
     return System(
         name=name,
         tasks=tuple(specs),

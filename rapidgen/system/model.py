@@ -29,6 +29,16 @@ class ModuleFile:
 
 
 @dataclass(frozen=True, slots=True)
+class QueueSpec:
+    """A task's message queue (RmqType, RmqMaxMsgSize, RmqMaxNoOfMsg); the defaults are [mem]."""
+
+    open: bool = True
+    """False: RmqType is None, and nobody finds the queue. A task that does not say has one."""
+    max_size: int = 400
+    max_messages: int = 5
+
+
+@dataclass(frozen=True, slots=True)
 class TaskSpec:
     """One RAPID task (CAB_TASKS) with the modules loaded into it, in loading order."""
 
@@ -39,6 +49,7 @@ class TaskSpec:
     motion: bool = False
     mechanical_unit_group: str = ""
     modules: tuple[ModuleFile, ...] = ()
+    queue: QueueSpec = QueueSpec()
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +73,11 @@ class SignalSpec:
     device: str = ""
     size: int = 1
     """Bits of a group signal."""
+    bits: tuple[int, ...] = ()
+    """Bits of the device, least significant first; signals that share some change together."""
+    low: float = 0.0
+    high: float = 0.0
+    """Limits of an analogue signal; both 0: none."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -19,27 +19,34 @@ class Configuration:
         version = next(iter(self._texts.values())).version
         arms = tuple(_arm(group, joint) for group in groups for joint in group.joints)
         self._texts["MOC"] = CfgText("MOC", version, (Section("ARM", arms),))
-        self._values: dict[tuple[str, str, str], _Values] = {}
+        self._types: dict[tuple[str, str], list[_Values]] = {}
+        self._named: dict[tuple[str, str, str], _Values] = {}
         for domain, text in self._texts.items():
             for section in text.sections:
+                kind = (domain.lower(), section.name.lower())
                 for instance in section.instances:
-                    key = (domain.lower(), section.name.lower(), instance.text("Name").lower())
-                    self._values[key] = {
+                    values: _Values = {
                         a.name.lower(): a.values[0] if a.values else True
                         for a in instance.attributes
                     }
+                    self._types.setdefault(kind, []).append(values)
+                    self._named.setdefault((*kind, instance.text("Name").lower()), values)
 
     @property
     def domains(self) -> tuple[str, ...]:
         """Names of the domains."""
         return tuple(self._texts)
 
-    def find(self, path: str) -> _Values | None:
-        """Attributes of `/DOMAIN/TYPE/INSTANCE`, or None. They may be changed."""
+    def find(self, path: str) -> list[_Values]:
+        """Attributes of `/DOMAIN/TYPE/INSTANCE`, or of every instance of `/DOMAIN/TYPE`.
+
+        They may be changed. Empty: there is none.
+        """
         parts = [part.lower() for part in path.strip("/").split("/")]
-        if len(parts) != 3:
-            return None
-        return self._values.get((parts[0], parts[1], parts[2]))
+        if len(parts) == 2:
+            return self._types.get((parts[0], parts[1]), [])
+        found = self._named.get((parts[0], parts[1], parts[2])) if len(parts) == 3 else None
+        return [] if found is None else [found]
 
     def text(self, domain: str) -> str:
         """A domain as cfg text, as the system was read. KeyError: there is none."""

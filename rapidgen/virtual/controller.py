@@ -206,7 +206,7 @@ class VirtualController(ControllerState):
         self.operator = Operator(self.kernel, answers)
         self.texts = TextTables()
         self.modules = ModuleTable()
-        self.queues = QueueSystem()
+        self.queues = QueueSystem(system.tasks)
         self.configuration = Configuration(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
@@ -230,6 +230,7 @@ class VirtualController(ControllerState):
         self.diagnostics: list[Diagnostic] = []
         self._load()
         self.io.on_action = self.system_input
+        self.io.on_end = self.system_input_ended
         self.power_up()
         if faults is not None:
             schedule_faults(faults, self)

@@ -57,7 +57,7 @@ def status_name(spelling: str) -> str | None:
 class Signal:
     """One signal. `value` is int for digital and group signals, float for analogue ones."""
 
-    __slots__ = ("changed", "crossed", "pending", "spec", "value")
+    __slots__ = ("changed", "crossed", "pending", "sharers", "spec", "value")
 
     def __init__(self, spec: SignalSpec) -> None:
         self.spec = spec
@@ -67,6 +67,8 @@ class Signal:
         """Cross connections that this signal is an actor of."""
         self.pending: list[Timer] = []
         """Changes ordered for later."""
+        self.sharers: list[Signal] = []
+        """Signals that are mapped to some of the same bits."""
 
     @property
     def name(self) -> str:
@@ -80,16 +82,19 @@ class Signal:
 
     @property
     def largest(self) -> float:
-        """The largest value that fits; infinite for an analogue signal."""
+        """The largest value that fits; infinite for an analogue signal without limits."""
         if self.spec.type in ("AI", "AO"):
-            return math.inf
+            return self.spec.high if self.spec.low or self.spec.high else math.inf
         return 2**self.spec.size - 1 if self.spec.type in ("GI", "GO") else 1
 
     def fit(self, value: float) -> float:
         """`value` as this signal holds it. ValueError: it does not fit."""
         if self.spec.type in ("AI", "AO"):
+            low, high = self.spec.low, self.spec.high
             if not math.isfinite(value):
                 raise ValueError(f"{value} is no value for {self.name}")
+            if (low or high) and not low <= value <= high:
+                raise ValueError(f"{value:g} does not fit {self.name} ({low:g} to {high:g})")
             return float(value)
         if not math.isfinite(value) or value != int(value) or not 0 <= value <= self.largest:
             raise ValueError(f"{value:g} does not fit {self.name} (0 to {self.largest:g})")
@@ -143,6 +148,8 @@ class IOSystem:
             self.signals.setdefault(spec.name.lower(), Signal(spec))
         self.on_action: Callable[[str, str], None] | None = None
         """Called with (action, argument) when the signal of a system input rises."""
+        self.on_end: Callable[[str], None] | None = None
+        """Called with the action when it falls."""
         self._states: dict[str, dict[str, float]] = {}
         self._outputs = [*self._system_outputs(system)]
         self._actions: dict[int, list[tuple[str, str]]] = {}
@@ -151,6 +158,7 @@ class IOSystem:
             if signal is not None:
                 actions = self._actions.setdefault(id(signal), [])
                 actions.append((entry.action, entry.argument))
+        self._share()
         self._connect(system.cross)
         for signal in self.signals.values():
             if signal.spec.default:
@@ -214,15 +222,55 @@ class IOSystem:
         before = signal.value
         if value == before:
             return
-        signal.value = value
-        signal.changed.notify()
-        if value and not before and self.on_action is not None:
-            for action, argument in self._actions.get(id(signal), ()):
-                self.on_action(action, argument)
+        self._take(signal, value)
         # A pulse of an actor does not travel on [S4 user's guide].
+        changed = [signal, *self._follow(signal)]
         if spread:
-            for connection in signal.crossed:
-                self._apply(connection)
+            for one in changed:
+                for connection in one.crossed:
+                    self._apply(connection)
+
+    def _take(self, signal: Signal, value: float) -> None:
+        before, signal.value = signal.value, value
+        signal.changed.notify()
+        if bool(value) is bool(before):
+            return
+        for action, argument in self._actions.get(id(signal), ()):
+            if value and self.on_action is not None:
+                self.on_action(action, argument)
+            elif not value and self.on_end is not None:
+                self.on_end(action)
+
+    # -- shared bits ------------------------------------------------------------------------
+
+    def _share(self) -> None:
+        """Find signals of one device and direction that share bits of it."""
+        users: dict[tuple[str, str, int], list[Signal]] = {}
+        for signal in self.signals.values():
+            if signal.spec.device and signal.spec.type[0] != "A":
+                for bit in signal.spec.bits:
+                    users.setdefault((signal.spec.device, signal.spec.type[1], bit), []).append(
+                        signal
+                    )
+        for together in users.values():
+            for signal in together:
+                signal.sharers += [
+                    s for s in together if s is not signal and s not in signal.sharers
+                ]
+
+    def _follow(self, signal: Signal) -> list[Signal]:
+        """Give the bits of a digital or group signal to those that share them; who changed."""
+        changed = []
+        for other in signal.sharers:
+            value = int(other.value)
+            for place, bit in enumerate(other.spec.bits):
+                if bit in signal.spec.bits:
+                    own = int(signal.value) >> signal.spec.bits.index(bit) & 1
+                    value = value & ~(1 << place) | own << place
+            if value != other.value:
+                self._take(other, value)
+                changed.append(other)
+        return changed
 
     # -- cross connections ------------------------------------------------------------------
 

@@ -1,21 +1,19 @@
 """RAPID message queues: one for each task, reached by the name RMQ_<task>.
 
-Limits are the defaults of RmqMaxNoOfMsg and RmqMaxMsgSize [mem]. A message whose type has an
-interrupt ordered in the receiving task goes to its trap, any other one waits to be read.
+Limits are those of the task's configuration (RmqMaxNoOfMsg, RmqMaxMsgSize). A message whose type
+has an interrupt ordered in the receiving task goes to its trap, any other one waits to be read.
 """
 
 from collections import deque
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from rapidgen.system.model import QueueSpec, TaskSpec
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.kernel import WaitSet
 from rapidgen.virtual.text import literal_text
 from rapidgen.virtual.values import Type, register_type
-
-MAX_MESSAGES = 5
-MAX_SIZE = 400
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +57,7 @@ register_type("rmqslot", Slot)
 class Queue:
     """Messages of one task."""
 
+    spec: QueueSpec = field(default_factory=QueueSpec)
     messages: deque[Message] = field(default_factory=deque)
     orders: list[tuple[Type, tuple[int, ...], Callable[[], None]]] = field(default_factory=list)
     """Interrupts by type: (type, dimensions, what to do)."""
@@ -68,8 +67,8 @@ class Queue:
 class QueueSystem:
     """The queues of one controller."""
 
-    def __init__(self) -> None:
-        self._queues: dict[str, Queue] = {}
+    def __init__(self, tasks: Iterable[TaskSpec] = ()) -> None:
+        self._queues = {self.slot_name(t.name).lower(): Queue(t.queue) for t in tasks}
 
     @staticmethod
     def slot_name(task: str) -> str:
@@ -84,10 +83,10 @@ class QueueSystem:
         """Put a message into a queue; ERR_RMQ_INVALID, ERR_RMQ_MSGSIZE, ERR_RMQ_FULL."""
         if not slot:
             raise RapidError("ERR_RMQ_INVALID")
-        if len(literal_text(message.value, message.type)) > MAX_SIZE:
-            raise RapidError("ERR_RMQ_MSGSIZE")
         queue = self._queues.setdefault(slot.lower(), Queue())
-        if len(queue.messages) >= MAX_MESSAGES:
+        if len(literal_text(message.value, message.type)) > queue.spec.max_size:
+            raise RapidError("ERR_RMQ_MSGSIZE")
+        if len(queue.messages) >= queue.spec.max_messages:
             raise RapidError("ERR_RMQ_FULL", slot)
         queue.messages.append(message)
         for type_, dims, fire in queue.orders:

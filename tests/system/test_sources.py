@@ -115,7 +115,8 @@ def test_backup(backup):
     assert [m.name for m in robot.modules] == ["user", "Work", "Shared"]
     assert [m.name for m in back.modules] == ["Back", "Shared"]
     assert [n.code for n in notes] == ["RG710"]
-    assert system.signals == (SignalSpec("goProgram", "GO", device="d651", size=8),)
+    program = SignalSpec("goProgram", "GO", device="d651", size=8, bits=tuple(range(8, 16)))
+    assert system.signals == (program,)
     assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", "T_ROB1"),)
     assert system.cross == (CrossConnection("", "doA", (("diB", True), ("diC", False)), ("OR",)),)
     assert system.events == (EventRoutine("OnStart", "START", "T_ROB1"),)

@@ -1,7 +1,8 @@
 """ReadCfgData and its family, and WarmStart.
 
-Sources: 3HAC16581-1's arguments and error names [manual]. \\ListNo is not needed where a path
-names one instance, and is left alone.
+Sources: 3HAC16581-1's arguments and error names [manual]. \\ListNo [mem]: the number, from 0, of
+one of several instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind it
+stands the number of the next one, -1 behind the last.
 """
 
 from rapidgen.virtual.configuration import Configuration
@@ -14,22 +15,30 @@ from rapidgen.virtual.task import Task
 from rapidgen.virtual.values import STRING_LIMIT, Ref
 
 
-def _attributes(task: Task, path: str) -> dict[str, str | int | float | bool]:
+def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | int | float | bool]:
+    """Attributes of the instance; `number` goes on to the next one.
+
+    ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
+    """
     configuration: Configuration = task.controller.configuration
     found = configuration.find(path)
     hidden = path.strip("/").lower().startswith("moc/arm/")
-    if found is None or (hidden and not task.controller.dialect.axis_limits_told):
+    if not found or (hidden and not task.controller.dialect.axis_limits_told):
         raise RapidError("ERR_CFG_NOTFND", path)
-    return found
+    if number is None:
+        return found[0]
+    at = number.get()
+    if at not in range(len(found)):
+        raise RapidError("ERR_CFG_OUTOFBND", f"{at:g} of {len(found)}")
+    number.set(at + 1 if at + 1 < len(found) else -1)
+    return found[int(at)]
 
 
 @builtin("ReadCfgData", cost="socket")
-def read_cfg_data(
-    task: Task, path: str, attribute: str, datum: object, _list_number: Ref | None
-) -> None:
+def read_cfg_data(task: Task, path: str, attribute: str, datum: object, number: Ref | None) -> None:
     """A system parameter; an absent flag is FALSE."""
     target = target_of(datum)
-    value = _attributes(task, path).get(attribute.lower())
+    value = _attributes(task, path, number).get(attribute.lower())
     kind = target.type.kind
     if kind == "bool" and value is None:
         target.set(False)
@@ -47,10 +56,10 @@ def read_cfg_data(
 
 @builtin("WriteCfgData", cost="socket")
 def write_cfg_data(
-    task: Task, path: str, attribute: str, datum: object, _list_number: Ref | None
+    task: Task, path: str, attribute: str, datum: object, number: Ref | None
 ) -> None:
     """Change a system parameter; only ReadCfgData sees it."""
-    attributes = _attributes(task, path)
+    attributes = _attributes(task, path, number)
     before = attributes.get(attribute.lower())
     value, _ = value_of(datum)
     if before is not None and isinstance(before, str) is not isinstance(value, str):

@@ -32,10 +32,10 @@ def _message(task: RapidTask, datum: object, user: float | None) -> Message:
 
 @builtin("RMQFindSlot", cost="string")
 def rmq_find_slot(task: RapidTask, slot: Slot, name: str) -> None:
-    """The queue of a name; ERR_RMQ_NAME when no task has it."""
-    for other in task.controller.rapid_tasks:
-        if QueueSystem.slot_name(other).lower() == name.lower():
-            slot.name = QueueSystem.slot_name(other)
+    """The queue of a name; ERR_RMQ_NAME when no task has it, or its RmqType is None."""
+    for other in task.controller.rapid_tasks.values():
+        if QueueSystem.slot_name(other.name).lower() == name.lower() and other.spec.queue.open:
+            slot.name = QueueSystem.slot_name(other.name)
             return
     raise RapidError("ERR_RMQ_NAME", name)
 
