@@ -253,8 +253,19 @@ class ControllerState:
             case "ResetError":
                 self.execution_error = False
                 self._report()
+            case "LimitSpeed":
+                self._limit_speed(True)
             case _:
                 self.log.warning(71_103, "System input not simulated", action, argument)
+
+    def system_input_ended(self, action: str) -> None:
+        """A signal of a system input fell."""
+        if action == "LimitSpeed":
+            self._limit_speed(False)
+
+    def _limit_speed(self, limited: bool) -> None:
+        for group in self.motion.groups.values():
+            group.speed_limited = limited
 
     # -- tasks tell ------------------------------------------------------------------------------
 

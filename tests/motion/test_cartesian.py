@@ -9,7 +9,7 @@ from rapidgen.axes import frames
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.kernel import S
 from rapidgen.virtual.motion.events import CIRCLE_UNCERTAIN, NOT_COMPATIBLE, SINGULARITY
-from rapidgen.virtual.motion.moves import Carrier, CartesianMove, Speed
+from rapidgen.virtual.motion.moves import Carrier, CartesianMove, Singularities, Speed
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))
@@ -305,7 +305,11 @@ def test_with_sing_area_wrist_the_line_goes_through_the_singularity(make_cell, z
     own = group.kinematics
     start, end = (own.forward((0.3, 0.0, 0.0, 0.4, a5, 0.0)) for a5 in (0.4, -0.4))
     move = CartesianMove(
-        target=end, external=group.positions(), speed=Speed(0.1), zone=zones(0), wrist=True
+        target=end,
+        external=group.positions(),
+        speed=Speed(0.1),
+        zone=zones(0),
+        singularities=Singularities.WRIST,
     )
     cell.run(lambda task: group.move(task, move))
     places = np.array([own.forward(tuple(q))[0] for q in cell.path]) - np.array(start[0])

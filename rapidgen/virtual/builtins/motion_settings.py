@@ -11,11 +11,13 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.virtual.builtins.positions import carrier_for, load0
+from rapidgen.virtual.builtins.units import unit_axis
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.access import group_of, named_group
-from rapidgen.virtual.motion.arguments import frame
+from rapidgen.virtual.motion.arguments import RAD, frame
 from rapidgen.virtual.motion.group import MotionGroup
+from rapidgen.virtual.motion.moves import CircleMode, Singularities
 from rapidgen.virtual.motion.targets import rob_target
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
@@ -85,13 +87,13 @@ def conf_j(task: Task, _on: bool | None, off: bool | None) -> None:
 
 @builtin("SingArea")
 def sing_area(task: Task, wrist: bool | None, lock_axis_4: bool | None, _off: bool | None) -> None:
-    """\\Wrist: wrist axes go straight in joint space on linear and circular moves.
-
-    FatalError: \\LockAxis4 is not simulated.
-    """
-    if lock_axis_4:
-        raise FatalError(events.NOT_SIMULATED, "SingArea \\LockAxis4 is not simulated")
-    group_of(task).modal.wrist = bool(wrist)
+    """What linear and circular moves do about singularities of the wrist."""
+    modal = group_of(task).modal
+    modal.singularities = Singularities.OFF
+    if wrist:
+        modal.singularities = Singularities.WRIST
+    elif lock_axis_4:
+        modal.singularities = Singularities.LOCK_AXIS_4
 
 
 @builtin("PathAccLim")
@@ -116,10 +118,19 @@ def path_acc_lim(
 
 
 @builtin("WorldAccLim")
-def world_acc_lim(_task: Task, limit: float | None, _off: bool | None) -> None:
-    """\\Off is how it is. FatalError: a limit in world coordinates is not simulated."""
-    if limit is not None:
-        raise FatalError(events.NOT_SIMULATED, "WorldAccLim \\On is not simulated")
+def world_acc_lim(task: Task, limit: float | None, _off: bool | None) -> None:
+    """m/s^2 of the TCP in the world, turning included. ERR_ARGVALERR: below 0.1 [mem].
+
+    FatalError: the model has no geometry.
+    """
+    group = group_of(task)
+    if limit is None:
+        group.modal.world_acceleration = inf
+        return
+    if limit < _LEAST_ACCELERATION:
+        raise RapidError("ERR_ARGVALERR", f"WorldAccLim {limit:g}")
+    group.geometry()
+    group.modal.world_acceleration = limit
 
 
 @builtin("CirPathMode")
@@ -132,16 +143,44 @@ def cir_path_mode(
     wrist46: bool | None,
     wrist56: bool | None,
 ) -> None:
-    """How the tool turns on circles: with the path, or as seen from the object.
+    """How the tool turns on circles.
 
-    FatalError: the other modes are not simulated.
+    FatalError: circles made by two wrist axes are not simulated.
     """
-    if circle_point or wrist45 or wrist46 or wrist56:
-        raise FatalError(events.NOT_SIMULATED, "This CirPathMode is not simulated")
-    group_of(task).modal.circle_in_object = bool(in_object)
+    if wrist45 or wrist46 or wrist56:
+        raise FatalError(events.NOT_SIMULATED, "CirPathMode by wrist axes is not simulated")
+    modal = group_of(task).modal
+    modal.circle = CircleMode.PATH
+    if in_object:
+        modal.circle = CircleMode.OBJECT
+    elif circle_point:
+        modal.circle = CircleMode.POINT
 
 
-# -- displacement and offsets -------------------------------------------------------------------
+@builtin("SpeedLimAxis")
+def speed_lim_axis(task: Task, unit: Data, number: float, speed: float) -> None:
+    """deg/s or mm/s of an axis while the system input LimitSpeed is set [mem].
+
+    ERR_SPEEDLIM_VALUE: not positive; ERR_AXIS_PAR: no such axis of the unit.
+    """
+    if speed <= 0:
+        raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
+    group, joint = unit_axis(task, unit, number)
+    factor = RAD if joint.kind == "revolute" else 1 / 1000
+    group.modal.axis_limits[joint.axis] = speed * factor
+
+
+@builtin("SpeedLimCheckPoint")
+def speed_lim_check_point(task: Task, speed: float) -> None:
+    """mm/s of the TCP while the system input LimitSpeed is set [mem].
+
+    Other check points (elbow, wrist) are not looked at. ERR_SPEEDLIM_VALUE: not positive.
+    """
+    if speed <= 0:
+        raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
+    group = group_of(task)
+    group.modal.point_limit = speed / 1000
+    group.limit_point()
 
 
 @builtin("PDispSet")
@@ -242,6 +281,28 @@ def c_load(task: Task, reference: Data, name: str | None) -> Data:
     """What GripLoad set, else load0."""
     load: Data = named_group(task, reference, name).modal.extra.get("GripLoad") or load0()
     return load.copy()
+
+
+@builtin("SoftAct")
+def soft_act(task: Task, unit: Data, number: float, softness: float, ramp: float | None) -> None:
+    """A soft servo yields to contact: nothing is in contact here.
+
+    ERR_ARGVALERR: softness outside 0 to 100 %, ramp below 100 % (S4 overview p.5-22).
+    """
+    if not 0 <= softness <= 100 or (ramp is not None and ramp < 100):
+        raise RapidError("ERR_ARGVALERR", f"SoftAct {softness:g}")
+    group, joint = unit_axis(task, unit, number)
+    group.modal.extra[f"SoftAct {joint.axis}"] = softness
+
+
+@builtin("SoftDeact")
+def soft_deact(task: Task, ramp: float | None) -> None:
+    """All axes are stiff again. ERR_ARGVALERR: ramp below 100 %."""
+    if ramp is not None and ramp < 100:
+        raise RapidError("ERR_ARGVALERR", f"SoftDeact {ramp:g}")
+    extra = group_of(task).modal.extra
+    for name in [name for name in extra if name.startswith("SoftAct")]:
+        del extra[name]
 
 
 @builtin("PathResol")

@@ -5,9 +5,10 @@ Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and 
 
 from typing import Any, TypeAlias
 
+from rapidgen.config.model import Joint
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
-from rapidgen.virtual.motion.access import motion_of
+from rapidgen.virtual.motion.access import group_of, motion_of
 from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
@@ -37,6 +38,28 @@ def _external(task: Task, unit: Data) -> tuple[MotionGroup, tuple[str, ...]]:
         if axes is not None:
             return group, axes
     raise FatalError(events.NOT_ALLOWED, "Not a unit that can be switched", unit.value)
+
+
+def unit_axis(task: Task, unit: Data, number: float) -> tuple[MotionGroup, Joint]:
+    """The axis of a mechanical unit (None: the task's own robot) by its number from 1.
+
+    ERR_AXIS_PAR: the unit has no such axis.
+    """
+    group, axes = group_of(task), None
+    if unit is not None:
+        for other in motion_of(task).groups.values():
+            own = _axes_of(other, unit.value)
+            if own is not None or unit.value.lower() == other.config.mechanical_unit.lower():
+                group, axes = other, own
+                break
+        else:
+            raise RapidError("ERR_AXIS_PAR", unit.value)
+    if axes is None:
+        axes = tuple(f"rax_{k}" for k in range(1, 7))
+    joints = {joint.axis: joint for joint in group.config.joints}
+    if not 1 <= number <= len(axes) or axes[int(number) - 1] not in joints:
+        raise RapidError("ERR_AXIS_PAR", f"axis {number:g}")
+    return group, joints[axes[int(number) - 1]]
 
 
 @builtin("ActUnit")

@@ -16,6 +16,7 @@ from rapidgen.virtual.motion.moves import (
     CartesianMove,
     Measure,
     Posture,
+    Singularities,
     largest,
     nominal_time,
 )
@@ -69,7 +70,7 @@ class CartesianWay:
             self.shape.length, self.shape.angle, *_external_measure(kinematics, origin, move)
         )
         self._wrist: tuple[Posture, Posture] | None = None
-        if move.wrist:
+        if move.singularities is not Singularities.OFF:
             self._wrist = origin, wrist_end(kinematics, move, origin)
         self._turns = self.measure.angle > NO_TURN
         self._shares, self._nodes = self._sample(origin)
@@ -238,7 +239,7 @@ def with_external(posture: Posture, external: Posture, places: tuple[int, ...]) 
 def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
     if move.via is None:
         return Line(start, move.target)
-    arc = arc_through(start, move.via, move.target, with_path=not move.in_object)
+    arc = arc_through(start, move.via, move.target, move.circle)
     if arc is None:
         raise FatalError(
             events.CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"

@@ -35,6 +35,7 @@ class Drive:
         "reduced",
         "refresh",
         "settings",
+        "tcp_limit",
     )
 
     def __init__(self, kernel: Kernel, settings: MotionSettings, start: Posture) -> None:
@@ -44,6 +45,8 @@ class Drive:
         """Of the controller, 0 to 1."""
         self.refresh = 1.0
         """Of the program (SpeedRefresh), 0 to 1."""
+        self.tcp_limit = inf
+        """m/s of the TCP (SpeedLimCheckPoint)."""
         self.reduced = False
         """Manual mode with reduced speed."""
         self.ramp = 0.0
@@ -116,7 +119,7 @@ class Drive:
     def _plan(
         self, pieces: tuple[Piece, ...], place: float, speed: float, wait: float
     ) -> TimeLaw | None:
-        limit = MANUAL_REDUCED if self.reduced else inf
+        limit = min(self.tcp_limit, MANUAL_REDUCED if self.reduced else inf)
         cap = self.override * self.refresh
         return plan(self._spans(pieces), place, speed, cap, limit, self.ramp, wait)
 

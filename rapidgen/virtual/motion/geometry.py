@@ -5,7 +5,8 @@ from itertools import pairwise
 from math import atan2, pi
 
 from rapidgen.axes import frames
-from rapidgen.axes.frames import Pose, Quaternion, Vector
+from rapidgen.axes.frames import ORIGIN, Pose, Quaternion, Vector
+from rapidgen.virtual.motion.moves import CircleMode
 
 LARGEST_ARC = 240 * pi / 180
 """rad of one MoveC (3HAC16581-1)."""
@@ -58,10 +59,10 @@ class Arc:
     """rad, positive about `normal`"""
     swept: float
     """rad of the path's turn that the tool takes part in: all of it, or none."""
-    axis: Vector
-    """Of the tool's own turn, in the frame of `start`."""
-    turn: float
-    """rad"""
+    turn: Vector
+    """The tool's own turn, in the frame of `start`: about this axis, rad."""
+    bend: Vector = ORIGIN
+    """What is added to it per share squared, so that it goes through the circle point's."""
 
     @property
     def length(self) -> float:
@@ -88,16 +89,19 @@ class Arc:
 
     def orientation(self, share: float) -> Quaternion:
         """Unit quaternion."""
-        own = frames.multiply(self.start[1], frames.about(self.axis, self.turn * share))
+        turned = frames.add(frames.scale(self.turn, share), frames.scale(self.bend, share * share))
+        own = frames.multiply(self.start[1], _about(turned))
         return frames.multiply(frames.about(self.normal, self.swept * share), own)
 
 
-def arc_through(start: Pose, via: Pose, end: Pose, *, with_path: bool = True) -> Arc | None:
+def arc_through(
+    start: Pose, via: Pose, end: Pose, mode: CircleMode = CircleMode.PATH
+) -> Arc | None:
     """The circle through three points; None: they do not make one.
 
     Points closer than 0.1 mm, or in one line, are no circle. The orientation at `via` only
-    decides between the short and the long way of the tool's own turn (S4 datasys 2-MoveC-3).
-    `with_path` False: the tool turns as on a line (CirPathMode \\ObjectFrame).
+    decides between the short and the long way of the tool's own turn (S4 datasys 2-MoveC-3),
+    unless the mode asks for it.
     """
     a, b, c = start[0], via[0], end[0]
     to_via, to_end = frames.subtract(b, a), frames.subtract(c, a)
@@ -114,16 +118,33 @@ def arc_through(start: Pose, via: Pose, end: Pose, *, with_path: bool = True) ->
     normal = frames.unit(normal)
     sweep = _turned(frames.subtract(a, centre), frames.subtract(c, centre), normal)
     share = _turned(frames.subtract(a, centre), frames.subtract(b, centre), normal) / sweep
-    swept = sweep if with_path else 0.0
-    last = frames.multiply(frames.about(normal, -swept), end[1])
-    axis, turn = frames.to_axis(frames.multiply(frames.conjugate(start[1]), last))
-    ways = [
-        Arc(start, end, centre, normal, sweep, swept, axis, angle)
-        for angle in (turn, turn - 2 * pi)
-    ]
-    if not with_path:
-        return ways[0]
-    return min(ways, key=lambda way: frames.angle_between(way.orientation(share), via[1]))
+    swept = 0.0 if mode is CircleMode.OBJECT else sweep
+
+    def own(orientation: Quaternion, at: float) -> Vector:
+        """The tool's own turn at a share of the way, as an axis times an angle."""
+        back = frames.multiply(frames.about(normal, -swept * at), orientation)
+        axis, angle = frames.to_axis(frames.multiply(frames.conjugate(start[1]), back))
+        return frames.scale(axis, angle)
+
+    turn = own(end[1], 1.0)
+    if mode is CircleMode.OBJECT:
+        return Arc(start, end, centre, normal, sweep, swept, turn)
+    angle = frames.norm(turn)
+    long = frames.scale(turn, 1 - 2 * pi / angle) if angle > 1e-9 else turn
+    ways = [Arc(start, end, centre, normal, sweep, swept, way) for way in (turn, long)]
+    best = min(ways, key=lambda way: frames.angle_between(way.orientation(share), via[1]))
+    if mode is CircleMode.PATH:
+        return best
+    # turn * s + bend * s^2 is that of the circle point at `share` and that of the end at 1.
+    off = frames.subtract(own(via[1], share), frames.scale(best.turn, share))
+    bend = frames.scale(off, 1 / (share * share - share))
+    turn = frames.subtract(best.turn, bend)
+    return Arc(start, end, centre, normal, sweep, swept, turn, bend)
+
+
+def _about(turn: Vector) -> Quaternion:
+    angle = frames.norm(turn)
+    return frames.about(frames.scale(turn, 1 / angle), angle) if angle > 1e-12 else frames.UNIT
 
 
 def _turned(first: Vector, last: Vector, normal: Vector) -> float:

@@ -7,9 +7,8 @@ costs a few events a move, and nothing at all while it stands.
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from math import ceil, inf
-from typing import Any, Protocol
+from typing import Protocol
 
-from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.kinematics import Kinematics, MovingFrame
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import MotionGroup as GroupConfig
@@ -17,10 +16,11 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import IOSystem
 from rapidgen.virtual.kernel import Kernel, S, Timer, WaitSet
 from rapidgen.virtual.log import EventLog
-from rapidgen.virtual.motion import arguments, events, ways
+from rapidgen.virtual.motion import events, ways
 from rapidgen.virtual.motion.corners import zone_entry
 from rapidgen.virtual.motion.drive import Drive
 from rapidgen.virtual.motion.legs import Leg
+from rapidgen.virtual.motion.limits import limits_now, ramp_now, tool_frame
 from rapidgen.virtual.motion.modal import ModalSettings
 from rapidgen.virtual.motion.motion import Motion
 from rapidgen.virtual.motion.moves import Move, Posture
@@ -89,6 +89,7 @@ class MotionGroup:
         self._was_standing = True
         self._punctuality = Punctuality()
         self._concurrent = 0
+        self._limited = False
         self._settled = 0
         """Start of the motion whose settling was told."""
         self.modal = ModalSettings()
@@ -215,6 +216,21 @@ class MotionGroup:
             self._drive.reduced = value
             self._change_speed()
 
+    @property
+    def speed_limited(self) -> bool:
+        """Whether the limits of SpeedLimAxis and SpeedLimCheckPoint hold (input LimitSpeed)."""
+        return self._limited
+
+    @speed_limited.setter
+    def speed_limited(self, value: bool) -> None:
+        self._limited = value
+        self.limit_point()
+
+    def limit_point(self) -> None:
+        """The TCP's limit may have changed: it holds at once; those of axes for new moves."""
+        self._drive.tcp_limit = self.modal.point_limit if self._limited else inf
+        self._change_speed()
+
     def _change_speed(self) -> None:
         self._drive.forget()
         if self._drive.override * self._drive.refresh == 0.0:
@@ -285,7 +301,7 @@ class MotionGroup:
             fixed = max(fixed, self.motion.law.place)
         path.prune(self._drive.place())
         if self.is_standing:
-            self._drive.ramp = self._ramp()
+            self._drive.ramp = ramp_now(self.settings, self.modal)
         limits = self._limits()
         make = ways.make(self.config, self.kinematics, self.settings, limits)
         standing = self.is_standing
@@ -311,19 +327,15 @@ class MotionGroup:
         return tail
 
     def _limits(self) -> AxisLimits:
-        """What the axes may do under the settings of now (AccSet, PathAccLim)."""
-        joints, modal = self.config.joints, self.modal
-        return AxisLimits(
-            [j.speed for j in joints],
-            [j.acceleration * modal.acceleration for j in joints],
-            self.settings.corner_share,
-            modal.path_acceleration,
+        return limits_now(
+            self.config,
+            self.kinematics,
+            self.settings,
+            self.modal,
+            self.tool,
             self._drive.ramp,
+            limited=self._limited,
         )
-
-    def _ramp(self) -> float:
-        """s in which acceleration builds up under AccSet of now."""
-        return self.settings.ramp_time * self.modal.acceleration / self.modal.ramp
 
     def moving_frame(self, unit: str) -> MovingFrame | None:
         """The user frame of a unit that carries work objects; None: not known."""
@@ -376,9 +388,7 @@ class MotionGroup:
         way = self._path.way_back(self._drive.place())
         if way is None:
             return 0.0, 0.0
-        tool: Any = self.tool
-        held = IDENTITY if tool is None else arguments.frame(tool.tframe)
-        return ways.apart(self.config, self.kinematics, self.settings, way, held)
+        return ways.apart(self.config, self.kinematics, self.settings, way, tool_frame(self.tool))
 
     def jog(self, posture: Posture) -> None:
         """Put a standing robot elsewhere by hand; it returns to its path before it goes on.
@@ -464,7 +474,7 @@ class MotionGroup:
         for reason in ("move task", "other task"):
             self._stops.pop(reason, None)
         self.modal = ModalSettings()
-        self._drive.refresh = 1.0
+        self._drive.refresh, self._drive.tcp_limit = 1.0, inf
         self._concurrent = 0
         self._change_speed()
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass, field
 from math import inf
 
 from rapidgen.axes.frames import IDENTITY, Pose
+from rapidgen.virtual.motion.moves import CircleMode, Singularities
 
 
 @dataclass(slots=True)
@@ -22,15 +23,21 @@ class ModalSettings:
     """ConfL"""
     check_joint: bool = True
     """ConfJ"""
-    wrist: bool = False
-    """SingArea \\Wrist"""
+    singularities: Singularities = Singularities.OFF
+    """SingArea"""
     displacement: Pose = IDENTITY
     """Program displacement, m."""
     external_offset: tuple[float, ...] = (0.0,) * 6
     """Offsets of eax_a to eax_f in RAPID units."""
     path_acceleration: float = inf
     """PathAccLim, m/s^2 of the TCP along its path."""
-    circle_in_object: bool = False
-    """CirPathMode \\ObjectFrame: orientation on a circle turns relative to the object."""
+    world_acceleration: float = inf
+    """WorldAccLim, m/s^2 of the TCP in all directions."""
+    circle: CircleMode = CircleMode.PATH
+    """CirPathMode: how the orientation turns on a circle."""
+    axis_limits: dict[str, float] = field(default_factory=dict)
+    """SpeedLimAxis: rad/s or m/s by axis, while the speed is limited."""
+    point_limit: float = inf
+    """SpeedLimCheckPoint: m/s of the TCP, while the speed is limited."""
     extra: dict[str, object] = field(default_factory=dict)
     """Settings that change no motion here: kept so that a program can set them."""

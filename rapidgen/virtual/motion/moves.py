@@ -112,6 +112,22 @@ class JointMove(Move):
     target: Posture
 
 
+class CircleMode(Enum):
+    """CirPathMode: how the orientation turns on a circle."""
+
+    PATH = "evenly relative to the path"
+    OBJECT = "evenly relative to the object, as on a line"
+    POINT = "relative to the path, through the orientation of the circle point"
+
+
+class Singularities(Enum):
+    """SingArea: what linear and circular moves do about them."""
+
+    OFF = "nothing"
+    WRIST = "wrist axes go straight in joint space, the TCP stays on the way"
+    LOCK_AXIS_4 = "the same, with axis 4 at a multiple of 180 degrees"
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class CartesianMove(Move):
     """The TCP on a line, or on the circle through `via` (MoveL, MoveC).
@@ -124,10 +140,8 @@ class CartesianMove(Move):
     via: Pose | None = None
     wanted: Configuration | None = None
     """confdata that is checked at the end (ConfL \\On)."""
-    in_object: bool = False
-    """CirPathMode \\ObjectFrame: on a circle the orientation turns as on a line."""
-    wrist: bool = False
-    """SingArea \\Wrist: the wrist axes go straight in joint space, the TCP stays on the way."""
+    circle: CircleMode = CircleMode.PATH
+    singularities: Singularities = Singularities.OFF
 
 
 class From(Enum):

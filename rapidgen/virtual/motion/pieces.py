@@ -2,9 +2,15 @@
 
 from collections.abc import Callable, Sequence
 from copy import copy
+from itertools import pairwise
 from math import inf, sqrt
 
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Vector
 from rapidgen.virtual.motion.moves import Posture
+
+_SAMPLES = 8
+"""Parts of a piece over which the TCP's curve is measured."""
 
 
 class Piece:
@@ -157,7 +163,7 @@ class Curve(Piece):
 class AxisLimits:
     """Speeds and accelerations of the axes (rad, m), turned into limits along a path."""
 
-    __slots__ = ("accelerations", "ramp", "share", "speeds", "tcp_acceleration")
+    __slots__ = ("accelerations", "ramp", "share", "speeds", "tcp_acceleration", "world")
 
     def __init__(
         self,
@@ -166,6 +172,7 @@ class AxisLimits:
         share: float,
         tcp_acceleration: float = inf,
         ramp: float = 0.0,
+        world: tuple[Callable[[Posture], Vector], float] | None = None,
     ) -> None:
         self.speeds = tuple(speeds)
         self.accelerations = tuple(accelerations)
@@ -174,13 +181,30 @@ class AxisLimits:
         """m/s^2 of the TCP along the path (PathAccLim)."""
         self.ramp = ramp
         """s in which acceleration builds up; a standstill begins and ends half of it later."""
+        self.world = world
+        """Where the TCP of a posture is, and its largest acceleration, m/s^2 (WorldAccLim)."""
 
     def slow(self, pieces: Sequence[Piece]) -> Sequence[Piece]:
-        """Fresh pieces with the limit of the TCP's acceleration."""
+        """Fresh pieces with the limits of the TCP's acceleration, along its path and in all."""
         for piece in pieces:
             if piece.tcp * piece.acceleration > self.tcp_acceleration:
                 piece.acceleration = self.tcp_acceleration / piece.tcp
+            if self.world is not None:
+                self._slow_in_world(piece, *self.world)
         return pieces
+
+    def _slow_in_world(self, piece: Piece, tcp: Callable[[Posture], Vector], limit: float) -> None:
+        """Turning takes its part of the limit first, as it does of the axes'."""
+        step = (piece.end - piece.start) / _SAMPLES
+        row = [tcp(piece.at(piece.start + k * step)) for k in range(_SAMPLES + 1)]
+        rate = max(frames.distance(a, b) for a, b in pairwise(row)) / step
+        chords = [frames.subtract(b, a) for a, b in pairwise(row)]
+        bend = max(frames.distance(a, b) for a, b in pairwise(chords)) / (step * step)
+        if bend * piece.speed * piece.speed > limit * self.share:
+            piece.speed = sqrt(limit * self.share / bend)
+        left = limit - bend * piece.speed * piece.speed
+        if rate * piece.acceleration > left:
+            piece.acceleration = left / rate
 
     def of_line(self, rates: Posture) -> tuple[float, float]:
         """Path speed (at most 1) and acceleration on a straight joint line."""

@@ -74,7 +74,7 @@ class Request:
             external=external_posture(group, target.extax),
             via=None if via is None else frame(via),
             wanted=wanted,
-            wrist=group.modal.wrist,
-            in_object=group.modal.circle_in_object,
+            singularities=group.modal.singularities,
+            circle=group.modal.circle,
             **common,
         )

@@ -3,11 +3,13 @@
 The orientation deviates in between, also away from singularities (S4 datasys 2-SingArea).
 """
 
+from math import pi
+
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.motion.moves import Carrier, CartesianMove, Posture
+from rapidgen.virtual.motion.moves import Carrier, CartesianMove, Posture, Singularities
 
 _ROUNDS = 25
 _CLOSE = 1e-9
@@ -27,7 +29,9 @@ def _places(kinematics: Kinematics, wanted: tuple[str, ...]) -> tuple[int, ...]:
 def wrist_end(kinematics: Kinematics, move: CartesianMove, origin: Posture) -> Posture:
     """The posture at the end: in the programmed configuration, or the closest one.
 
-    With \\Wrist a linear move goes to the programmed wrist configuration (S4 datasys 2-ConfL).
+    With \\Wrist a linear move goes to the programmed wrist configuration (S4 datasys 2-ConfL);
+    with \\LockAxis4 to the one whose axis 4 is closest to where it is locked, and the little that
+    is left is orientation that the target does not get [mem].
     ERR_OUTSIDE_REACH, ERR_ROBLIMIT: there is none.
     """
     near = tuple(
@@ -39,11 +43,27 @@ def wrist_end(kinematics: Kinematics, move: CartesianMove, origin: Posture) -> P
     if not found:
         reached = kinematics.reaches(flange, near)
         raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH")
+    if move.singularities is Singularities.LOCK_AXIS_4:
+        return _locked(kinematics, move, near, found)
     if move.wanted is not None:
         for posture in found:
             if kinematics.matches(posture, move.wanted):
                 return posture
     return found[0]
+
+
+def _locked(
+    kinematics: Kinematics, move: CartesianMove, near: Posture, found: list[Posture]
+) -> Posture:
+    (fourth,) = _places(kinematics, ("rax_4",))
+    locked = pi * round(near[fourth] / pi)
+    closest: Posture = min(found, key=lambda posture: abs(posture[fourth] - locked))
+    values = list(closest)
+    values[fourth] = locked
+    end = put_tcp(kinematics, move.carrier, move.target[0], tuple(values))
+    if end is None:
+        raise RapidError("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4")
+    return end
 
 
 def put_tcp(
