@@ -8,6 +8,7 @@ on the controller's own disks.
 import os
 import shutil
 import tempfile
+import weakref
 from pathlib import Path
 from typing import BinaryIO
 
@@ -56,15 +57,25 @@ register_type("iodev", IODevice)
 register_type("dir", Directory)
 
 
+def _remove(folder: Path, owner: int) -> None:
+    """Remove a scratch folder, unless this is a forked copy of the process that made it."""
+    if os.getpid() == owner:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
 class FileSystem:
     """Disks of one controller in `folder`, or in a scratch folder that `close` removes.
+
+    A controller that nobody closed takes its scratch folder with it, too.
 
     HOME: starts as a copy of `home`; links in it are left out.
     """
 
     def __init__(self, folder: Path | None = None, *, home: Path | None = None) -> None:
-        self._scratch = folder is None
         self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-")) if folder is None else folder
+        self._scratch = (
+            weakref.finalize(self, _remove, self.folder, os.getpid()) if folder is None else None
+        )
         self._room = CAPACITY
         self._open: dict[IODevice | Directory, str] = {}
         for name in dict.fromkeys(_DEVICES.values()):
@@ -77,8 +88,8 @@ class FileSystem:
         """Close every file and remove a scratch folder."""
         for device in tuple(self._open):
             self.release(device)
-        if self._scratch:
-            shutil.rmtree(self.folder, ignore_errors=True)
+        if self._scratch is not None:
+            self._scratch()
 
     def path(self, text: str, file: str = "") -> Path:
         """Where a RAPID path (with \\File behind it) lies; relative ones are in HOME:.

@@ -1,6 +1,8 @@
 """Files. Sources: S4 reference, pages Open to ReadBin [manual]."""
 
+import gc
 import os
+from multiprocessing import get_context
 
 import pytest
 
@@ -290,3 +292,23 @@ def test_times_are_the_controllers_own(bench):
 
     bench.run(later)
     assert int(digits.get()) - first == pytest.approx(100, abs=1)
+
+
+def test_scratch_folder_goes_with_its_controller():
+    disks = FileSystem()
+    folder = disks.folder
+    assert folder.is_dir()
+    del disks
+    gc.collect()
+    assert not folder.exists()
+
+
+def test_a_forked_copy_leaves_the_folder():
+    disks = FileSystem()
+    child = get_context("fork").Process(target=disks.close)
+    child.start()
+    child.join()
+    assert child.exitcode == 0
+    assert disks.folder.is_dir()
+    disks.close()
+    assert not disks.folder.exists()
