@@ -303,6 +303,7 @@ def test_scratch_folder_goes_with_its_controller():
     assert not folder.exists()
 
 
+@pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
 def test_a_forked_copy_leaves_the_folder():
     disks = FileSystem()
     child = get_context("fork").Process(target=disks.close)
