@@ -283,7 +283,10 @@ class RoutineParser(StatementParser):
             alternatives = [self._parameter(i, i + 1 if optional else i, optional=optional)]
             while kinds[alternatives[-1].last + 1] == "|" and (optional or self.builtin):
                 at = alternatives[-1].last + 2
-                alternatives.append(self._parameter(at, at, optional=optional))
+                if self.builtin and kinds[at] == "\\":  # an optional one in place of a required
+                    alternatives.append(self._parameter(at, at + 1, optional=True))
+                else:
+                    alternatives.append(self._parameter(at, at, optional=optional))
             if len(alternatives) > 1:
                 for parameter in alternatives:
                     parameter.group = groups

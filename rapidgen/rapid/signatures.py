@@ -6,7 +6,8 @@ for what belongs to the language, public code for names.
 
 Marks behind a header: `!since 6.10`, `!until 7.0` (RobotWare versions that have it) and `!open`
 (the name is certain, its arguments are not known well enough to check). Alternatives of
-*required* parameters (`VAR signaldi Signal | PERS bool PersBool`) exist in built-ins only.
+*required* parameters (`VAR signaldi Signal | PERS bool PersBool`) exist in built-ins only, and so
+does an optional one in place of a required one (`string Message | \\string MsgArray{*}`).
 """
 
 import re
@@ -42,6 +43,7 @@ _HEADER: Final = re.compile(
     r"^(PROC|FUNC (\w+)) (\w+)(\(.*?\))(?:[ ]+!([^\n]*))?$", re.MULTILINE | re.DOTALL
 )
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
+_NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
 _MARK: Final = re.compile(r"(since|until) (\d+)\.(\d+)|(open)")
 
 
@@ -131,6 +133,13 @@ def routines() -> Mapping[str, Signature]:
 def routine_names() -> tuple[str, ...]:
     """Names of all built-in routines, without reading their parameters."""
     return tuple(header[0] for header in _headers().values())
+
+
+@cache
+def option_names(kind: Literal["procedures", "functions", "types", "values"]) -> frozenset[str]:
+    """Lower-case names that options and add-ins have; nothing more is known of them."""
+    found = _NAMES.findall(_read("names"))
+    return frozenset(name.lower() for of, names in found if of == kind for name in names.split())
 
 
 @dataclass(frozen=True, slots=True)

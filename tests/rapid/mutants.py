@@ -100,7 +100,7 @@ def _changes(node):
             new = ast.Dict(
                 node.keys[:k] + node.keys[k + 1 :], node.values[:k] + node.values[k + 1 :]
             )
-            yield f"without {_short(key)}", new
+            yield f"without {_short(key or node.values[k])}", new
 
 
 def _constants(value):
@@ -248,7 +248,7 @@ def _forget(module):
     if module == signatures.__name__:
         for cached in (
             signatures._headers, signatures.routine, signatures.routines,
-            signatures._types, signatures.predefined,
+            signatures._types, signatures.predefined, signatures.option_names,
         ):  # fmt: skip
             cached.cache_clear()
 
@@ -332,7 +332,9 @@ def _imported_anew(name, path, tree, change):
 _HEADER = re.compile(r"^(?:PROC|FUNC \w+) (\w+)\(.*?\)(?:[ ]+![^\n]*)?$", re.MULTILINE | re.DOTALL)
 _RECORD = re.compile(r"^RECORD (\w+)\n.*?^ENDRECORD", re.MULTILINE | re.DOTALL)
 _SINGLE = re.compile(r"^(?:ALIAS \w+|(?:CONST|VAR|PERS) \w+) (\w+).*;$", re.MULTILINE)
-_CLASS = re.compile(r"^!(?:value|nonvalue|semivalue) (.*)$", re.MULTILINE)
+_CLASS = re.compile(
+    r"^!(?:value|nonvalue|semivalue|procedures|functions|types|values) (.*)$", re.MULTILINE
+)
 _WORD = re.compile(r"\w+")
 
 

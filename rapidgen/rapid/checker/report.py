@@ -1,6 +1,7 @@
 """Findings of the checker: places, severities, and what is said about unknown names."""
 
 from collections.abc import Iterable
+from typing import Final, Literal
 
 from rapidgen.diagnostics import Diagnostic, Label, Severity
 from rapidgen.rapid import signatures
@@ -16,13 +17,15 @@ from rapidgen.rapid.nodes import (
     RoutineDeclaration,
 )
 
-_ROLES = {
-    "procedure": ("RG301", ROUTINES),
-    "function": ("RG301", ROUTINES),
-    "trap": ("RG301", ROUTINES),
-    "type": ("RG303", TYPES),
-    "datum": ("RG302", DATA),
+_Options = Literal["procedures", "functions", "types", "values", ""]
+_ROLES: Final[dict[str, tuple[str, frozenset[str], _Options]]] = {
+    "procedure": ("RG301", ROUTINES, "procedures"),
+    "function": ("RG301", ROUTINES, "functions"),
+    "trap": ("RG301", ROUTINES, ""),
+    "type": ("RG303", TYPES, "types"),
+    "datum": ("RG302", DATA, "values"),
 }
+"""Code, kinds of symbols that fit, and the names of options that may be there or not."""
 
 
 class Reporter:
@@ -89,9 +92,11 @@ class Reporter:
 
         Elsewhere only a name that looks like a slip is worth a warning. Once a name.
         """
-        code, kinds = _ROLES[role]
+        code, kinds, options = _ROLES[role]
         key = (role, name.lower())
         if name == "<ID>" or key in self._unknown or key[1] in self.scope.world.elsewhere:
+            return
+        if options and key[1] in signatures.option_names(options):
             return
         self._unknown.add(key)
         likely = closest(name, self._candidates(kinds))

@@ -4,7 +4,10 @@ MODULE Demo
     VAR signaldo dout;
     VAR string a{2};
     PROC main()
-        UIMsgWrite \Header:="h" \Message:="m" \Wrap \Icon:=iconInfo \Image:="i" \UIActiveSignal:=dout;
-        UIMsgWrite \Message:="m" \MsgArray:=a;  ! -> RG313
+        UIMsgWrite "h", "m" \Wrap \Icon:=iconInfo \Image:="i" \UIActiveSignal:=dout;
+        UIMsgWrite "h" \MsgArray:=a;
+        UIMsgWrite "h", "m" \MsgArray:=a;  ! -> RG313
+        UIMsgWrite "h";  ! -> RG311
+        UIMsgWrite "h", "m" \NoSuchArgument;  ! -> RG312
     ENDPROC
 ENDMODULE

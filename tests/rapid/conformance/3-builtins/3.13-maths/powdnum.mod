@@ -4,9 +4,9 @@ MODULE Demo
     VAR dnum d;
     VAR num n;
     PROC main()
-        d := PowDnum(d, d);
-        n := PowDnum(d, d);  ! -> RG307
-        d := PowDnum(d, n);  ! -> RG307
+        d := PowDnum(d, n);
+        n := PowDnum(d, n);  ! -> RG307
+        d := PowDnum(d, d);  ! -> RG307
         d := PowDnum(d);  ! -> RG311
     ENDPROC
 ENDMODULE
