@@ -53,6 +53,15 @@ class Setting:
     coverage: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class Order:
+    """An instruction to the robot; `free`: no StopMove held it."""
+
+    time: float
+    instruction: str
+    free: bool
+
+
 class Bench:
     """A booted driver, ready to be asked for things."""
 
@@ -65,6 +74,7 @@ class Bench:
         self._coverage = Coverage(self.controller) if self.setting.coverage else None
         self.group: MotionGroup = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
+        self.orders: list[Order] = []
         self.commanded: list[tuple[float, list[Point]]] = []
         """Downloads that were sent to their end, and when."""
         self._next = self.controller.kernel.after(0, self._sample)
@@ -231,6 +241,24 @@ class Bench:
 
         program.space[routine.code] = failing
         return end
+
+    def watch_orders(self) -> None:
+        """Keep in `orders` when which task orders a move or a stop."""
+        group = self.controller.motion.group(self.group.name)
+
+        def watched(instruction: str, function: Callable[..., Any]) -> Callable[..., Any]:
+            def call(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
+                self.orders.append(Order(self.now, instruction, not group.stop_reasons))
+                return function(*arguments)
+
+            return call
+
+        for task in self.controller.rapid_tasks.values():
+            for instruction in ("StopMove", "MoveAbsJ", "MoveJ", "MoveL"):
+                routine = task.program.find_routine(None, instruction.casefold())
+                assert routine is not None
+                space = task.program.space
+                space[routine.code] = watched(instruction, space[routine.code])
 
     def waits_in(self, module: str, instruction: str) -> bool:
         """Whether a module's task is at that instruction now."""

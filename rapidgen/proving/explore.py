@@ -1,30 +1,32 @@
 """Schedules x stops x faults: does what was executed stay a prefix of what was asked?
 
-One seed decides everything: which task runs when, what the clients do and when, and what
-happens to the controller. The oracle looks at the robot alone, so it judges any driver that
-speaks simple_message on the group's motion port:
+One seed decides everything: which task runs when, what the clients do and when, what happens
+to the network and to the controller. The oracle looks at the robot alone, so it judges any driver
+that speaks simple_message on the group's motion port:
 
 - a robot that stands moves only after a whole trajectory has been sent to it;
 - while it moves, it is on the way through the points of the newest trajectories;
+- once STOP has stopped it, it gets no move of the old trajectory any more;
 - a trajectory that nothing disturbed is executed to its last point, or not at all;
 - afterwards, whatever happened, a good client moves the robot.
 """
 
 import random
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
-from pathlib import Path
 from typing import TextIO
 
-from rapidgen.config.model import MotionGroup, RobotConfig, TrajectoryPolicy
+from rapidgen.config.model import RobotConfig
 from rapidgen.proving.bench import FAILURES, Bench, Setting, distance, off
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
 from rapidgen.system.model import System
+from rapidgen.virtual.faults import Direction, FaultPlan, NetworkRule
 from rapidgen.virtual.tracing import Trace
 
-_CORNER = 0.08
+CORNER = 0.08
 """rad or m by which zones and a change of trajectory may lead off the straight way."""
 
 
@@ -38,42 +40,83 @@ class Explored:
 
 
 def explore(
-    group: MotionGroup,
+    config: RobotConfig,
     system: System,
     seed: int,
     *,
-    capacity: int = 1000,
-    takes_over: bool = True,
+    only: Sequence[str] = (),
     silence: float = 4.0,
     trace: TextIO | None = None,
 ) -> Explored:
     """Run one seed; the same one gives the same history.
 
-    `silence`: s after which a new client may expect to be served. `trace` gets a line for each
-    statement of RAPID and for each step of the history.
+    `only` names the steps that a history is made of (default: all of STEPS). `silence`: s
+    after which a new client may expect to be served. `trace` gets a line for each statement
+    of RAPID and for each step of the history.
     """
-    config = RobotConfig(
-        name=system.name,
-        path=Path("-"),
-        controller="virtual",
-        robotware=system.robotware,
-        groups=(group,),
-        trajectory=replace(TrajectoryPolicy(), capacity=capacity),
+    chance = random.Random(f"{seed} walk")
+    # Half of the histories have stops at statements, which needs code that reports them.
+    statements = _statements(config, system) if seed % 4 < 2 else ()
+    setting = Setting(
+        seed=seed,
+        random_schedule=True,
+        switch_at_pers=seed % 2 == 0,
+        coverage=trace is not None or bool(statements),
+        faults=FaultPlan(network=_weather(config, chance)),
     )
-    setting = Setting(seed=seed, random_schedule=True, switch_at_pers=seed % 2 == 0)
-    bench = Bench(config, system, replace(setting, coverage=trace is not None))
+    bench = Bench(config, system, setting)
     if trace is not None:
         Trace(bench.controller, trace)
-    walk = _Walk(bench, random.Random(f"{seed} walk"), takes_over, silence, trace)
+    walk = _Walk(bench, chance, only or tuple(STEPS), silence, statements, trace)
+    finding = None
     try:
         walk.go()
         bench.healthy()
     except FAILURES as error:
-        found = Finding(seed, str(error), "\n".join(walk.plan), bench.log())
-        return Explored(seed, "\n".join(walk.plan), found)
+        finding = Finding(seed, str(error), "\n".join(walk.plan), bench.log())
     finally:
         bench.close()
-    return Explored(seed, "\n".join(walk.plan), None)
+    return Explored(seed, "\n".join(walk.plan), finding)
+
+
+def _weather(config: RobotConfig, chance: random.Random) -> tuple[NetworkRule, ...]:
+    """How the network is: mostly good, else late, in pieces, or in lumps, in one direction."""
+    kind = chance.choice(("good", "good", "good", "delay", "split", "merge"))
+    if kind == "good":
+        return ()
+    directions: tuple[Direction, ...] = ("in", "out")
+    direction = chance.choice(directions)
+    port = config.groups[0].ports.motion
+    if kind == "delay":
+        return (NetworkRule("delay", port, direction, seconds=chance.uniform(0.001, 0.2)),)
+    if kind == "merge":
+        return (NetworkRule("merge", port, direction, seconds=chance.uniform(0.005, 0.1)),)
+    size = chance.choice((1, 3, 17, 67, 68, 69, 500))
+    return (NetworkRule("split", port, direction, bytes=size, seconds=size * 2e-6),)
+
+
+@lru_cache(maxsize=4)
+def _statements(config: RobotConfig, system: System) -> tuple[tuple[str, str, int], ...]:
+    """Task, module and line of what a driver executes while it works and is stopped."""
+    bench = Bench(config, system, Setting(coverage=True))
+    try:
+        bench.run(0.5)
+        link = bench.motion()
+        for _ in range(2):
+            link.send(bench.download(bench.wave(8, duration=0.3)))
+            bench.run(1.5)
+        link.send(STOP)
+        bench.run(1)
+        reached = bench.lines()
+    finally:
+        bench.close()
+    return tuple(
+        (task.name, module.name, line)
+        for task in system.tasks
+        for module in task.modules
+        for line, hits in sorted(reached.get(module.path, {}).items())
+        if hits
+    )
 
 
 class _Walk:
@@ -83,43 +126,37 @@ class _Walk:
         self,
         bench: Bench,
         chance: random.Random,
-        takes_over: bool,
+        steps: Sequence[str],
         silence: float,
-        trace: TextIO | None = None,
+        statements: Sequence[tuple[str, str, int]],
+        trace: TextIO | None,
     ) -> None:
         self.bench = bench
         self.chance = chance
-        self.takes_over = takes_over
+        self.steps = steps
         self.silence = silence
+        self.statements = statements
         self.trace = trace
         self.plan: list[str] = []
         self.link: Link | None = None
 
     def go(self) -> None:
         """Some steps, then the question whether a good client is served."""
+        self.bench.watch_orders()
         self.bench.run(1)
+        rules = self.bench.setting.faults.network
+        if rules:
+            self._say(f"the network: {rules[0].do} {rules[0].direction}")
         for _ in range(self.chance.randrange(2, 6)):
-            step = self.chance.choice(
-                (
-                    self._whole,
-                    self._whole,
-                    self._stopped,
-                    self._stopped,
-                    self._over_capacity,
-                    self._interrupted,
-                    self._superseded,
-                    self._vanishes,
-                )
-            )
-            step()
-        self._good_client()
+            STEPS[self.chance.choice(self.steps)](self)
+        self.good_client()
 
     def _say(self, text: str) -> None:
         self.plan.append(f"{self.bench.now:12.6f} {text}")
         if self.trace is not None:
             self.trace.write(f"{self.plan[-1]}\n")
 
-    # -- steps ----------------------------------------------------------------------------------
+    # -- what steps are made of -------------------------------------------------------------------
 
     def _connect(self) -> Link:
         if self.link is None or self.link.lost:
@@ -128,7 +165,10 @@ class _Walk:
         return self.link
 
     def _points(self, count: int) -> list[Point]:
-        return self.bench.wave(count, duration=self.chance.uniform(0.15, 0.4))
+        shortest = max(0.15, 1.05 * self.bench.config.trajectory.min_segment)
+        size = self.chance.choice((0.06, 0.06, 0.01, 0.003))
+        duration = self.chance.uniform(shortest, shortest + 0.25)
+        return self.bench.wave(count, duration=duration, size=size)
 
     def _send(self, link: Link, data: bytes) -> None:
         """In pieces of any size, with pauses now and then."""
@@ -139,13 +179,72 @@ class _Walk:
             if data and self.chance.random() < 0.2:
                 self.bench.run(self.chance.uniform(0, 0.05))
 
-    def _whole(self) -> None:
+    def _disturbed(
+        self, link: Link, data: bytes, act: Callable[[], None], what: str, *, behind: bool
+    ) -> None:
+        """Send `data` and, at some time or at some statement of the driver, `act`.
+
+        `behind`: not before all of `data` was sent.
+        """
+        if not self.statements or self.chance.random() < 0.4:
+            wait = self.chance.choice(
+                (0.0, self.chance.uniform(0, 0.15), self.chance.uniform(0, 2))
+            )
+            self._say(f"... and {what} {wait * 1000:.1f} ms later")
+            self._send(link, data)
+            self.bench.run(wait)
+            act()
+            return
+        came: list[bool] = []
+        sent = not behind
+
+        def once() -> None:
+            if not came:
+                came.append(True)
+                act()
+
+        def reached() -> None:
+            if sent:
+                once()
+
+        self._at_a_statement(reached, what)
+        self._send(link, data)
+        sent = True
+        self.bench.controller.run_until(lambda: bool(came), timeout=3)
+        once()
+
+    def _at_a_statement(self, act: Callable[[], None], what: str) -> None:
+        """Do something before some statement of the driver, which then may take its time."""
+        moving = [s for s in self.statements if s[0] == self.bench.group.task]
+        task, module, line = self.chance.choice(self.chance.choice((moving, self.statements)))
+        count = self.chance.choice((1, 1, 1, 2, 3, 8))
+        busy = self.chance.choice((0, 0, 5, 40))
+        self._say(f"... and {what} at {module}:{line} in {task}, pass {count}, {busy} ms there")
+
+        def reached() -> None:
+            act()
+            for _ in range(busy):
+                # The task gets on slowly while the others go on.
+                self.bench.controller.rapid_tasks[task].charge(1_000_000)
+
+        self.bench.controller.before_statement(task, module, line, count, reached)
+
+    def _on_the_way(self, path: Sequence[Position], since: float) -> None:
+        self.bench.followed(path, since=since, corner=CORNER)
+
+    # -- steps ----------------------------------------------------------------------------------
+
+    def whole(self) -> None:
+        """A trajectory that nothing disturbs."""
         link = self._connect()
         points = self._points(self.chance.randrange(3, 15))
         self._say(f"send {len(points)} points")
+        if self.statements and self.chance.random() < 0.7:
+            self._at_a_statement(lambda: None, "a pause")
         self._executed_or_refused(link, points)
 
-    def _over_capacity(self) -> None:
+    def over_capacity(self) -> None:
+        """More points than the driver takes, where that is not too many."""
         capacity = self.bench.config.trajectory.capacity
         if capacity > 300:
             return
@@ -166,41 +265,71 @@ class _Walk:
                 f"a trajectory of {len(points)} points that nothing disturbed ended "
                 f"{distance(end, points[-1][0]):.3f} rad before its last point"
             )
-        self.bench.followed([start, *(p for p, _ in points)], since=since, corner=_CORNER)
+        self._on_the_way([start, *(p for p, _ in points)], since)
 
-    def _stopped(self) -> None:
+    def stopped(self) -> None:
+        """STOP, at any moment; now and then a new trajectory lies in the same packet."""
         link = self._connect()
         points = self._points(self.chance.randrange(4, 15))
-        wait = self.chance.choice((0.0, self.chance.uniform(0, 0.1), self.chance.uniform(0, 2)))
-        self._say(f"send {len(points)} points, STOP {wait * 1000:.1f} ms later")
+        self._say(f"send {len(points)} points")
         start, since = self.bench.position, self.bench.now
         before = len(link.frames)
-        self._send(link, self.bench.download(points))
-        self.bench.run(wait)
-        link.send(STOP)
+        stop = self.chance.choice((STOP, STOP, STOP + STOP))
+        sent: list[float] = []
+
+        def stop_now() -> None:
+            link.at_once(stop)
+            sent.append(self.bench.now)
+
+        what = "STOP" if stop == STOP else "two STOP"
+        self._disturbed(link, self.bench.download(points), stop_now, what, behind=True)
         self.bench.until(lambda: len(link.frames) > before or link.lost, 5, "STOP is answered")
+        answered = self.bench.now
         self.bench.wait_until_standing(10)
-        self.bench.followed([start, *(p for p, _ in points)], since=since, corner=_CORNER)
+        self._on_the_way([start, *(p for p, _ in points)], since)
+        self._nothing_follows(sent[0], answered)
         self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")
 
-    def _interrupted(self) -> None:
+    def _nothing_follows(self, sent: float, answered: float) -> None:
+        """Nobody orders a move to a free robot once it was stopped for a STOP."""
+        stops = [
+            order.time
+            for order in self.bench.orders
+            if order.instruction == "StopMove" and sent <= order.time <= answered
+        ]
+        over = stops[-1] if stops else answered
+        for order in self.bench.orders:
+            if order.time > over and order.free and order.instruction != "StopMove":
+                raise Broken(
+                    f"STOP was sent at {sent:.4f} s, the robot was stopped at {over:.4f} s, set "
+                    f"free, and got {order.instruction} of the old trajectory at {order.time:.4f} s"
+                )
+
+    def interrupted(self) -> None:
+        """The program is stopped, or loses its motors, and is started again."""
         link = self._connect()
         points = self._points(self.chance.randrange(4, 15))
-        wait = self.chance.choice((self.chance.uniform(0, 0.15), self.chance.uniform(0, 2)))
-        action = self.chance.choice(("stop", "stop pp-to-main", "e-stop", "motors-off"))
-        self._say(f"send {len(points)} points, {action} {wait * 1000:.1f} ms later, start again")
-        self._send(link, self.bench.download(points))
-        self.bench.run(wait)
-        for part in action.split():
-            self.bench.controller.perform(part)
+        action = self.chance.choice(
+            ("stop", "stop pp-to-main", "stop pp-to-main", "e-stop", "motors-off")
+        )
+        self._say(f"send {len(points)} points")
+        first, *more = action.split()
+        perform = self.bench.controller.perform
+        data = self.bench.download(points)
+        self._disturbed(link, data, lambda: perform(first), action, behind=False)
+        for part in more:
             self.bench.run(0.3)
+            perform(part)
+        self.bench.run(0.3)
         self.bench.wait_until_standing(10)
         self.bench.run(self.chance.uniform(0, 1))
+        self._say("... and start again")
         for again in ("reset-e-stop", "motors-on", "start"):
-            self.bench.controller.perform(again)
+            perform(again)
         self.bench.stays(3, f"the program was started after {action}; nobody asked for motion")
 
-    def _superseded(self) -> None:
+    def superseded(self) -> None:
+        """A new trajectory while the old one is under way."""
         link = self._connect()
         first = self._points(self.chance.randrange(6, 15))
         self._say(f"send {len(first)} points and, on the way, others")
@@ -213,14 +342,15 @@ class _Walk:
         self.bench.run(25)
         end = self.bench.position
         on_first = _nearest(end, [start, *(p for p, _ in first)])
-        if distance(end, second[-1][0]) > 1e-3 and on_first > _CORNER:
+        if distance(end, second[-1][0]) > 1e-3 and on_first > CORNER:
             raise Broken("the robot ended neither on the old trajectory nor at the new one's end")
         for when, seen in self.bench.track:
             ways = [start, *(p for p, _ in first), here, *(p for p, _ in second)]
-            if when >= since and _nearest(seen, ways) > 2 * _CORNER:
+            if when >= since and _nearest(seen, ways) > 2 * CORNER:
                 raise Broken(f"at {when:.3f} s the robot was on the way to nowhere")
 
-    def _vanishes(self) -> None:
+    def vanishes(self) -> None:
+        """The client is gone: with a word, without one, or in the middle of a download."""
         link = self._connect()
         how = self.chance.choice(("silent", "fin", "reset", "download"))
         self._say(f"the client is gone: {how}")
@@ -234,7 +364,7 @@ class _Walk:
         self.link = None
         self.bench.stays(self.chance.uniform(0, 1), f"its client is gone ({how})")
 
-    def _good_client(self) -> None:
+    def good_client(self) -> None:
         """Whatever happened: a client that comes now is served, and moves the robot."""
         old, self.link = self.link, None
         if old is not None and not old.lost and self.chance.random() < 0.5:
@@ -243,7 +373,7 @@ class _Walk:
         link = self._connect()
         self.bench.run(self.silence)
         for attempt in range(2):
-            points = self._points(4)
+            points = self.bench.wave(4, duration=0.4)
             self._say("a good client's trajectory")
             link.send(self.bench.download(points))
             self.bench.run(12)
@@ -257,3 +387,14 @@ class _Walk:
 
 def _nearest(seen: Position, path: Sequence[Position]) -> float:
     return min(off(seen, a, b) for a, b in pairwise(path))
+
+
+STEPS: dict[str, Callable[[_Walk], None]] = {
+    "whole": _Walk.whole,
+    "stopped": _Walk.stopped,
+    "over-capacity": _Walk.over_capacity,
+    "interrupted": _Walk.interrupted,
+    "superseded": _Walk.superseded,
+    "vanishes": _Walk.vanishes,
+}
+"""What a history is made of."""

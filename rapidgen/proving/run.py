@@ -155,11 +155,10 @@ def attempt(case: Case, config: RobotConfig, system: System, setting: Setting) -
 def _explore(seed: int) -> Explored:
     assert _shared is not None
     config, system = _shared
-    return explore(config.groups[0], system, seed, capacity=config.trajectory.capacity)
+    return explore(config, system, seed)
 
 
 def replay(config: RobotConfig, seed: int, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
     system = make_system(config, build(config))
-    capacity = config.trajectory.capacity
-    return explore(config.groups[0], system, seed, capacity=capacity, trace=trace)
+    return explore(config, system, seed, trace=trace)

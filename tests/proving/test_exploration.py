@@ -1,0 +1,80 @@
+"""The exploration finds what drivers in use get wrong, and nothing where nothing is wrong."""
+
+import io
+from dataclasses import replace
+
+import pytest
+
+from rapidgen.cli.app import main
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.explore import STEPS, explore
+from rapidgen.rapid import check, parse
+from tests.proving.defective import CAPACITY, DEFECTS, FOLDER, small_driver, with_defect
+
+SIX_AXES = load_config("irb120")
+SMALL = replace(SIX_AXES, trajectory=replace(SIX_AXES.trajectory, capacity=CAPACITY))
+SYMPTOMS = {
+    "R1": "that nothing disturbed ended",
+    "R5": "set free, and got MoveAbsJ of the old trajectory",
+    "R7a": "",
+    "R7b": "",
+    "R12": "",
+}
+
+
+@pytest.mark.parametrize("defect", DEFECTS)
+def test_a_known_defect_is_found(defect):
+    system = small_driver(defect)
+    for seed in range(300):
+        finding = explore(SMALL, system, seed).finding
+        if finding is not None:
+            break
+    assert finding is not None
+    assert SYMPTOMS[defect] in finding.detail
+    if defect.startswith("R7"):
+        assert "WaitTestAndSet lock" in "\n".join(finding.log)
+        assert ("pp-to-main" in finding.plan) == (defect == "R7a")
+
+
+def test_nothing_is_found_without_a_defect():
+    system = small_driver()
+    assert [explore(SMALL, system, seed).finding for seed in range(40)] == [None] * 40
+
+
+@pytest.mark.parametrize("defect", ["", *DEFECTS])
+def test_the_small_driver_is_rapid(defect):
+    texts = {
+        path.name: with_defect(path.read_text(encoding="ascii"), defect)
+        for path in FOLDER.glob("*.[ms]*")
+    }
+    modules = [parse(text.encode(), path=name) for name, text in texts.items()]
+    assert not list(check(modules))
+    plain = {path.name: path.read_text(encoding="ascii") for path in FOLDER.glob("*.[ms]*")}
+    assert (texts != plain) == bool(defect)
+
+
+@pytest.mark.parametrize("seed", [3, 4, 5])
+def test_a_schedule_is_the_same_when_it_is_traced(seed):
+    system = make_system(SIX_AXES, build(SIX_AXES))
+    story = io.StringIO()
+    traced = explore(SIX_AXES, system, seed, trace=story)
+    assert traced == explore(SIX_AXES, system, seed)
+    assert " T_ROB1 ROS_motion:" in story.getvalue()
+
+
+def test_every_step_alone_leaves_a_good_driver_good():
+    system = make_system(SIX_AXES, build(SIX_AXES))
+    for name in STEPS:
+        assert explore(SIX_AXES, system, 5, only=(name,)).finding is None, name
+
+
+def test_replay_tells_the_story(tmp_path, capsys):
+    trace = tmp_path / "trace.txt"
+    assert main(["test", "irb120", "--replay", "3", "--trace", str(trace)]) == 0
+    out = capsys.readouterr().out
+    assert "connect" in out
+    assert "seed 3: the invariant held" in out
+    assert "ROS_motionServer:" in trace.read_text(encoding="utf-8")
+    assert main(["test", "irb120", "--replay", "3", "--trace", str(tmp_path / "no" / "f")]) == 2
+    assert "RG803" in capsys.readouterr().err
