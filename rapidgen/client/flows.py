@@ -166,6 +166,7 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
     if isinstance(hello, messages.HelloReply):
         if core.configured is not None:
             core.configured.require(hello)
+            core.use(core.configured.narrowed(hello))
         elif not 1 <= hello.joint_count <= MAX_JOINTS:
             raise IncompatibleDriver(
                 fault("RG605", f"the driver tells {hello.joint_count} joints"), **core.evidence()

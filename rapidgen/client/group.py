@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -128,6 +128,18 @@ class Group:
     def rates_from_wire(self, values: Sequence[float]) -> tuple[float, ...]:
         """URDF joint velocities of the ten axis velocities of a message."""
         return self.map.rates_to_urdf(values[: len(self.joints)])
+
+    def narrowed(self, hello: HelloReply) -> "Group":
+        """The same with the limits that the controller has, where those are narrower."""
+        joints = tuple(
+            replace(
+                joint,
+                lower=max(joint.lower, hello.lower[i]),
+                upper=min(joint.upper, hello.upper[i]),
+            )
+            for i, joint in enumerate(self.joints)
+        )
+        return replace(self, map=replace(self.map, joints=joints))
 
     def require(self, hello: HelloReply) -> None:
         """Raise IncompatibleDriver when the driver was made for other joints."""

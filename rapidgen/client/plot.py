@@ -6,7 +6,7 @@ anti-aliased text and comes with yourdfpy anyway; matplotlib would be ten times 
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -87,17 +87,19 @@ def write_plot(
     *,
     title: str,
     prismatic: Sequence[str] = (),
+    counts: Sequence[str] = (),
 ) -> None:
     """Draw one panel a joint, all curves in each, in degrees and mm.
 
-    Joints are those of the first curve that has names; joints called in `prismatic` are in m.
-    Curves without points are left out. Raises OSError.
+    Joints are those of the first curve that has names; joints called in `prismatic` are in m,
+    those in `counts` plain numbers. Curves without points are left out. Raises OSError.
     """
-    scene = _layout(curves, title, frozenset(prismatic))
+    units = {name: ("mm", 1000.0) for name in prismatic} | {name: ("", 1.0) for name in counts}
+    scene = _layout(curves, title, units)
     if png is not None:
         _draw_png(scene, png)
     if html is not None:
-        html.write_text(_html(scene, curves, title, frozenset(prismatic)), encoding="utf-8")
+        html.write_text(_html(scene, curves, title, units), encoding="utf-8")
 
 
 def _joints(curves: Sequence[Curve]) -> tuple[str, ...]:
@@ -121,11 +123,15 @@ def _column(curve: Curve, name: str, index: int) -> Array | None:
     return column
 
 
-def _unit(name: str, prismatic: frozenset[str]) -> tuple[str, float]:
-    return ("mm", 1000.0) if name in prismatic else ("deg", 180.0 / math.pi)
+_Units = Mapping[str, tuple[str, float]]
+"""What is not in degrees: unit and factor by name."""
 
 
-def _layout(curves: Sequence[Curve], title: str, prismatic: frozenset[str]) -> _Scene:
+def _unit(name: str, units: _Units) -> tuple[str, float]:
+    return units.get(name, ("deg", 180.0 / math.pi))
+
+
+def _layout(curves: Sequence[Curve], title: str, units: _Units) -> _Scene:
     names = _joints(curves)
     columns = 1 if len(names) <= 1 else 2
     rows = max(1, -(-len(names) // columns))
@@ -142,7 +148,7 @@ def _layout(curves: Sequence[Curve], title: str, prismatic: frozenset[str]) -> _
     panels = []
     end = max((c.trajectory.duration for c in curves if len(c.trajectory)), default=1.0) or 1.0
     for index, name in enumerate(names):
-        unit, factor = _unit(name, prismatic)
+        unit, factor = _unit(name, units)
         drawn = [
             (i, curve.trajectory.times, column * factor)
             for i, curve in enumerate(curves)
@@ -192,8 +198,12 @@ def _ticks(low: float, high: float, wanted: int) -> list[float]:
     return [n * step for n in range(first, last + 1)]
 
 
+def _heading(panel: _Panel) -> str:
+    return f"{panel.name} [{panel.unit}]" if panel.unit else panel.name
+
+
 def _axes(panel: _Panel) -> tuple[list[_Line], list[_Text]]:
-    lines, texts = [], [_Text(panel.x, panel.y - 8, f"{panel.name} [{panel.unit}]", size=13)]
+    lines, texts = [], [_Text(panel.x, panel.y - 8, _heading(panel), size=13)]
     for value in _ticks(*panel.values, 4):
         row = panel.at(np.array(panel.times), np.array([value, value]))
         lines.append(_Line(row, _GRID, 1.0))
@@ -292,7 +302,7 @@ svg.addEventListener("pointermove", event => {
 """
 
 
-def _html(scene: _Scene, curves: Sequence[Curve], title: str, prismatic: frozenset[str]) -> str:
+def _html(scene: _Scene, curves: Sequence[Curve], title: str, units: _Units) -> str:
     panels: list[dict[str, Any]] = []
     for index, panel in enumerate(scene.panels):
         drawn = []
@@ -300,7 +310,7 @@ def _html(scene: _Scene, curves: Sequence[Curve], title: str, prismatic: frozens
             column = _column(curve, panel.name, index)
             if column is None:
                 continue
-            times, values = _thin(curve.trajectory.times, column * _unit(panel.name, prismatic)[1])
+            times, values = _thin(curve.trajectory.times, column * _unit(panel.name, units)[1])
             finite = np.isfinite(values) & np.isfinite(times)
             drawn.append(
                 {

@@ -191,7 +191,7 @@ def _versions() -> str:
         (
             "2",
             "POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT; HELLO on the control port; "
-            "JOINT_FEEDBACK; reasons 15 to 19, states 7 and 8",
+            "JOINT_FEEDBACK; reasons 15 to 19 and 27, states 7 and 8",
             "the reply to HELLO is longer: a driver refuses a client of version 1, a client of "
             "version 2 a driver of version 1",
         ),

@@ -181,6 +181,7 @@ class Reason(IntEnum):
     BUILD_MISMATCH = 24
     MOVING = 25
     NOT_ALLOWED = 26
+    IDLE = 27
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42
@@ -221,6 +222,7 @@ REASON_TEXTS: dict[Reason, str] = {
     Reason.BUILD_MISMATCH: "the modules on the controller are not of one build",
     Reason.MOVING: "another trajectory is being executed",
     Reason.NOT_ALLOWED: "the client's address may not move this robot",
+    Reason.IDLE: "no trajectory is under way",
     Reason.STOPPED: "stopped on request",
     Reason.SUPERSEDED: "a newer trajectory took its place",
     Reason.CLIENT_LOST: "the connection to the client was lost",
