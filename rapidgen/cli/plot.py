@@ -1,13 +1,24 @@
-"""`rapidgen plot`: commanded against executed joints as PNG and HTML."""
+"""`rapidgen plot`: commanded against executed joints, and recordings, as PNG and HTML."""
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+if TYPE_CHECKING:
+    from rapidgen.client.plot import Curve
+    from rapidgen.client.trajectory import Array
+
+_MOVES = "moves reached (program) and under way (robot)"
+
 
 def plot(
-    commanded: Annotated[Path, typer.Argument(help="CSV `time,<joint names>` (s, rad, m).")],
+    commanded: Annotated[
+        Path,
+        typer.Argument(
+            help="CSV `time,<joint names>` (s, rad, m), or one of `controller.record()`."
+        ),
+    ],
     executed: Annotated[
         Path | None, typer.Argument(help="A recording of the same, to draw over it.")
     ] = None,
@@ -19,17 +30,69 @@ def plot(
         list[str] | None, typer.Option(help="A joint that is in m; may be repeated.")
     ] = None,
 ) -> int:
-    """Draw joints over time: FILE.png and FILE.html (which shows values at the pointer)."""
+    """Draw joints over time: FILE.png and FILE.html (which shows values at the pointer).
+
+    Of a recording of a virtual controller: commanded and actual joints, the tool, and how far
+    program and robot were in the moves.
+    """
     from rapidgen.client.plot import Curve, write_plot
     from rapidgen.client.trajectory import Trajectory
 
-    curves = [Curve("commanded" if executed else commanded.stem, Trajectory.from_csv(commanded))]
+    metres, counts = list(linear or ()), []
+    if executed is None and _is_recording(commanded):
+        curves = _recorded(commanded)
+        metres += ["x", "y", "z"]
+        counts.append(_MOVES)
+    else:
+        label = "commanded" if executed else commanded.stem
+        curves = [Curve(label, Trajectory.from_csv(commanded))]
     if executed is not None:
         curves.append(Curve("executed", Trajectory.from_csv(executed)))
     base = out if out is not None else commanded.with_suffix("")
     paths = base.parent / f"{base.name}.png", base.parent / f"{base.name}.html"
     title = " against ".join(str(path.name) for path in (commanded, executed) if path)
-    write_plot(*paths, curves, title=title, prismatic=linear or ())
+    write_plot(*paths, curves, title=title, prismatic=metres, counts=counts)
     for path in paths:
         typer.echo(path)
     return 0
+
+
+def _is_recording(path: Path) -> bool:
+    from rapidgen.virtual.motion.recorder import is_recording
+
+    return path.is_file() and is_recording(path)
+
+
+def _recorded(path: Path) -> "list[Curve]":
+    """Curves of a recording. DiagnosticError RG610: it is damaged."""
+    import numpy as np
+
+    from rapidgen.client.plot import Curve
+    from rapidgen.client.trajectory import Trajectory
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+    from rapidgen.virtual.motion.recorder import read_recording
+
+    try:
+        found = read_recording(path)
+    except ValueError as error:
+        place = Span(str(path), 1, 1, 0, 0)
+        help = "record again with `controller.record()` and `write_csv`"
+        fault = Diagnostic("RG610", Severity.ERROR, str(error), place, help=help)
+        raise DiagnosticError(fault, exit_code=2) from None
+    order: dict[str, int] = {}
+    for move in (*found.program_pointer, *found.motion_pointer):
+        order.setdefault(move, len(order))
+
+    def curve(label: str, joints: "Array", moves: tuple[str, ...], more: "Array | None") -> Curve:
+        columns = [joints, np.array([[order[move]] for move in moves], dtype=np.float64)]
+        names = [*found.joints, _MOVES]
+        if more is not None:
+            columns.append(more[:, :3])
+            names += ["x", "y", "z"]
+        positions = np.hstack(columns)
+        return Curve(label, Trajectory(found.time - found.time[0], positions, tuple(names)))
+
+    return [
+        curve("commanded", found.commanded, found.program_pointer, found.tcp),
+        curve("actual", found.actual, found.motion_pointer, None),
+    ]

@@ -1,9 +1,13 @@
 """Recordings."""
 
 import csv
+from pathlib import Path
 
 import numpy as np
 import pytest
+
+from rapidgen.cli.app import main
+from rapidgen.virtual.motion.recorder import is_recording, read_recording
 
 BODY = """
     MoveAbsJ [[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, z10, tool0;
@@ -44,3 +48,42 @@ def test_any_period_gives_the_same_motion(rapid):
     program.run(2.0)
     fine, coarse = recorder.recording(0.001), recorder.recording(0.01)
     assert fine.commanded[::10] == pytest.approx(coarse.commanded, abs=0)
+
+
+def test_a_recording_is_read_back_and_drawn(rapid, tmp_path, capsys):
+    program = rapid(BODY)
+    recorder = program.controller.record()["rob1"]
+    program.run()
+    recording = recorder.recording()
+    path = tmp_path / "r.csv"
+    recording.write_csv(path)
+    found = read_recording(path)
+    assert is_recording(path)
+    assert found.joints == recording.joints
+    assert np.abs(found.commanded - recording.commanded).max() < 1e-9
+    assert np.abs(found.tcp - recording.tcp).max() < 1e-9
+    assert found.motion_pointer == recording.motion_pointer
+    assert main(["plot", str(path)]) == 0
+    png, html = (Path(name) for name in capsys.readouterr().out.split())
+    assert png.read_bytes().startswith(b"\x89PNG")
+    text = html.read_text()
+    assert '"commanded"' in text
+    assert '"actual"' in text
+    for panel in ("joint_6 [deg]", "x [mm]", "moves reached"):
+        assert panel in text
+
+
+@pytest.mark.parametrize(
+    ("row", "reason"),
+    [("1,2", "values"), ("0,0,0,0,0,0,x,0,0,0,0,0,0,0,0,0,0,0,0,0,a,b", "could not convert")],
+)
+def test_a_damaged_recording_is_a_finding(rapid, tmp_path, capsys, row, reason):
+    program = rapid(BODY)
+    recorder = program.controller.record()["rob1"]
+    program.run()
+    path = tmp_path / "r.csv"
+    recorder.recording().write_csv(path)
+    path.write_text(path.read_text() + row + "\n")
+    assert main(["plot", str(path)]) == 2
+    assert reason in capsys.readouterr().err
+    assert not path.with_suffix(".png").exists()

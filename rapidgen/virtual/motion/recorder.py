@@ -21,6 +21,9 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
+_ACTUAL = "actual_"
+_TCP = ["x", "y", "z", "q1", "q2", "q3", "q4"]
+_POINTERS = ["program_pointer", "motion_pointer"]
 PERIOD = 0.004
 """s between samples: that of the controller's own motion interface."""
 
@@ -41,11 +44,11 @@ class Recording:
     """The move instruction that the robot was executing."""
 
     def write_csv(self, path: Path | str) -> None:
-        """One row a sample, with a header."""
-        header = ["time", *self.joints, *(f"actual_{name}" for name in self.joints)]
+        """One row a sample, with a header; `read_recording` and `rapidgen plot` read it."""
+        header = ["time", *self.joints, *(f"{_ACTUAL}{name}" for name in self.joints)]
         if self.tcp is not None:
-            header += ["x", "y", "z", "q1", "q2", "q3", "q4"]
-        header += ["program_pointer", "motion_pointer"]
+            header += _TCP
+        header += _POINTERS
         with Path(path).open("w", newline="", encoding="utf-8") as file:
             writer = csv.writer(file)
             writer.writerow(header)
@@ -54,6 +57,38 @@ class Recording:
                 if self.tcp is not None:
                     row += _digits(self.tcp[i])
                 writer.writerow([*row, self.program_pointer[i], self.motion_pointer[i]])
+
+
+def is_recording(path: Path) -> bool:
+    """Whether a file begins as `Recording.write_csv` does. Raises OSError."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return file.readline().rstrip("\n").endswith("," + ",".join(_POINTERS))
+
+
+def read_recording(path: Path) -> Recording:
+    """What `Recording.write_csv` wrote. OSError; ValueError: something else."""
+    import numpy as np  # only who asks for arrays pays for them
+
+    with path.open(newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    joints = tuple(n.removeprefix(_ACTUAL) for n in header if n.startswith(_ACTUAL))
+    count = len(joints)
+    wanted = ["time", *joints, *(f"{_ACTUAL}{name}" for name in joints)]
+    tcp = header[len(wanted) : -2] == _TCP
+    if header != [*wanted, *(_TCP if tcp else ()), *_POINTERS]:
+        raise ValueError("the header is not that of a recording")
+    if any(len(row) != len(header) for row in rows):
+        raise ValueError("a row has not as many values as the header")
+    values = np.array([row[:-2] for row in rows], dtype=np.float64).reshape(len(rows), -1)
+    return Recording(
+        joints=joints,
+        time=values[:, 0],
+        commanded=values[:, 1 : 1 + count],
+        actual=values[:, 1 + count : 1 + 2 * count],
+        tcp=values[:, 1 + 2 * count :] if tcp else None,
+        program_pointer=tuple(row[-2] for row in rows),
+        motion_pointer=tuple(row[-1] for row in rows),
+    )
 
 
 class Recorder:
