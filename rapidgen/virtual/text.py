@@ -7,7 +7,7 @@ below 0.000005 or above 0.999995 counts as whole. Exponents look like 1E+10 [mem
 
 import math
 import re
-from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal
+from decimal import ROUND_DOWN, ROUND_HALF_UP, Context, Decimal
 from typing import Any
 
 from rapidgen.virtual.errors import RapidError
@@ -16,6 +16,8 @@ from rapidgen.virtual.values import DNUM, STRING_LIMIT, Record, Type, single
 NUM_DIGITS = 6
 DNUM_DIGITS = 15
 _FRACTION = 0.000005
+_ALL_DIGITS = Context(prec=800)
+"""Enough for every float with decimals behind it."""
 _LITERAL = re.compile(
     r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|TRUE|FALSE|"(?:[^"]|"")*"|[\[\],]'
 )
@@ -76,7 +78,8 @@ def literal_text(value: Any, type_: Type) -> str:  # noqa: ANN401 - any RAPID va
 def to_places(value: float, places: int, *, truncate: bool = False) -> Decimal:
     """`value` rounded (half away from zero) or cut to a number of decimals."""
     step = Decimal(1).scaleb(-places)
-    return Decimal(value).quantize(step, rounding=ROUND_DOWN if truncate else ROUND_HALF_UP)
+    rounding = ROUND_DOWN if truncate else ROUND_HALF_UP
+    return Decimal(value).quantize(step, rounding, _ALL_DIGITS)
 
 
 def fixed_text(value: float, places: int) -> str:

@@ -323,6 +323,18 @@ def test_whether_stop_move_waits_is_a_switch(rapid, waits, ended):
     assert program.run() == [ended]
 
 
+@pytest.mark.parametrize(("timed", "expected"), [(True, 2.0), (False, 1.0)])
+def test_whether_speed_refresh_stretches_a_given_time_is_a_switch(rapid, timed, expected):
+    # No source says so.
+    program = rapid(
+        HOME + "SpeedRefresh 50; ClkStart c; MoveL Offs(p,0,100,0), v100\\T:=1, fine, tool0;"
+        'ClkStop c; TPWrite "" \\Num:=ClkRead(c);',
+        DATA + "VAR clock c;\n",
+    )
+    program.controller.motion.settings = MotionSettings(refresh_timed=timed)
+    assert float(program.run()[0]) == pytest.approx(expected, abs=0.15)
+
+
 def test_a_motion_task_may_have_any_name(tmp_path):
     file = tmp_path / "Probe.mod"
     body = HOME + 'j := CJointT(); TPWrite "" \\Num:=j.robax.rax_5;'

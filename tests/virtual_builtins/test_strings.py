@@ -95,6 +95,11 @@ def test_num_to_str_refuses_negative_decimals(bench):
     assert caught.value.name == "ERR_ARGVALERR"
 
 
+def test_numbers_of_many_digits(bench):
+    assert bench("NumToStr", single(3e38), 2).startswith("3")
+    assert bench("NumToStr", single(3e38), 2, Exp=True) == "3.00E+38"
+
+
 @pytest.mark.parametrize(
     ("text", "type_", "expected"),
     [

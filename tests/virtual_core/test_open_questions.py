@@ -3,8 +3,10 @@
 import pytest
 
 from rapidgen.config import load_config
+from rapidgen.virtual import VirtualController
 from rapidgen.virtual.dialect import Dialect
-from tests.virtual_core.support import boot
+from rapidgen.virtual.motion.settings import MotionSettings
+from tests.virtual_core.support import boot, system
 
 SENDER = """
     VAR socketdev server;
@@ -125,3 +127,48 @@ def test_the_limits_of_the_axes(robot, arm, bound):
         controller.run_for(1)
         assert printed == [bound if told else "not found"]
         controller.close()
+
+
+MOVES = """
+    PROC main()
+        MoveAbsJ [[90,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v100, fine, tool0;
+        EXIT;
+    ENDPROC
+"""
+STOPS = """
+    PROC main()
+        WaitTime 0.5;
+        StopMove;
+        WaitTime 60;
+    ENDPROC
+"""
+STARTS = """
+    PROC main()
+        WaitTime 2;
+        IF IsStopMoveAct(\\FromNonMoveTask) StartMove;
+        WaitTime 60;
+    ENDPROC
+"""
+
+
+@pytest.mark.parametrize(("owner", "moves"), [("kind", True), ("task", False)])
+def test_whose_stop_start_move_takes_back(owner, moves):
+    background = {"type": "SEMISTATIC", "trust": "NoSafety"}
+    controller = VirtualController(
+        system(
+            {"T_ROB1": MOVES, "T_STOPS": STOPS, "T_STARTS": STARTS},
+            T_ROB1={"motion": True},
+            T_STOPS=background,
+            T_STARTS=background,
+        ),
+        load_config("irb120").groups,
+    )
+    controller.motion.settings = MotionSettings(stop_owner=owner)
+    group = controller.motion.group("rob1")
+    controller.run_for(1.5)
+    stopped_at = group.positions()[0]
+    assert group.is_standing
+    assert stopped_at > 0
+    controller.run_for(20)
+    assert (group.positions()[0] > stopped_at + 1) is moves
+    controller.close()

@@ -18,7 +18,10 @@ OTHER_TASK = "other task"
 
 
 def _reason(task: Task) -> str:
-    return MOVE_TASK if motion_of(task).is_motion_task(task.name) else OTHER_TASK
+    motion = motion_of(task)
+    if motion.is_motion_task(task.name):
+        return MOVE_TASK
+    return OTHER_TASK if motion.settings.stop_owner == "kind" else f"{OTHER_TASK} {task.name}"
 
 
 def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
@@ -75,11 +78,12 @@ def clear_path(task: Task) -> None:
 def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None) -> bool:
     """Whether a StopMove of a motion task, or of another task, holds the robot."""
     reasons = group_of(task).stop_reasons
+    other = any(reason.startswith(OTHER_TASK) for reason in reasons)
     if from_move:
         return MOVE_TASK in reasons
     if from_other:
-        return OTHER_TASK in reasons
-    return MOVE_TASK in reasons or OTHER_TASK in reasons
+        return other
+    return MOVE_TASK in reasons or other
 
 
 @builtin("WaitRob")

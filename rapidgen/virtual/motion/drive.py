@@ -34,6 +34,7 @@ class Drive:
         "ramp",
         "reduced",
         "refresh",
+        "refreshed",
         "settings",
         "tcp_limit",
     )
@@ -45,6 +46,8 @@ class Drive:
         """Of the controller, 0 to 1."""
         self.refresh = 1.0
         """Of the program (SpeedRefresh), 0 to 1."""
+        self.refreshed = True
+        """The newest move heeds it."""
         self.tcp_limit = inf
         """m/s of the TCP (SpeedLimCheckPoint)."""
         self.reduced = False
@@ -120,7 +123,7 @@ class Drive:
         self, pieces: tuple[Piece, ...], place: float, speed: float, wait: float
     ) -> TimeLaw | None:
         limit = min(self.tcp_limit, MANUAL_REDUCED if self.reduced else inf)
-        cap = self.override * self.refresh
+        cap = self.override * (self.refresh if self.refreshed else 1.0)
         return plan(self._spans(pieces), place, speed, cap, limit, self.ramp, wait)
 
     def _spans(self, pieces: tuple[Piece, ...]) -> tuple[Span, ...] | list[Span]:

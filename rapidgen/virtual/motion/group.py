@@ -293,6 +293,7 @@ class MotionGroup:
 
     def _append(self, move: Move) -> Leg | None:
         path = self._path
+        self._drive.refreshed = self.settings.refresh_timed or move.time is None
         waits = self.settings.zero_length == "wait" and move.time is not None
         if ways.goes_nowhere(self.config, self.kinematics, move, path.target) and not waits:
             return self._stay(move)
@@ -471,8 +472,9 @@ class MotionGroup:
         for level in self._stored:
             self._finish(list(level.path.legs), cleared=True)
         self._stored.clear()
-        for reason in ("move task", "other task"):
-            self._stops.pop(reason, None)
+        for reason in self.stop_reasons:
+            if reason.startswith(("move task", "other task")):
+                del self._stops[reason]
         self.modal = ModalSettings()
         self._drive.refresh, self._drive.tcp_limit = 1.0, inf
         self._concurrent = 0

@@ -24,6 +24,13 @@ class MotionSettings:
     """StopMove lets the program go on only when the robot stands. False: S4 datasys
     2-StopMove-1."""
 
+    stop_owner: Literal["kind", "task"] = "kind"
+    """StartMove takes back the StopMove of any task of its kind (motion task or not, the two that
+    IsStopMoveAct knows), or only that of its own task. No source."""
+
+    refresh_timed: bool = True
+    """SpeedRefresh stretches moves with \\T, too. No source."""
+
     cleared_move: Literal["return", "hang"] = "return"
     """What happens to a move instruction that waits for a path that ClearPath removes."""
 
