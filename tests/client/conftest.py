@@ -1,3 +1,4 @@
+import functools
 import sys
 from pathlib import Path
 
@@ -5,6 +6,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
+from both_clients import Blocking, Sync
 from fake_controller import FakeController
 
 from rapidgen.client import Timeouts
@@ -30,3 +32,8 @@ def quick():
     return Timeouts(
         connect=2, hello=0.3, state=1, ready=0.1, silence=0.4, send=0.5, reply=0.5, stop=0.5
     )
+
+
+@pytest.fixture(params=[Sync, Blocking], ids=["sync", "async"])
+def client(request, quick):
+    return functools.partial(request.param, timeouts=quick)

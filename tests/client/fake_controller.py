@@ -68,6 +68,7 @@ class Script:
     silent_after: float = float("inf")
     """No state after so many s of motion."""
     control: bool = False
+    control_hears_stop: bool = True
     foreign_control: bool = False
     """The control port is another driver's."""
     stream: StreamModel | None = None
@@ -275,8 +276,9 @@ class FakeController:
                 if number == 1300:
                     client.sendall(self._hello(self.script.foreign_control))
                 elif number == 11:
-                    self._take(client, piece)
-                    self._tell_stop(client)
+                    if self.script.control_hears_stop:
+                        self._take(client, piece)
+                        self._tell_stop(client)
                 elif self.script.stream is not None:
                     with self.lock:
                         self.script.stream.advance(time.monotonic())

@@ -1,13 +1,13 @@
 """Both clients against a scripted controller: everything it can do, right and wrong."""
 
 import asyncio
-import functools
 import socket
 import threading
 import time
 from dataclasses import replace
 
 import pytest
+from both_clients import Blocking
 from fake_controller import joint_frame, status_frame
 
 from rapidgen.client import (
@@ -35,81 +35,6 @@ GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=0.1)
 LONG = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=2.0)
 LOOP = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.0] * 6], seconds=0.15)
-
-
-class Sync:
-    """`Robot` under the same calls as `Blocking`."""
-
-    def __new__(cls, *arguments, **options):
-        return Robot(*arguments, **options)
-
-
-class Blocking:
-    """`AsyncRobot` whose loop runs in a thread: one test text for both clients."""
-
-    def __init__(self, *arguments, **options):
-        self._loop = asyncio.new_event_loop()
-        self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
-        self._thread.start()
-        self._target = AsyncRobot(*arguments, **options)
-
-    def _call(self, coroutine):
-        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(20)
-
-    def __enter__(self):
-        try:
-            self._call(self._target.__aenter__())
-        except BaseException:
-            self.end()
-            raise
-        return self
-
-    def __exit__(self, *error):
-        try:
-            self._call(self._target.__aexit__(*error))
-        finally:
-            self.end()
-
-    def end(self):
-        self._call(_cancel_all())
-        self._loop.call_soon_threadsafe(self._loop.stop)
-        self._thread.join(5)
-        self._loop.close()
-
-    def __getattr__(self, name):
-        value = getattr(self._target, name)
-        if not asyncio.iscoroutinefunction(value):
-            return value
-
-        @functools.wraps(value)
-        def call(*arguments, **options):
-            result = self._call(value(*arguments, **options))
-            return _Handle(self, result) if hasattr(result, "cancel") else result
-
-        return call
-
-
-class _Handle:
-    def __init__(self, owner, target):
-        self._owner, self._target = owner, target
-
-    __getattr__ = Blocking.__getattr__
-
-    def _call(self, coroutine):
-        return self._owner._call(coroutine)
-
-
-async def _cancel_all():
-    await asyncio.sleep(0)
-    tasks = asyncio.all_tasks() - {asyncio.current_task()}
-    for task in tasks:
-        task.cancel()
-    await asyncio.gather(*tasks, return_exceptions=True)
-
-
-@pytest.fixture(params=[Sync, Blocking], ids=["sync", "async"])
-def client(request, quick):
-    return functools.partial(request.param, timeouts=quick)
 
 
 @pytest.fixture(params=[True, False], ids=["rapidgen", "plain"])
