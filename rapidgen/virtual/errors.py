@@ -67,7 +67,7 @@ class RapidError(Exception):
 class FatalError(Exception):
     """An error without a number: the event is logged and the task stops."""
 
-    __slots__ = ("arguments", "cause", "event", "span", "stack", "title")
+    __slots__ = ("arguments", "cause", "event", "restartable", "span", "stack", "title")
 
     def __init__(
         self,
@@ -76,6 +76,7 @@ class FatalError(Exception):
         *arguments: str,
         span: Span | None = None,
         cause: "RapidError | None" = None,
+        restartable: bool = True,
     ) -> None:
         super().__init__(title)
         self.event = event
@@ -85,6 +86,8 @@ class FatalError(Exception):
         """Where it is, when that is not where it was raised."""
         self.cause = cause
         """The error that nobody handled."""
+        self.restartable = restartable
+        """Whether a start may try the statement again."""
         self.stack: tuple[Any, ...] = ()
         """Call stack at the error, outermost first."""
 

@@ -129,7 +129,8 @@ class Recovery(Process):
             if isinstance(second, RapidError) and second.target is not None:
                 raise  # RaiseToUser
             # Errors inside a handler go straight to the system error handler [K §7.1].
-            raise self.unhandled(self._settled(second, second.__traceback__, frame, None)) from None
+            known = self._settled(second, second.__traceback__, frame, None)
+            raise self.unhandled(known, restartable=False) from None
         except ResumeInside as order:
             way = order.way
         finally:
@@ -282,6 +283,10 @@ class Recovery(Process):
             frame = sys._getframe(1)
             if known.target is None and self._has_handler_above(frame):
                 return
+            if known.target is None and self.keep_undo(handler):
+                return
+        elif isinstance(leaving, FatalError) and self.keep_undo(handler):
+            return
         self.undo_level += 1
         try:
             handler()
@@ -295,13 +300,18 @@ class Recovery(Process):
         finally:
             self.undo_level -= 1
 
+    def keep_undo(self, handler: Callable[[], int]) -> bool:
+        """Whether an UNDO handler is left for later: the program may go on where it was."""
+        return False
+
     # -- reports ---------------------------------------------------------------------------------
 
-    def unhandled(self, raised: Exception) -> FatalError:
+    def unhandled(self, raised: Exception, *, restartable: bool = True) -> FatalError:
         """What the system error handler makes of an error."""
         error = as_rapid_error(raised)
         name = error_name(error.number)
-        fatal = FatalError(40199, f"Unhandled error {name}", name, error.text, cause=error)
+        title = f"Unhandled error {name}"
+        fatal = FatalError(40199, title, name, error.text, cause=error, restartable=restartable)
         fatal.stack = self.stack_of(raised.__traceback__)
         return fatal
 

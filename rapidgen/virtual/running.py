@@ -5,6 +5,7 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from rapidgen.system.model import TaskSpec
+from rapidgen.virtual.compiler.base import CannotCompile
 from rapidgen.virtual.compiler.program import Program, Shared
 from rapidgen.virtual.errors import (
     RECOVERABLE,
@@ -14,8 +15,8 @@ from rapidgen.virtual.errors import (
     FatalError,
 )
 from rapidgen.virtual.kernel import Kernel
+from rapidgen.virtual.pointer import Pointer
 from rapidgen.virtual.recovery import DEEPEST
-from rapidgen.virtual.task import Task
 
 State = Literal["ready", "running", "stopped", "finished", "error", "empty"]
 Event = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET"]
@@ -24,12 +25,12 @@ _WHILE_STOPPED: frozenset[Event] = frozenset({"STOP", "QSTOP", "POWER_ON"})
 _AT_RESTART: frozenset[Event] = frozenset({"RESTART"})
 
 
-class RapidTask(Task):
+class RapidTask(Pointer):
     """A task of the controller.
 
     `state`: `ready` PP stands at main · `running` · `stopped` goes on when it is started ·
-    `finished` main returned, EXIT, or the cycle ended · `error` a fault stopped it; it starts
-    again from main only · `empty` there is no entry routine.
+    `finished` main returned, EXIT, or the cycle ended · `error` a fault stopped it; a start tries
+    the faulty statement again, where `place` is known · `empty` there is no entry routine.
     """
 
     def __init__(
@@ -75,7 +76,14 @@ class RapidTask(Task):
             if not self._stop_routines_due:
                 self.release()
         elif self.state in ("ready", "finished"):
+            self.fault = None
             self._events.append("START")
+            self._set("running")
+            if not self.alive:
+                self.launch(self._body)
+        elif self.state == "error" and self.place is not None:
+            self.fault = None
+            self._events.append("RESTART")
             self._set("running")
             if not self.alive:
                 self.launch(self._body)
@@ -108,7 +116,21 @@ class RapidTask(Task):
             self.order(EndOfRun())
             self.held = False
         elif self.state != "empty":
+            kept = self.place is not None
+            self.place = None
             self._set("ready")
+            if kept and not self.alive:
+                self.launch(self._body)
+
+    @property
+    def keeps_place(self) -> bool:
+        """Whether a start after an error tries the faulty statement again."""
+        return self.controller.dialect.after_error == "statement" and self.spec.type == "NORMAL"
+
+    @property
+    def stands(self) -> bool:
+        """Whether the program is stopped, even if something runs because of that."""
+        return super().stands or self.state == "error"
 
     @property
     def leaving(self) -> bool:
@@ -123,13 +145,14 @@ class RapidTask(Task):
 
     def _body(self) -> None:
         """The greenlet of one run."""
-        step = self._begin
+        step = self._begin if self.place is None else self._again
         # Whoever hears of a state may start the task again at once.
         while self._guarded(step) or self.state == "running":
-            step = self._cycle
+            step = self._cycle if self.place is None else self._again
 
     def _begin(self) -> bool:
-        """Routines of POWER_ON, which also run when nobody starts the program."""
+        """What is due without a start: UNDO after PP to main, routines of POWER_ON."""
+        self.leave_place()
         self._prepare()
         self._run_events(_WHILE_STOPPED)
         return self.state in ("running", "stopped")
@@ -153,6 +176,22 @@ class RapidTask(Task):
         self._run_events()
         entry = self.program.globals.get(self.spec.entry.lower())
         self.program.function(entry)()  # type: ignore[arg-type]
+        return self._next_cycle()
+
+    def _again(self) -> bool:
+        """Go on where an error stopped the program."""
+        places, self.place = self.place, None
+        assert places is not None
+        self.undo_failed = False
+        self.attend()
+        self.charge(self.controller.costs.statement)
+        self._run_events()
+        try:
+            self.go_on(places)
+        except CannotCompile as error:
+            raise FatalError(
+                40_001, "Program pointer is lost", f"{error}: PP to main", restartable=False
+            ) from error
         return self._next_cycle()
 
     def _guarded(self, step: Callable[[], bool]) -> bool:
@@ -197,7 +236,9 @@ class RapidTask(Task):
         if not fatal.stack:
             fatal.stack = self.stack_of(raised.__traceback__)
         self.fault = fatal
-        self.interrupts.clear()
+        self.keep_place(fatal, raised)
+        if self.place is None:
+            self.interrupts.clear()
         self.controller.task_failed(self, fatal)
         self._set("error")
         if self.controller.dialect.fault_routines and not self.while_stopped:

@@ -95,6 +95,10 @@ class ControllerState:
             self.log.info(10_021, "Execution error reset")
         self.log.info(10_151, "Program started")
         for task in self.rapid_tasks.values():
+            if task.state == "error" and task.place is None and task.spec.type == "NORMAL":
+                self.log.warning(
+                    10_126, "Program start refused", "PP to main first", task=task.name
+                )
             task.start()
         for group in self.motion.groups.values():
             group.start("program")

@@ -14,6 +14,9 @@ class Loops(Statements):
     """Compiles compound statements. Their conditions are the statement for RETRY and TRYNEXT:
     an error in a condition makes TRYNEXT skip the whole of it [K §7.2]."""
 
+    resumed: set[int]
+    """Tokens of FORs that go on behind the value that their variable has."""
+
     # -- branches --------------------------------------------------------------------------------
 
     def _if(
@@ -133,7 +136,7 @@ class Loops(Statements):
         step = self.value_of(node.step, NUM, (), "step") if node.step is not None else None
         parts = [start, end] + ([step] if step else [])
         total = E("", NUM).take(*parts)
-        name = f"l{self._loop_number()}_{node.variable.lower()}"
+        name = loop_variable(node)
         limits = _limits(start, end, step)
         rising = start.range and end.range and start.range[1] <= end.range[0]
         if rising and start.whole and end.whole and step is None:
@@ -149,34 +152,37 @@ class Loops(Statements):
         else:
             self.pay(total)
         w.close()
+        if node.first in self.resumed:
+            self.resumed.remove(node.first)
+            code = f"AFTER({code}, {name})"
         w.emit(f"for {name} in {code}:")
         w.depth += 1
-        key = node.variable.lower()
-        hidden = self.locals.get(key)
-        self.locals[key] = Data(
-            node.variable,
-            "LOOP",
-            NUM,
-            (),
-            "local",
-            name,
-            whole=start.whole and (step is None or step.whole),
-            range=limits,
-            readonly=True,
-        )
+        whole = start.whole and (step is None or step.whole)
+        hidden = self.bind_loop(node, name, whole=whole, limits=limits)
         w.token = node.first
         w.cost(self.options.statement)
         if self.options.accounting == "statement":
             w.close()
         self._body(node.body, None)
-        if hidden is None:
-            del self.locals[key]
-        else:
-            self.locals[key] = hidden
+        self.unbind_loop(node, hidden)
 
-    def _loop_number(self) -> int:
-        self.temporaries += 1
-        return self.temporaries
+    def bind_loop(
+        self, node: n.For, code: str, *, whole: bool, limits: tuple[int, int] | None
+    ) -> Data | None:
+        """Let the variable of a FOR stand for a Python local; what it hides."""
+        key = node.variable.lower()
+        hidden = self.locals.get(key)
+        self.locals[key] = Data(
+            node.variable, "LOOP", NUM, (), "local", code, whole=whole, range=limits, readonly=True
+        )
+        return hidden
+
+    def unbind_loop(self, node: n.For, hidden: Data | None) -> None:
+        """Undo `bind_loop`."""
+        if hidden is None:
+            del self.locals[node.variable.lower()]
+        else:
+            self.locals[node.variable.lower()] = hidden
 
     def _body(self, body: Sequence[n.Statement], finish: object) -> None:
         """The statements of a loop (already indented), and the jumps that leave it."""
@@ -193,6 +199,11 @@ class Loops(Statements):
         self.nesting.pop()
         w.depth -= 1
         self.after_loop(outer)
+
+
+def loop_variable(node: n.For) -> str:
+    """The Python local of a FOR, the same wherever its routine is compiled."""
+    return f"l{node.first}_{node.variable.lower()}"
 
 
 def _limits(start: E, end: E, step: E | None) -> tuple[int, int] | None:

@@ -11,6 +11,7 @@ from rapidgen.system.model import ModuleFile
 from rapidgen.virtual.compiler import predefined, runtime
 from rapidgen.virtual.compiler.base import CannotCompile, Options
 from rapidgen.virtual.compiler.evaluate import evaluate
+from rapidgen.virtual.compiler.resume import Standing, after, compile_rest
 from rapidgen.virtual.compiler.routine import Compiled, compile_routine
 from rapidgen.virtual.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
 from rapidgen.virtual.errors import RECOVERABLE, FatalError
@@ -95,6 +96,7 @@ class Program:
             "ERRS": RECOVERABLE,
             "ARRAY": make_array,
             "TRACE": _trace,
+            "AFTER": after,
         }
         dialect = options.dialect
         if dialect.for_loop == "tested":
@@ -536,6 +538,12 @@ class Program:
             raise FatalError(
                 40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault
+        self.codes[name] = compiled
+        return function
+
+    def rest(self, standing: Standing, *, calls: bool) -> Callable[[dict[str, Any]], Any]:
+        """A function that goes on with a routine where it stands. CannotCompile: it cannot."""
+        function, compiled, name = compile_rest(self, standing, self.options, calls=calls)
         self.codes[name] = compiled
         return function
 

@@ -66,6 +66,9 @@ class RoutineCompiler(Loops):
         self.apart = [[]]
         self.depth_at = 1
         self.w = Writer(options.accounting)
+        self.entry = routine.code
+        self.file = program.code_name(routine)
+        self.resumed = set()
         self.facts = Facts(node, self.known_routine, NEVER_BOXES)
         self.goto = self.facts.goto
         self.boxed = self.facts.by_reference
@@ -75,19 +78,9 @@ class RoutineCompiler(Loops):
     def compile(self) -> tuple[CodeType, Compiled]:
         """Code of a module that defines the function."""
         node, w = self.node, self.w
-        parameters = ", ".join(
-            f"v_{p.name.lower()}" + ("=None" if p.optional or self._after_absent(i) else "")
-            for i, p in enumerate(self.routine.parameters)
-        )
         w.token = node.name_token
-        w.emit(f"def {self.routine.code}({parameters}):")
-        w.depth = 1
-        w.emit("@GLOBALS")
-        globals_at = len(w.lines) - 1
-        w.emit("b = R.b")
-        for parameter in self.routine.parameters:
-            self._parameter(parameter)
-        self._declare(node.data)
+        self.head()
+        globals_at = next(i for i, line in enumerate(w.lines) if line.text == "@GLOBALS")
         handlers_at = len(w.lines)
         body = self._part(node.body, "")
         deep, self.apart = self.apart[0], [[]]
@@ -97,7 +90,7 @@ class RoutineCompiler(Loops):
             if any("v_" in line.text for line in handler):
                 head += handler
             else:  # it uses none of the routine's variables: made once, not at each call
-                apart = f"{self.routine.code}_h"
+                apart = f"{self.entry}_h"
                 for line in handler:
                     line.depth -= 1
                 w.lines[0:0] = handler
@@ -133,13 +126,31 @@ class RoutineCompiler(Loops):
         names = ", ".join(sorted(self.globals_written))
         w.lines[globals_at].text = f"global {names}" if names else ""
         text, tokens, refunds, synced = w.render()
-        name = self.program.code_name(self.routine)
         try:
-            code = compile(text, name, "exec", dont_inherit=True)
+            code = compile(text, self.file, "exec", dont_inherit=True)
         except (SyntaxError, RecursionError) as error:
             # CPython nests 20 loops and 100 levels of indentation, not more.
             self.fault(f"statements are nested too deeply ({error.args[0]})", node)
         return code, Compiled(self.routine, self.module, text, tokens, refunds, synced)
+
+    def head(self) -> None:
+        """The function's header, its parameters and variables."""
+        w = self.w
+        parameters = ", ".join(
+            f"v_{p.name.lower()}" + ("=None" if p.optional or self._after_absent(i) else "")
+            for i, p in enumerate(self.routine.parameters)
+        )
+        w.emit(f"def {self.entry}({parameters}):")
+        w.depth = 1
+        w.emit("@GLOBALS")
+        w.emit("b = R.b")
+        self.variables()
+
+    def variables(self) -> None:
+        """Declare parameters and data."""
+        for parameter in self.routine.parameters:
+            self._parameter(parameter)
+        self._declare(self.node.data)
 
     def _after_absent(self, index: int) -> bool:
         return any(p.optional for p in self.routine.parameters[:index])

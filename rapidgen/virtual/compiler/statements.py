@@ -235,8 +235,7 @@ class Statements(Structure):
         if not place.holder:
             if data.storage in ("local", "global"):
                 self.stored.add(data.code)
-                keep = self.guarded or data.storage == "global"
-                return self.store_lines(data.code, value, kind, keep=keep)
+                return self.store_lines(data.code, value, kind, keep=True)
             return self._through("_x", f"{self._kept(data)}.v", value, kind)
         if place.member:
             return self._through("_x", f"{place.holder}.{place.key}", value, kind)

@@ -1,6 +1,7 @@
 MODULE unhandled_undo
 ! source: [mem] an unhandled error that leaves the routine runs UNDO
-! fault: ERR_DIVZERO 11
+! dialect: after_error=main
+! fault: ERR_DIVZERO 12
   PROC main()
     work;
   ENDPROC
