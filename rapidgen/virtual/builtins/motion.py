@@ -1,5 +1,7 @@
 """Move instructions: MoveAbsJ, MoveExtJ, MoveJ, MoveL, MoveC and their DO and Sync forms.
 
+Those to a robtarget differ in way and events only: they are bound by name at the end.
+
 Sources: 3HAC050917 (RobotWare 6) for arguments; S4 datasys 2-MoveAbsJ, 2-MoveL, 2-MoveC,
 2-MoveLDO and 2-MoveLSync for behaviour.
 """
@@ -11,11 +13,10 @@ from typing import Any, TypeAlias
 from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.interrupts import Interrupt
-from rapidgen.virtual.io import AnySignal
 from rapidgen.virtual.motion.access import here, moving_group
 from rapidgen.virtual.motion.arguments import dwell_of, speed_of, target_of, time_of, zone_of
 from rapidgen.virtual.motion.moves import Carrier, From, JointMove, PathEvent
-from rapidgen.virtual.motion.request import Request
+from rapidgen.virtual.motion.request import Given, bind, cartesian_move, joint_move
 from rapidgen.virtual.motion.targets import carrier_of
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
@@ -104,109 +105,21 @@ def move_ext_j(
     )
 
 
-@builtin("MoveJ", cost="move")
-def move_j(
-    task: Task,
-    concurrent: bool | None,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    tcp_speed: float | None,
-    time: float | None,
-    zone: Data,
-    radius: float | None,
-    stop: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    _load: Ref | None,
-) -> None:
-    """To a robtarget, all axes together."""
-    request = Request(
-        speed=speed,
-        tool=tool,
-        zone=zone,
-        work_object=work_object,
-        tcp_speed=tcp_speed,
-        time=time,
-        radius=radius,
-        stop=stop,
-        concurrent=concurrent,
-    )
-    group, move = request.joint(task, to)
-    group.move(task, move)
-
-
-@builtin("MoveL", cost="move")
-def move_l(
-    task: Task,
-    concurrent: bool | None,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    tcp_speed: float | None,
-    time: float | None,
-    zone: Data,
-    radius: float | None,
-    stop: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    _correction: bool | None,
-    _load: Ref | None,
-) -> None:
-    """The TCP on a straight line."""
-    move_c(
-        task, concurrent, None, to, _identity, speed, tcp_speed, time, zone, radius, stop, tool,
-        work_object, _correction, _load,
-    )  # fmt: skip
-
-
-@builtin("MoveC", cost="move")
-def move_c(
-    task: Task,
-    concurrent: bool | None,
-    via: Data,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    tcp_speed: float | None,
-    time: float | None,
-    zone: Data,
-    radius: float | None,
-    stop: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    _correction: bool | None,
-    _load: Ref | None,
-) -> None:
-    """The TCP on the circle through `via`; without it on a line."""
-    request = Request(
-        speed=speed,
-        tool=tool,
-        zone=zone,
-        work_object=work_object,
-        tcp_speed=tcp_speed,
-        time=time,
-        radius=radius,
-        stop=stop,
-        concurrent=concurrent,
-    )
-    group, move = request.cartesian(task, to, via)
-    group.move(task, move)
-
-
 # -- with a signal, or a procedure, in the middle of the corner ---------------------------------
 
 
-def _setting(task: Task, signal: AnySignal, value: float) -> PathEvent:
+def _setting(task: Task, given: Given) -> tuple[PathEvent]:
     """The output changes in the middle of the corner, at a stop point on arrival."""
+    signal, value = given["Signal"], given["Value"]
     if value not in (0, 1):
         raise RapidError("ERR_ARGVALERR", f"{signal.signal.name} to {value:g}")
     io = task.controller.io
-    return PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal.signal, value))
+    return (PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal.signal, value)),)
 
 
-def _calling(task: Task, name: str) -> PathEvent:
+def _calling(task: Task, given: Given) -> tuple[PathEvent]:
     """The procedure runs when the task next attends, as a trap would; not inside a trap."""
+    name = given["ProcName"]
     routine = task.program.globals.get(name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":
         raise RapidError("ERR_REFUNKPRC", name)
@@ -215,140 +128,15 @@ def _calling(task: Task, name: str) -> PathEvent:
         task.interrupts.queue.append((Interrupt(0, routine), None))
         task.kick()
 
-    return PathEvent(From.MIDDLE, 0.0, call)
+    return (PathEvent(From.MIDDLE, 0.0, call),)
 
 
-def _with_event(task: Task, to: Data, via: Data, *, linear: bool, request: Request) -> None:
-    group, move = request.cartesian(task, to, via) if linear else request.joint(task, to)
-    group.move(task, move)
-
-
-@builtin("MoveJDO", cost="move")
-def move_j_do(
-    task: Task,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    zone: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    signal: AnySignal,
-    value: float,
-    _load: Ref | None,
-) -> None:
-    """MoveJ that sets a digital output in the corner."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time,
-        events=(_setting(task, signal, value),),
-    )  # fmt: skip
-    _with_event(task, to, None, linear=False, request=request)
-
-
-@builtin("MoveLDO", cost="move")
-def move_l_do(
-    task: Task,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    zone: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    signal: AnySignal,
-    value: float,
-    _load: Ref | None,
-) -> None:
-    """MoveL that sets a digital output in the corner."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time,
-        events=(_setting(task, signal, value),),
-    )  # fmt: skip
-    _with_event(task, to, None, linear=True, request=request)
-
-
-@builtin("MoveCDO", cost="move")
-def move_c_do(
-    task: Task,
-    via: Data,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    zone: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    signal: AnySignal,
-    value: float,
-    _load: Ref | None,
-) -> None:
-    """MoveC that sets a digital output in the corner."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time,
-        events=(_setting(task, signal, value),),
-    )  # fmt: skip
-    _with_event(task, to, via, linear=True, request=request)
-
-
-@builtin("MoveJSync", cost="move")
-def move_j_sync(
-    task: Task,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    zone: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    procedure: str,
-    _load: Ref | None,
-) -> None:
-    """MoveJ that calls a procedure in the corner."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time,
-        events=(_calling(task, procedure),),
-    )  # fmt: skip
-    _with_event(task, to, None, linear=False, request=request)
-
-
-@builtin("MoveLSync", cost="move")
-def move_l_sync(
-    task: Task,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    zone: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    procedure: str,
-    _load: Ref | None,
-) -> None:
-    """MoveL that calls a procedure in the corner."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time,
-        events=(_calling(task, procedure),),
-    )  # fmt: skip
-    _with_event(task, to, None, linear=True, request=request)
-
-
-@builtin("MoveCSync", cost="move")
-def move_c_sync(
-    task: Task,
-    via: Data,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    zone: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    procedure: str,
-    _load: Ref | None,
-) -> None:
-    """MoveC that calls a procedure in the corner."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time,
-        events=(_calling(task, procedure),),
-    )  # fmt: skip
-    _with_event(task, to, via, linear=True, request=request)
+bind("MoveJ", joint_move)
+bind("MoveL", cartesian_move)
+bind("MoveC", cartesian_move)
+bind("MoveJDO", joint_move, _setting)
+bind("MoveLDO", cartesian_move, _setting)
+bind("MoveCDO", cartesian_move, _setting)
+bind("MoveJSync", joint_move, _calling)
+bind("MoveLSync", cartesian_move, _calling)
+bind("MoveCSync", cartesian_move, _calling)

@@ -7,20 +7,19 @@ point, the point of the hit is where the TCP was when the signal changed.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Any
 
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.io import AnySignal
 from rapidgen.virtual.kernel import WaitSet
 from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.motion.moves import Move, Posture
-from rapidgen.virtual.motion.request import Request
+from rapidgen.virtual.motion.request import Given, cartesian_move, parameter_names
 from rapidgen.virtual.motion.targets import rob_target
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
 from rapidgen.virtual.values import Ref
 
-Data: TypeAlias = Any
 _REASON = "search"
 
 
@@ -61,24 +60,18 @@ class _Hits:
             self.halt()
 
 
-def _edges(
-    both: bool | None,
-    rising: bool | None,
-    falling: bool | None,
-    high: bool | None,
-    low: bool | None,
-) -> _Edges:
-    if both:
-        return _Edges(True, True)
-    if rising:
-        return _Edges(True, False)
-    if falling:
-        return _Edges(False, True)
-    if high:
-        return _Edges(True, False, level=True)
-    if low:
-        return _Edges(False, True, level=False)
-    return _Edges(True, False, supervised=True)
+_EDGES = {
+    "Flanks": _Edges(True, True),
+    "PosFlank": _Edges(True, False),
+    "NegFlank": _Edges(False, True),
+    "HighLevel": _Edges(True, False, level=True),
+    "LowLevel": _Edges(False, True, level=False),
+}
+
+
+def _edges(given: Given) -> _Edges:
+    chosen = next((name for name in _EDGES if given[name]), None)
+    return _Edges(True, False, supervised=True) if chosen is None else _EDGES[chosen]
 
 
 def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callable[[], bool]]:
@@ -92,24 +85,15 @@ def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callab
     return cell, lambda: bool(cell.v)
 
 
-def _search(
-    task: Task,
-    group: MotionGroup,
-    move: Move,
-    watched: tuple[AnySignal | None, Ref | None],
-    edges: _Edges,
-    stops: tuple[bool | None, bool | None, bool | None, bool | None],
-    point: Ref,
-) -> None:
-    hard, on_path, soft, supervised = stops
-    signal, flag = watched
-    change, read = _source(signal, flag)
-    halting = bool(hard or on_path or soft)
+def _search(task: Task, group: MotionGroup, move: Move, given: Given) -> None:
+    edges, hard = _edges(given), bool(given["Stop"])
+    change, read = _source(given["Signal"], given["PersBool"])
+    halting = bool(hard or given["PStop"] or given["SStop"])
     hits = _Hits(
         group,
         edges,
         read,
-        (lambda: group.stop(_REASON, quick=bool(hard))) if halting else None,
+        (lambda: group.stop(_REASON, quick=hard)) if halting else None,
         read(),
     )
     if edges.supervised and hits.last:
@@ -133,77 +117,20 @@ def _search(
         if halting and hits.found:
             group.clear_path()
         group.start(_REASON)
-    if not hits.found or (supervised and len(hits.found) > 1):
+    if not hits.found or (given["Sup"] and len(hits.found) > 1):
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
-    point.set(rob_target(group, hits.found[0], move.carrier))
+    given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier))
 
 
-@builtin("SearchL", cost="move")
-def search_l(
-    task: Task,
-    hard: bool | None,
-    on_path: bool | None,
-    soft: bool | None,
-    supervised: bool | None,
-    signal: AnySignal | None,
-    flag: Ref | None,
-    both: bool | None,
-    rising: bool | None,
-    falling: bool | None,
-    high: bool | None,
-    low: bool | None,
-    point: Ref,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    tcp_speed: float | None,
-    time: float | None,
-    tool: Ref,
-    work_object: Ref | None,
-    _correction: bool | None,
-    _load: Ref | None,
-) -> None:
-    """Searches along a line."""
-    request = Request(
-        speed=speed, tool=tool, work_object=work_object, tcp_speed=tcp_speed, time=time
-    )
-    group, move = request.cartesian(task, to)
-    edges = _edges(both, rising, falling, high, low)
-    stops = (hard, on_path, soft, supervised)
-    _search(task, group, move, (signal, flag), edges, stops, point)
+def _bind(name: str) -> None:
+    names = parameter_names(name)
+
+    @builtin(name, cost="move")
+    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+        given = dict(zip(names, arguments, strict=True))
+        group, move = cartesian_move(task, given)
+        _search(task, group, move, given)
 
 
-@builtin("SearchC", cost="move")
-def search_c(
-    task: Task,
-    hard: bool | None,
-    on_path: bool | None,
-    soft: bool | None,
-    supervised: bool | None,
-    signal: AnySignal | None,
-    flag: Ref | None,
-    both: bool | None,
-    rising: bool | None,
-    falling: bool | None,
-    high: bool | None,
-    low: bool | None,
-    point: Ref,
-    via: Data,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    tcp_speed: float | None,
-    time: float | None,
-    tool: Ref,
-    work_object: Ref | None,
-    _correction: bool | None,
-    _load: Ref | None,
-) -> None:
-    """Searches along a circle."""
-    request = Request(
-        speed=speed, tool=tool, work_object=work_object, tcp_speed=tcp_speed, time=time
-    )
-    group, move = request.cartesian(task, to, via)
-    edges = _edges(both, rising, falling, high, low)
-    stops = (hard, on_path, soft, supervised)
-    _search(task, group, move, (signal, flag), edges, stops, point)
+_bind("SearchL")
+_bind("SearchC")

@@ -4,7 +4,7 @@ Sources: S4 datasys 2-TriggIO, 2-TriggInt, 2-TriggEquip, 2-TriggL; 3HAC050917 fo
 A distance counts from the end (\\Start: the beginning) of the move, \\Time in s before the end.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
 from typing import Any, TypeAlias
 
@@ -14,7 +14,7 @@ from rapidgen.virtual.io import AnySignal
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.access import group_of
 from rapidgen.virtual.motion.moves import From, PathEvent
-from rapidgen.virtual.motion.request import Request
+from rapidgen.virtual.motion.request import Given, bind, cartesian_move, joint_move
 from rapidgen.virtual.motion.triggers import TriggData
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
@@ -179,116 +179,23 @@ def trigg_check_io(
     data.set(where, amount, act)
 
 
-def _prepared(first: Data, array: Data, others: Iterable[Data]) -> tuple[PathEvent, ...]:
+def _prepared(_task: Task, given: Given) -> tuple[PathEvent, ...]:
+    array = given["TriggArray"]
     if array is not None:
         held = array.get() if isinstance(array, Ref) else array
-        given = list(held.values())
+        data = list(held.values())
     else:
-        given = [first, *others]
+        data = [given[name] for name in ("Trigg_1", *(f"T{k}" for k in range(2, 9)))]
     found = []
-    for data in given:
-        if data is None:
+    for one in data:
+        if one is None:
             continue
-        if data.event is None:
+        if one.event is None:
             raise FatalError(events.NOT_ALLOWED, "triggdata is not defined")
-        found.append(data.event)
+        found.append(one.event)
     return tuple(found)
 
 
-@builtin("TriggL", cost="move")
-def trigg_l(
-    task: Task,
-    concurrent: bool | None,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    first: Data,
-    array: Data,
-    t2: Data,
-    t3: Data,
-    t4: Data,
-    t5: Data,
-    t6: Data,
-    t7: Data,
-    t8: Data,
-    zone: Data,
-    stop: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    _correction: bool | None,
-    _load: Ref | None,
-) -> None:
-    """MoveL with events."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time, stop=stop,
-        concurrent=concurrent, events=_prepared(first, array, (t2, t3, t4, t5, t6, t7, t8)),
-    )  # fmt: skip
-    group, move = request.cartesian(task, to)
-    group.move(task, move)
-
-
-@builtin("TriggJ", cost="move")
-def trigg_j(
-    task: Task,
-    concurrent: bool | None,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    first: Data,
-    array: Data,
-    t2: Data,
-    t3: Data,
-    t4: Data,
-    t5: Data,
-    t6: Data,
-    t7: Data,
-    t8: Data,
-    zone: Data,
-    stop: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    _load: Ref | None,
-) -> None:
-    """MoveJ with events; distances are approximate, as on a controller."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time, stop=stop,
-        concurrent=concurrent, events=_prepared(first, array, (t2, t3, t4, t5, t6, t7, t8)),
-    )  # fmt: skip
-    group, move = request.joint(task, to)
-    group.move(task, move)
-
-
-@builtin("TriggC", cost="move")
-def trigg_c(
-    task: Task,
-    concurrent: bool | None,
-    via: Data,
-    to: Data,
-    _identity: float | None,
-    speed: Data,
-    time: float | None,
-    first: Data,
-    array: Data,
-    t2: Data,
-    t3: Data,
-    t4: Data,
-    t5: Data,
-    t6: Data,
-    t7: Data,
-    t8: Data,
-    zone: Data,
-    stop: Data,
-    tool: Ref,
-    work_object: Ref | None,
-    _correction: bool | None,
-    _load: Ref | None,
-) -> None:
-    """MoveC with events."""
-    request = Request(
-        speed=speed, tool=tool, zone=zone, work_object=work_object, time=time, stop=stop,
-        concurrent=concurrent, events=_prepared(first, array, (t2, t3, t4, t5, t6, t7, t8)),
-    )  # fmt: skip
-    group, move = request.cartesian(task, to, via)
-    group.move(task, move)
+bind("TriggL", cartesian_move, _prepared)
+bind("TriggC", cartesian_move, _prepared)
+bind("TriggJ", joint_move, _prepared)  # distances are approximate, as on a controller

@@ -1,8 +1,9 @@
-"""Move instructions as requests: one place where RAPID's arguments become a Move."""
+"""Move instructions to robtargets: one place where RAPID's arguments become a Move."""
 
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from typing import Any, TypeAlias
 
+from rapidgen.rapid.signatures import routine
 from rapidgen.virtual.motion.access import here, moving_group
 from rapidgen.virtual.motion.arguments import dwell_of, frame, speed_of, time_of, zone_of
 from rapidgen.virtual.motion.group import MotionGroup
@@ -13,68 +14,88 @@ from rapidgen.virtual.motion.targets import (
     external_posture,
     joints_for,
 )
+from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
-from rapidgen.virtual.values import Ref
 
-Data: TypeAlias = Any
+Given: TypeAlias = Mapping[str, Any]
+"""Arguments of a move by the names of its parameters; None: left out."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Request:
-    """What MoveJ, MoveL, MoveC and their relatives have in common, as RAPID values."""
+def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
+    """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
+    tool = given["Tool"].get()
+    work_object = given["WObj"].get() if given["WObj"] is not None else None
+    carrier = carrier_of(group, tool, work_object)
+    group.use(tool, work_object)
+    stop = given.get("Inpos")
+    return {
+        "speed": speed_of(given["Speed"], given.get("V"), group.modal),
+        "zone": zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
+        "time": time_of(given["T"], group.modal),
+        "concurrent": bool(given.get("Conc")),
+        "dwell": dwell_of(stop),
+        "carrier": carrier,
+        "place": here(task),
+    }
 
-    speed: Data
-    tool: Ref
-    zone: Data = None
-    """None: a stop point (searches)."""
-    work_object: Ref | None = None
-    tcp_speed: float | None = None
-    time: float | None = None
-    radius: float | None = None
-    stop: Data = None
-    concurrent: bool | None = None
-    events: tuple[PathEvent, ...] = ()
 
-    def _common(self, task: Task, group: MotionGroup) -> dict[str, Any]:
-        tool = self.tool.get()
-        work_object = self.work_object.get() if self.work_object is not None else None
-        carrier = carrier_of(group, tool, work_object)
-        group.use(tool, work_object)
-        fine = self.zone is None
-        return {
-            "speed": speed_of(self.speed, self.tcp_speed, group.modal),
-            "zone": FINE if fine else zone_of(self.zone, self.radius, self.stop),
-            "time": time_of(self.time, group.modal),
-            "concurrent": bool(self.concurrent),
-            "dwell": dwell_of(self.stop),
-            "carrier": carrier,
-            "place": here(task),
-            "events": self.events,
-        }
+def joint_move(
+    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+) -> tuple[MotionGroup, Move]:
+    """To a robtarget with all axes together."""
+    group = moving_group(task)
+    kinematics = group.geometry()
+    common = _common(task, group, given)
+    target = given["ToPoint"]
+    near = external_posture(group, target.extax)
+    flange = common["carrier"].at(near).flange(frame(target))
+    wanted = configuration_of(target.robconf) if group.modal.check_joint else None
+    posture = joints_for(kinematics, flange, near, wanted)
+    return group, JointMove(target=posture, events=events, **common)
 
-    def joint(self, task: Task, target: Data) -> tuple[MotionGroup, Move]:
-        """To a robtarget with all axes together."""
-        group = moving_group(task)
-        kinematics = group.geometry()
-        common = self._common(task, group)
-        near = external_posture(group, target.extax)
-        flange = common["carrier"].at(near).flange(frame(target))
-        wanted = configuration_of(target.robconf) if group.modal.check_joint else None
-        posture = joints_for(kinematics, flange, near, wanted)
-        return group, JointMove(target=posture, **common)
 
-    def cartesian(self, task: Task, target: Data, via: Data = None) -> tuple[MotionGroup, Move]:
-        """To a robtarget on a line, or on the circle through `via`."""
-        group = moving_group(task)
-        group.geometry()
-        common = self._common(task, group)
-        wanted = configuration_of(target.robconf) if group.modal.check_linear else None
-        return group, CartesianMove(
-            target=frame(target),
-            external=external_posture(group, target.extax),
-            via=None if via is None else frame(via),
-            wanted=wanted,
-            singularities=group.modal.singularities,
-            circle=group.modal.circle,
-            **common,
-        )
+def cartesian_move(
+    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+) -> tuple[MotionGroup, Move]:
+    """To a robtarget on a line, or on the circle through `CirPoint`."""
+    group = moving_group(task)
+    group.geometry()
+    common = _common(task, group, given)
+    target, via = given["ToPoint"], given.get("CirPoint")
+    wanted = configuration_of(target.robconf) if group.modal.check_linear else None
+    return group, CartesianMove(
+        target=frame(target),
+        external=external_posture(group, target.extax),
+        via=None if via is None else frame(via),
+        wanted=wanted,
+        singularities=group.modal.singularities,
+        circle=group.modal.circle,
+        events=events,
+        **common,
+    )
+
+
+Maker: TypeAlias = Callable[[Task, Given, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
+"""joint_move or cartesian_move."""
+
+
+def bind(
+    name: str,
+    make: Maker,
+    events_of: Callable[[Task, Given], tuple[PathEvent, ...]] = lambda _task, _given: (),
+) -> None:
+    """Bind a move instruction to what makes its move and its events on the path."""
+    names = parameter_names(name)
+
+    @builtin(name, cost="move")
+    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+        given = dict(zip(names, arguments, strict=True))
+        group, move = make(task, given, events_of(task, given))
+        group.move(task, move)
+
+
+def parameter_names(name: str) -> tuple[str, ...]:
+    """Names of a built-in's parameters in order."""
+    signature = routine(name)
+    assert signature is not None
+    return tuple(parameter.name for parameter in signature.parameters)
