@@ -132,6 +132,8 @@ class BlockParser(ExpressionParser):
             if kind == ";":
                 return at + 1
             if kind in STARTERS:
+                # An error that takes the rest of the text takes its ends with it.
+                self.end_reported |= kind is EOF
                 return at
             if kind is NAME and self._starts_line(at):
                 following = kinds[at + 1]

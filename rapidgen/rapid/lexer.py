@@ -25,6 +25,8 @@ UNTERMINATED: Final = "a string without its closing quote"
 
 MAX_NAME: Final = 32
 """Characters of an identifier [K §2.3]."""
+_MAX_DIGITS: Final = 300
+"""Of whole numbers that are kept as such: a float holds them in any case."""
 
 KEYWORDS: Final = frozenset(
     """ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF
@@ -122,11 +124,15 @@ def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens
 
 
 def number_value(text: str) -> float:
-    """Value of a number: an int where the text has neither point nor exponent."""
+    """Value of a number: an int where the text has neither point nor exponent.
+
+    Infinite where double precision does not hold it.
+    """
     if text.isdigit():
-        return int(text)
+        return int(text) if len(text) <= _MAX_DIGITS else float(text)
     if len(text) > 1 and text[1] in "xXoObB":
-        return int(text, 0)
+        value = int(text, 0)
+        return value if value < 10**_MAX_DIGITS else float("inf")
     return float(text)
 
 

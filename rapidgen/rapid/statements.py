@@ -39,6 +39,8 @@ class StatementParser(BlockParser):
 
     def __init__(self, tokens: Tokens) -> None:
         super().__init__(tokens)
+        self.nested = -1
+        """An IF, FOR, WHILE or TEST that stands where a compact IF has its statement."""
         self.handlers |= {
             NAME: self._named_statement,
             HOLDER: self._placeholder,
@@ -223,7 +225,11 @@ class StatementParser(BlockParser):
         kind = self.kinds[at]
         handler = self.handlers.get(kind)
         if handler is None or kind in ("IF", "FOR", "WHILE", "TEST"):
-            raise SyntaxFault(at, "THEN, an operator or a simple statement")
+            fault = SyntaxFault(at, "THEN, an operator or a simple statement")
+            # Of IF a IF b IF c ... the first is enough.
+            fault.reported = i == self.nested
+            self.nested = at
+            raise fault
         self.suspect = (i, at)
         statement = handler(at)
         if isinstance(statement, Label):

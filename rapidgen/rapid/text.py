@@ -2,11 +2,20 @@
 
 import re
 from collections.abc import Sequence
+from math import isinf
 from typing import Final
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span
 from rapidgen.rapid import faults
-from rapidgen.rapid.lexer import MAX_NAME, NAME, STRING, Tokens
+from rapidgen.rapid.lexer import (
+    BAD_RADIX,
+    MAX_NAME,
+    NAME,
+    NUMBER,
+    STRING,
+    Tokens,
+    number_value,
+)
 from rapidgen.rapid.source import Source
 
 MAX_BYTES: Final = 8_000_000
@@ -73,10 +82,21 @@ def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
 
 
 def spellings(tokens: Tokens) -> list[Diagnostic]:
-    """Names that are longer than K allows and strings with a tab, each at its first place."""
+    """Names too long, strings with a tab, numbers beyond any type: each at its first place."""
     found = []
     folded = set()
     for text, kind in tokens.spellings.items():
+        if kind in (NUMBER, BAD_RADIX) and isinf(number_value(text)):
+            at = tokens.source.tokens.index(text)
+            found.append(
+                faults.error(
+                    "RG205",
+                    f"no type holds {faults.met(tokens.source, tokens.kinds, at)}",
+                    tokens.source.span(at, at),
+                    help="num ends at 3.4E38, dnum at 1.79E308",
+                    notes=("an exponent out of range is an error of the text [K §1.4, 2.5]",),
+                )
+            )
         if kind is STRING and "\t" in text:
             at = tokens.source.tokens.index(text)
             found.append(
@@ -95,7 +115,8 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
             found.append(
                 faults.error(
                     "RG220",
-                    f"the name '{text}' has {len(text)} characters; {MAX_NAME} is the limit",
+                    f"the name {faults.met(tokens.source, tokens.kinds, at)} has {len(text)} "
+                    f"characters; {MAX_NAME} is the limit",
                     tokens.source.span(at, at),
                     help="shorten it",
                     notes=("all characters of a name count [K §2.3]",),

@@ -159,6 +159,11 @@ ENDLESS = {
     "sum": b"MODULE m PROC p() a := " + b"1 + " * 10_000,
     "components": b"MODULE m PROC p() a := a" + b".b" * 10_000,
     "ifs": b"MODULE m PROC p() " + b"IF a THEN " * 10_000,
+    "compact ifs": b"MODULE m PROC p() " + b"IF a " * 10_000 + b"b; ENDPROC ENDMODULE",
+    "unfinished compact ifs": b"MODULE m PROC p() " + b"IF a " * 10_000,
+    "digits": b"MODULE m PROC p() a := " + b"9" * 10_000 + b"; ENDPROC ENDMODULE",
+    "hexadecimal digits": b"MODULE m PROC p() a := 0x" + b"F" * 999 + b"; ENDPROC ENDMODULE",
+    "name": b"MODULE m PROC p() " + b"a" * 1_000_000 + b"; ENDPROC ENDMODULE",
     "loops": b"MODULE m PROC p() " + b"FOR i FROM 1 TO 2 DO " * 10_000,
     "module": b"MODULE",
     "module name": b"MODULE m",
@@ -176,6 +181,9 @@ ENDLESS = {
     "if": b"MODULE m PROC p() IF a THEN",
     "test": b"MODULE m PROC p() TEST a CASE 1:",
     "handler": b"MODULE m PROC p() ERROR",
+    "placeholder": b"MODULE m PROC p() <SM",
+    "late call": b'MODULE m PROC p() %"x"',
+    "optional argument": b"MODULE m PROC p() Foo 1 \\",
     "header": b"%%%\n VERSION:1\n",
 }
 
@@ -185,6 +193,32 @@ def test_bad_input_gives_one_diagnostic(name):
     module = parse(ENDLESS[name], path="bad.mod")
     assert len(module.diagnostics) == 1, module.diagnostics
     assert module.diagnostics[0].span.path == "bad.mod"
+
+
+def test_a_module_cut_off_anywhere_is_one_error():
+    """What is open at the end is told once, whatever the cut leaves behind."""
+    text = """MODULE m(SYSMODULE)
+RECORD r num x; ENDRECORD
+PERS r a := [1];
+FUNC num f(num b, \\switch c | num d)
+    VAR num e{2} := [1, -2];
+    IF b > 1 AND (NOT Present(c)) THEN
+        FOR i FROM 1 TO 2 DO e{i} := a.x; ENDFOR
+    ELSEIF b = 1 TPWrite "x" \\Num:=b; ELSE
+        TEST b CASE 1, 2: WHILE TRUE DO GOTO l; ENDWHILE DEFAULT: l: ENDTEST
+    ENDIF
+    RETURN f(1 \\c);
+ERROR (1, ERR_DIVZERO)
+    IF b = 1 RETRY;
+    RAISE;
+ENDFUNC
+ENDMODULE
+""".replace("TPWrite", "THEN TPWrite")
+    tokens = parse(text).source.tokens
+    assert parse(text).diagnostics == []
+    for length in range(1, len(tokens)):
+        found = parse(" ".join(tokens[:length])).diagnostics
+        assert len(found) == 1, (" ".join(tokens[:length])[-60:], found)
 
 
 def test_depth_limits_are_reached_without_harm():

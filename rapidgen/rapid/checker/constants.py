@@ -2,6 +2,7 @@
 
 import struct
 from collections.abc import Callable
+from math import isfinite
 from typing import Final
 
 from rapidgen.rapid.checker.symbols import Symbol
@@ -31,7 +32,9 @@ def constant(
     node: Expression, find: Callable[[str], Symbol | None], depth: int = 0
 ) -> Constant | None:
     """Value of a constant expression, or None where it is not known."""
-    if isinstance(node, NumberLiteral | StringLiteral | BoolLiteral):
+    if isinstance(node, NumberLiteral):
+        return node.value if isfinite(node.value) else None
+    if isinstance(node, StringLiteral | BoolLiteral):
         return node.value
     if depth > _MAX_DEPTH:
         return None
@@ -65,15 +68,20 @@ def _combined(operator: str, left: Constant | None, right: Constant | None) -> C
         return left + right if operator == "+" else None
     if isinstance(left, bool | str | None) or isinstance(right, bool | str | None):
         return None
-    if operator == "+":
-        return left + right
-    if operator == "-":
-        return left - right
-    if operator == "*":
-        return left * right
-    if operator == "/" and right:
-        return left / right
-    return None
+    try:
+        if operator == "+":
+            value = left + right
+        elif operator == "-":
+            value = left - right
+        elif operator == "*":
+            value = left * right
+        elif operator == "/" and right:
+            value = left / right
+        else:
+            return None
+        return value if isfinite(value) else None
+    except OverflowError:  # a whole number that no float holds
+        return None
 
 
 def is_single(value: float) -> bool:
