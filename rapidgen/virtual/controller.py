@@ -450,7 +450,11 @@ class VirtualController(ControllerState):
             stack = task.stack()
             if stack:
                 at = stack[-1]
-                lines.append(f"{task.name}: {at.span.path}:{at.span.line} ({at.routine})")
+                asks = self.operator.waits(task.name)
+                lines.append(
+                    f"{task.name}: {at.span.path}:{at.span.line} ({at.routine})"
+                    + (f", {asks}" if asks else "")
+                )
             else:
                 lines.append(f"{task.name}: not started")
         return lines

@@ -27,6 +27,8 @@ _DEVICES = {
 }
 CAPACITY = 256 * 1024 * 1024
 """Bytes that a controller's programs may write in all; then the disk is full."""
+_LONGEST_NAME = 255
+"""Bytes of a file's name."""
 MAX_OPEN = 64
 """Files and folders of one controller that may be open at a time."""
 
@@ -112,9 +114,18 @@ class FileSystem:
                 place = place.parent
             else:
                 place = _find(place, part)
-        if not place.resolve().is_relative_to(self.folder):
+        if not self._inside(place):
             raise RapidError("ERR_FILEACC", f"'{text}' leads out of the controller")
         return place
+
+    def _inside(self, place: Path) -> bool:
+        """Whether a place lies in the folder, behind all links; a loop of links lies nowhere."""
+        if len(os.fsencode(place.name)) > _LONGEST_NAME:
+            return False
+        try:
+            return place.resolve().is_relative_to(self.folder)
+        except (OSError, RuntimeError):  # RuntimeError: a loop, before Python 3.13
+            return False
 
     def hold(self, device: IODevice | Directory, task: str) -> None:
         """A file or folder is open for a task; ERR_FILEOPEN when too many are."""

@@ -53,6 +53,8 @@ class Question:
     check: Callable[[str], object]
     answer: object = None
     answered: bool = False
+    refused: str = ""
+    """The script's answer that did not fit, and why."""
     changed: WaitSet = field(default_factory=WaitSet)
 
 
@@ -133,6 +135,15 @@ class Operator:
             )
         return question
 
+    def waits(self, task: str) -> str:
+        """What a task waits for on the screen, or an empty text."""
+        for question in self.questions:
+            if question.task == task:
+                asked = question.text.replace("\n", " ")
+                reason = f"; {question.refused}" if question.refused else ""
+                return f"{question.dialog} waits for an answer to '{asked}'{reason}"
+        return ""
+
     def withdraw(self, question: Question) -> None:
         """Take a dialog off the screen."""
         if question in self.questions:
@@ -154,7 +165,8 @@ class Operator:
             try:
                 self.answer(question.number, value)
             except ValueError as error:
-                self.show(f"answer '{value}' refused: {error}")
+                question.refused = f"answer '{value}' refused: {error}"
+                self.show(question.refused)
 
 
 def read_answers(path: Path) -> list[Answer]:

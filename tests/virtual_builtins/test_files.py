@@ -191,6 +191,39 @@ def test_no_link_leads_out(bench, disk, tmp_path):
     assert caught.value.name == "ERR_FILEACC"
 
 
+@pytest.mark.parametrize("name", ["loop", "x" * 300])
+def test_what_lies_nowhere_is_an_error_not_a_fault(bench, disk, name):
+    os.symlink(disk / "loop", disk / "loop")
+    for call in (
+        lambda: bench("Open", name, IODevice(), Write=True),
+        lambda: bench("IsFile", name),
+        lambda: bench("RemoveFile", name),
+    ):
+        with pytest.raises(RapidError) as caught:
+            call()
+        assert caught.value.name == "ERR_FILEACC"
+
+
+def test_what_is_no_regular_file_is_not_opened(bench, disk):
+    """A pipe would hold the whole controller up."""
+    os.mkfifo(disk / "pipe")
+    (disk / "folder").mkdir()
+    for name in ("pipe", "folder", "HOME:"):
+        for mode in ("Read", "Write", "Append"):
+            with pytest.raises(RapidError) as caught:
+                bench("Open", name, IODevice(), **{mode: True})
+            assert caught.value.name == "ERR_FILEOPEN"
+
+
+def test_names_that_no_string_can_hold_are_shown_with_question_marks(bench, disk):
+    (disk / "\u65e5\u672c.txt").write_text("x")
+    folder, name = Directory(), bench.box("")
+    bench("OpenDir", folder, "HOME:")
+    while bench("ReadDir", folder, name) and name.get() in (".", ".."):
+        pass
+    assert name.get() == "??.txt"
+
+
 def test_home_is_a_copy_without_links(tmp_path):
     source = tmp_path / "home"
     source.mkdir()

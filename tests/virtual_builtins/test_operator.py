@@ -81,6 +81,25 @@ def test_an_answer_that_is_none_is_refused_and_the_dialog_waits(make_bench):
     assert "refused" in bench.controller.operator.rows[-1]
 
 
+def test_what_a_task_waits_for_can_be_asked(make_bench):
+    bench = make_bench(answers=[Answer("1")])
+    operator = bench.controller.operator
+    said = []
+
+    def ask(task):
+        bench.call(task, "TPReadFK", bench.box(0), "which?", "", "Go", "", "", "", MaxTime=3)
+
+    def look(task):
+        task.sleep(1)
+        said.extend([operator.waits("T1"), operator.waits("T2")])
+
+    with pytest.raises(RapidError):
+        bench.run(ask, look)
+    asked = "TPReadFK waits for an answer to 'which?'; answer '1' refused: one of Go is wanted"
+    assert said == [asked, ""]
+    assert operator.waits("T1") == ""
+
+
 @pytest.fixture
 def waiting(make_bench):
     """A bench with an operator who never answers, and signals."""

@@ -50,6 +50,8 @@ def open_file(
     files = _files(task)
     path = files.path(object_, file or "")
     files.release(device)
+    if path.exists() and not path.is_file():
+        raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''} is no regular file")
     if read:
         mode = "rb"
     elif append:
@@ -461,7 +463,13 @@ def open_dir(task: Task, device: Directory, path: str) -> None:
     if not place.is_dir():
         raise RapidError("ERR_FILEACC", f"there is no folder {path}")
     files.hold(device, task.name)
-    device.names = [".", "..", *sorted(entry.name for entry in place.iterdir())]
+    try:
+        names = sorted(os.listdir(place))
+    except OSError as error:
+        files.release(device)
+        raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
+    shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
+    device.names = [".", "..", *shown]
 
 
 @builtin("ReadDir", cost="socket")
