@@ -116,20 +116,8 @@ def _watch(cell: Cell, order: Interrupt, fire: Callable[[], None]) -> None:
 
 
 @builtin("ISignalDI")
-def i_signal_di(
-    task: RapidTask,
-    single: bool | None,
-    safe: bool | None,
-    signal: AnySignal,
-    value: float,
-    interrupt: Ref,
-) -> None:
-    """ISignalDI: on the edge to 0, to 1, or on both (2 = edge); a level is no edge."""
-    _on_edge(task, single, safe, signal, value, interrupt)
-
-
 @builtin("ISignalDO")
-def i_signal_do(
+def i_signal_digital(
     task: RapidTask,
     single: bool | None,
     safe: bool | None,
@@ -137,18 +125,7 @@ def i_signal_do(
     value: float,
     interrupt: Ref,
 ) -> None:
-    """ISignalDO: like ISignalDI."""
-    _on_edge(task, single, safe, signal, value, interrupt)
-
-
-def _on_edge(
-    task: RapidTask,
-    single: bool | None,
-    safe: bool | None,
-    signal: AnySignal,
-    value: float,
-    interrupt: Ref,
-) -> None:
+    """On the edge to 0, to 1, or on both (2 = edge); a level is no edge."""
     if value not in (0, 1, EDGE):
         raise RapidError("ERR_ARGVALERR")
     order = _order(task, interrupt, single, safe)
@@ -156,19 +133,11 @@ def _on_edge(
 
 
 @builtin("ISignalGI")
-def i_signal_gi(
-    task: RapidTask, single: bool | None, safe: bool | None, signal: AnySignal, interrupt: Ref
-) -> None:
-    """ISignalGI: on every change."""
-    order = _order(task, interrupt, single, safe)
-    _on_change(task, signal, order, lambda _: True)
-
-
 @builtin("ISignalGO")
-def i_signal_go(
+def i_signal_group(
     task: RapidTask, single: bool | None, safe: bool | None, signal: AnySignal, interrupt: Ref
 ) -> None:
-    """ISignalGO: on every change."""
+    """On every change."""
     order = _order(task, interrupt, single, safe)
     _on_change(task, signal, order, lambda _: True)
 
@@ -191,26 +160,8 @@ def _on_change(
 
 
 @builtin("ISignalAI")
-def i_signal_ai(
-    task: RapidTask,
-    single: bool | None,
-    safe: bool | None,
-    signal: AnySignal,
-    condition: float,
-    high: float,
-    low: float,
-    delta: float,
-    d_pos: bool | None,
-    d_neg: bool | None,
-    interrupt: Ref,
-) -> None:
-    """ISignalAI: see `_on_level`."""
-    order = _order(task, interrupt, single, safe)
-    _on_level(task, signal, order, (condition, high, low, delta, bool(d_pos), bool(d_neg)))
-
-
 @builtin("ISignalAO")
-def i_signal_ao(
+def i_signal_analogue(
     task: RapidTask,
     single: bool | None,
     safe: bool | None,
@@ -219,26 +170,15 @@ def i_signal_ao(
     high: float,
     low: float,
     delta: float,
-    d_pos: bool | None,
-    d_neg: bool | None,
+    upwards: bool | None,
+    downwards: bool | None,
     interrupt: Ref,
-) -> None:
-    """ISignalAO: see `_on_level`."""
-    order = _order(task, interrupt, single, safe)
-    _on_level(task, signal, order, (condition, high, low, delta, bool(d_pos), bool(d_neg)))
-
-
-def _on_level(
-    task: RapidTask,
-    signal: AnySignal,
-    order: Interrupt,
-    asked: tuple[float, float, float, float, bool, bool],
 ) -> None:
     """While the condition holds, fire whenever the value moved by more than the delta.
 
     The first event may come at once, when the condition holds already.
     """
-    condition, high, low, delta, upwards, downwards = asked
+    order = _order(task, interrupt, single, safe)
     source = signal.signal
 
     def holds(value: float) -> bool:

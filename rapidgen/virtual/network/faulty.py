@@ -16,6 +16,7 @@ from rapidgen.virtual.network.interface import (
     Network,
     NetworkFault,
     Reason,
+    taken,
 )
 
 
@@ -166,11 +167,8 @@ class FaultyNetwork(Network):
         if line is None or not line.lane_in.active:
             return self._inner.receive(endpoint, count, exact=exact, peek=peek)
         self._advance(endpoint, line)
-        there = len(line.ready)
-        if there and (there >= count or not exact):
-            data = bytes(line.ready[:count])
-            if not peek:
-                del line.ready[:count]
+        data = taken(line.ready, count, exact=exact, peek=peek)
+        if data is not None:
             return data
         self._reset_by_plan(endpoint, line, line.lane_in)
         if line.lane_in.pieces or line.end is None or line.lane_in.ended_by() is not None:

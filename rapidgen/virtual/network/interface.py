@@ -44,14 +44,34 @@ class Endpoint:
     came from.
     """
 
-    __slots__ = ("changed", "connected", "local", "peer", "sender")
+    __slots__ = ("changed", "closed", "connected", "fault", "local", "peer", "sender")
 
     def __init__(self, local: Address, peer: Address | None = None) -> None:
         self.local = local
         self.peer = peer
         self.connected = False
+        self.closed = False
+        self.fault: NetworkFault | None = None
+        """Why it cannot be used any more."""
         self.sender: Address | None = None
         self.changed = WaitSet()
+
+    def check(self) -> None:
+        """NetworkFault when it cannot be used any more."""
+        if self.fault is not None:
+            raise self.fault
+        if self.closed:
+            raise NetworkFault(Reason.CLOSED)
+
+
+def taken(buffer: bytearray, count: int, *, exact: bool, peek: bool) -> bytes | None:
+    """What `Network.receive` gives of the bytes that are there; None: not enough."""
+    if not buffer or (exact and len(buffer) < count):
+        return None
+    data = bytes(buffer[:count])
+    if not peek:
+        del buffer[:count]
+    return data
 
 
 class Network(ABC):

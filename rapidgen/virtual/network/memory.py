@@ -16,6 +16,7 @@ from rapidgen.virtual.network.interface import (
     Network,
     NetworkFault,
     Reason,
+    taken,
 )
 
 MSS = 1460
@@ -59,13 +60,11 @@ class _Pipe:
 class MemoryEndpoint(Endpoint):
     """An endpoint of the network in memory; both sides use it through the network's methods."""
 
-    __slots__ = ("backlog", "closed", "datagrams", "fault", "incoming", "listening", "outgoing")
+    __slots__ = ("backlog", "datagrams", "incoming", "listening", "outgoing")
 
     def __init__(self, local: Address, peer: Address | None = None) -> None:
         super().__init__(local, peer)
         self.listening = False
-        self.closed = False
-        self.fault: NetworkFault | None = None
         self.backlog: deque[MemoryEndpoint] = deque()
         self.datagrams: deque[tuple[Address, bytes]] | None = None
         self.incoming: _Pipe | None = None
@@ -110,7 +109,7 @@ class MemoryNetwork(Network):
     def accept(self, endpoint: Endpoint) -> MemoryEndpoint | None:
         """See `Network.accept`."""
         own = _mine(endpoint)
-        _check(own)
+        own.check()
         return own.backlog.popleft() if own.backlog else None
 
     def connect(self, host: str, port: int) -> MemoryEndpoint:
@@ -125,17 +124,17 @@ class MemoryNetwork(Network):
     def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
         """See `Network.send`."""
         own = _mine(endpoint)
-        _check(own)
+        own.check()
         if own.datagrams is not None:
             return self._send_datagram(own, data, to)
         pipe = own.outgoing
         if pipe is None:
             return 0
         room = BUFFER - len(pipe.waiting)
-        taken = data[:room]
-        pipe.waiting += taken
+        sent = data[:room]
+        pipe.waiting += sent
         self._pump(pipe)
-        return len(taken)
+        return len(sent)
 
     def receive(
         self, endpoint: Endpoint, count: int, *, exact: bool = False, peek: bool = False
@@ -145,14 +144,12 @@ class MemoryNetwork(Network):
         if own.datagrams is not None:
             return _take_datagram(own, count, peek=peek)
         pipe = own.incoming
-        there = len(pipe.arrived) if pipe is not None else 0
-        if pipe is not None and there and (there >= count or not exact):
-            data = bytes(pipe.arrived[:count])
+        data = taken(pipe.arrived, count, exact=exact, peek=peek) if pipe is not None else None
+        if pipe is not None and data is not None:
             if not peek:
-                del pipe.arrived[:count]
                 self._pump(pipe)
             return data
-        _check(own)
+        own.check()
         if pipe is not None and pipe.finished:
             return b""
         return None
@@ -307,16 +304,9 @@ def _mine(endpoint: Endpoint) -> MemoryEndpoint:
     return endpoint
 
 
-def _check(own: MemoryEndpoint) -> None:
-    if own.fault is not None:
-        raise own.fault
-    if own.closed:
-        raise NetworkFault(Reason.CLOSED)
-
-
 def _take_datagram(own: MemoryEndpoint, count: int, *, peek: bool) -> bytes | None:
     if not own.datagrams:
-        _check(own)
+        own.check()
         return None
     sender, data = own.datagrams[0] if peek else own.datagrams.popleft()
     own.sender = sender

@@ -20,6 +20,7 @@ from rapidgen.virtual.network.interface import (
     Network,
     NetworkFault,
     Reason,
+    taken,
 )
 
 PortMap = int | Literal["auto"]
@@ -46,7 +47,7 @@ _REASONS = {
 class SystemEndpoint(Endpoint):
     """An endpoint that is a socket of the operating system."""
 
-    __slots__ = ("buffer", "closed", "datagram", "ended", "fault", "interest", "port", "socket")
+    __slots__ = ("buffer", "datagram", "ended", "interest", "port", "socket")
 
     def __init__(
         self, own: socket.socket, local: Address, peer: Address | None = None, *, port: int = 0
@@ -59,8 +60,6 @@ class SystemEndpoint(Endpoint):
         self.interest = 0
         self.buffer = bytearray()
         self.ended = False
-        self.closed = False
-        self.fault: NetworkFault | None = None
 
 
 class SystemNetwork(Network):
@@ -111,7 +110,7 @@ class SystemNetwork(Network):
     def accept(self, endpoint: Endpoint) -> SystemEndpoint | None:
         """See `Network.accept`."""
         own = _mine(endpoint)
-        _check(own)
+        own.check()
         try:
             client, peer = own.socket.accept()
         except BlockingIOError:
@@ -142,7 +141,7 @@ class SystemNetwork(Network):
     def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
         """See `Network.send`."""
         own = _mine(endpoint)
-        _check(own)
+        own.check()
         if not own.connected:
             return 0
         try:
@@ -167,13 +166,10 @@ class SystemNetwork(Network):
         if own.datagram:
             return self._receive_datagram(own, count, peek=peek)
         self._fill(own, count)
-        there = len(own.buffer)
-        if there and (there >= count or not exact):
-            data = bytes(own.buffer[:count])
-            if not peek:
-                del own.buffer[:count]
+        data = taken(own.buffer, count, exact=exact, peek=peek)
+        if data is not None:
             return data
-        _check(own)
+        own.check()
         if own.ended:
             return b""
         if own.connected:
@@ -243,7 +239,7 @@ class SystemNetwork(Network):
                 own.ended = True
 
     def _receive_datagram(self, own: SystemEndpoint, count: int, *, peek: bool) -> bytes | None:
-        _check(own)
+        own.check()
         try:
             data, sender = own.socket.recvfrom(BUFFER, socket.MSG_PEEK if peek else 0)
         except BlockingIOError:
@@ -313,13 +309,6 @@ def _mine(endpoint: Endpoint) -> SystemEndpoint:
     if not isinstance(endpoint, SystemEndpoint):
         raise TypeError("an endpoint of another network")
     return endpoint
-
-
-def _check(own: SystemEndpoint) -> None:
-    if own.fault is not None:
-        raise own.fault
-    if own.closed:
-        raise NetworkFault(Reason.CLOSED)
 
 
 def _fault(error: OSError) -> NetworkFault:
