@@ -3,12 +3,20 @@ MODULE ROS_probe
     ! NORMAL task, PP to main, Start, and read the pendant (or the event log, 80003). Each line
     ! is an answer, `switch=value`, as `rapidgen run --dialect` and the test suite take it.
     !
-    ! Nothing here moves a robot, sets an output or opens a socket. The last question may stop
-    ! the program: then its answer is `unhandled_error=stop`.
+    ! Nothing here moves a robot, sets an output or opens a socket. A line that begins with
+    ! "! If the program stops now:" is the answer of the question that stopped it; then go on with
+    ! the next `ask_` routine. The last question may well do so.
+
+    ! 11 x 2^32: two int32 as one 64-bit number, the second one 11, but for the first.
+    LOCAL CONST dnum PAIR := 47244640256;
+    LOCAL CONST num FIRST := 64;
+    LOCAL CONST num SECOND := 11;
 
     LOCAL VAR intnum alarm;
     LOCAL PERS bool rung := FALSE;
     LOCAL VAR clock watch;
+    LOCAL VAR signaldo no_signal;
+    LOCAL VAR rawbytes bytes;
 
     PROC main()
         ask_num_rounding;
@@ -16,7 +24,15 @@ MODULE ROS_probe
         ask_integer_division;
         ask_negative_mod;
         ask_wait_until;
+        ask_unpack_ulint;
+        ask_unpack_beyond;
+        ask_find_behind;
+        ask_byte_to_str;
+        ask_alias_by_name;
+        ask_axis_limits;
+        ask_own_events;
         tell_statement_time;
+        tell_raw_bytes_time;
         ask_unhandled_error;
     ENDPROC
 
@@ -103,6 +119,118 @@ MODULE ROS_probe
     LOCAL TRAP on_alarm
         rung := TRUE;
     ENDTRAP
+
+    ! Do two int32 make one ULINT, whole in a dnum?
+    LOCAL PROC ask_unpack_ulint()
+        VAR dnum both := 0;
+
+        ClearRawBytes bytes;
+        PackRawBytes FIRST, bytes, 1 \IntX:=DINT;
+        PackRawBytes SECOND, bytes, 5 \IntX:=DINT;
+        UnpackRawBytes bytes, 1, both \IntX:=ULINT;
+        both := both - PAIR;
+        IF both = 64 THEN
+            answer "unpack_ulint=exact";
+        ELSE
+            answer "unpack_ulint=single";
+        ENDIF
+    ERROR
+        SkipWarn;
+        answer "unpack_ulint=error";
+        RETURN;
+    ENDPROC
+
+    ! What lies behind the valid bytes?
+    LOCAL PROC ask_unpack_beyond()
+        VAR num nothing := 1;
+
+        ClearRawBytes bytes;
+        PackRawBytes FIRST, bytes, 1 \IntX:=DINT;
+        UnpackRawBytes bytes, 5, nothing \IntX:=DINT;
+        IF nothing = 0 answer "unpack_beyond=zero";
+    ERROR
+        SkipWarn;
+        answer "unpack_beyond=error";
+        RETURN;
+    ENDPROC
+
+    ! May a search begin right behind the text?
+    LOCAL PROC ask_find_behind()
+        VAR num place;
+
+        place := StrFind("a", 2, STR_DIGIT);
+        IF place = 2 answer "find_behind=none";
+    ERROR
+        SkipWarn;
+        answer "find_behind=error";
+        RETURN;
+    ENDPROC
+
+    ! Is a control character itself, or written out?
+    LOCAL PROC ask_byte_to_str()
+        IF StrLen(ByteToStr(10 \Char)) = 1 THEN
+            answer "byte_to_str=character";
+        ELSE
+            answer "byte_to_str=code";
+        ENDIF
+    ENDPROC
+
+    ! Does AliasIO take a name, and is one that nothing has an error that can be handled?
+    LOCAL PROC ask_alias_by_name()
+        VAR string name := "no_signal_has_this_name";
+
+        answer "! If the program stops now: alias_by_name=false";
+        AliasIO name, no_signal;
+    ERROR
+        SkipWarn;
+        answer "alias_by_name=true";
+        RETURN;
+    ENDPROC
+
+    ! Does the controller tell the limits of its axes, and in rad?
+    LOCAL PROC ask_axis_limits()
+        VAR num lowest := 0;
+        VAR num highest := 0;
+
+        ReadCfgData "/MOC/ARM/rob1_1", "lower_joint_bound", lowest;
+        ReadCfgData "/MOC/ARM/rob1_1", "upper_joint_bound", highest;
+        answer "axis_limits_told=true";
+        answer "! axis 1: " + ValToStr(lowest) + " to " + ValToStr(highest) + " (rad?)";
+    ERROR
+        SkipWarn;
+        answer "axis_limits_told=false";
+        RETURN;
+    ENDPROC
+
+    ! Does a message of one's own make an interrupt? (Whether others' do needs a second task.)
+    LOCAL PROC ask_own_events()
+        rung := FALSE;
+        IDelete alarm;
+        CONNECT alarm WITH on_alarm;
+        IError COMMON_ERR, TYPE_ALL, alarm;
+        ErrWrite \I, "ROS probe", "Is this heard?";
+        WaitTime 0.5;
+        IDelete alarm;
+        IF rung THEN
+            answer "! IError hears ErrWrite: yes";
+        ELSE
+            answer "! IError hears ErrWrite: no";
+        ENDIF
+    ENDPROC
+
+    ! What a raw-bytes instruction costs here, for the cost model.
+    LOCAL PROC tell_raw_bytes_time()
+        VAR num count := 2000;
+
+        ClearRawBytes bytes;
+        ClkReset watch;
+        ClkStart watch;
+        FOR i FROM 1 TO count DO
+            PackRawBytes i, bytes, 1 \Float4;
+        ENDFOR
+        ClkStop watch;
+        answer "! microseconds a PackRawBytes: " + NumToStr(1000000 * ClkRead(watch) / count, 1);
+    ENDPROC
 
     ! What a statement costs here, for the cost model.
     LOCAL PROC tell_statement_time()

@@ -6,6 +6,7 @@ import pytest
 
 from rapidgen._data import data_folder
 from rapidgen.cli.app import main
+from rapidgen.config import load_config
 from rapidgen.rapid import check, parse
 from rapidgen.virtual import VirtualController
 from rapidgen.virtual.dialect import Dialect, parse_dialect
@@ -17,13 +18,22 @@ ASKED = {
     "integer_division": ("truncate", "floor"),
     "negative_mod": ("allow", "error"),
     "wait_until": ("polled", "event"),
+    "unpack_ulint": ("exact", "single", "error"),
+    "unpack_beyond": ("error", "zero"),
+    "find_behind": ("none", "error"),
+    "byte_to_str": ("character", "code"),
+    "axis_limits_told": (True, False),
+    "alias_by_name": (True, False),
     "unhandled_error": ("propagate", "stop"),
 }
 
 
 def answers(dialect):
     lines = []
-    with VirtualController.from_files([PROBE], dialect=dialect, cycle="once") as controller:
+    robots = load_config("irb120").groups
+    with VirtualController.from_files(
+        [PROBE], robots=robots, dialect=dialect, cycle="once"
+    ) as controller:
         controller.operator.subscribe(lambda _task, text: lines.append(text))
         controller.run(max_time=60)
         state = controller.task("T_ROB1").state
