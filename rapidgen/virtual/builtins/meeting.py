@@ -1,9 +1,8 @@
 """Tasks that wait for each other: WaitSyncTask, and SyncMoveOn to SyncMoveUndo.
 
 Sources: 3HAC050917 for arguments; ETH's and Gramazio Kohler's cells [code] for lists with empty
-names; the rest of MultiMove [mem]. Between SyncMoveOn and SyncMoveOff the tasks of the list are
-in the same program part, but their robots are not coordinated: moves with the same \\ID begin
-when their own task reaches them.
+names; the rest of MultiMove [mem]. Between SyncMoveOn and SyncMoveOff moves of one \\ID begin and
+end together (`motion/together.py`).
 """
 
 from collections.abc import Iterable
@@ -18,11 +17,8 @@ from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.running import RapidTask
 from rapidgen.virtual.values import Ref
 
-_SYNCHRONISED = "synchronised"
-"""Modal setting of a group, so that PP to main ends it: the tasks that move with it."""
-_SUSPENDED = "synchronisation suspended"
-_REFUSED, _SIDE_BY_SIDE = 49_910, 49_911
-"""Events of ours: ABB's numbers are not public."""
+_REFUSED = 49_910
+"""Event of ours: ABB's numbers are not public."""
 
 
 @dataclass
@@ -94,25 +90,23 @@ def wait_sync_task(
 
 
 def _partners(task: RapidTask) -> frozenset[str]:
-    found = group_of(task).modal.extra.get(_SYNCHRONISED, frozenset())
-    assert isinstance(found, frozenset)
-    return found
+    partners: frozenset[str] = group_of(task).modal.partners
+    return partners
 
 
 def _synchronised(task: RapidTask) -> bool:
     motion = task.controller.motion
     if not motion.is_motion_task(task.name):
         return False
-    return bool(_partners(task)) and _SUSPENDED not in group_of(task).modal.extra
+    return bool(_partners(task)) and not group_of(task).modal.suspended
 
 
 def _forget(task: RapidTask, names: Iterable[str]) -> None:
     motion = task.controller.motion
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() in names and motion.is_motion_task(other.name):
-            extra = motion.of_task(other.name).modal.extra
-            extra.pop(_SYNCHRONISED, None)
-            extra.pop(_SUSPENDED, None)
+            modal = motion.of_task(other.name).modal
+            modal.partners, modal.suspended = frozenset(), False
 
 
 @builtin("SyncMoveOn")
@@ -124,13 +118,7 @@ def sync_move_on(task: RapidTask, identity: Ref, tasks: Ref, time_out: float | N
     members = _members(task, tasks)
     wait_standing(task)
     _meet(task, ("on", _point(task, identity)), members, time_out, "ERR_SYNCMOVEON")
-    group.modal.extra[_SYNCHRONISED] = members
-    task.controller.log.warning(
-        _SIDE_BY_SIDE,
-        "Robots move side by side",
-        "moves with one \\ID are not coordinated",
-        task=task.name,
-    )
+    group.modal.partners = members
 
 
 @builtin("SyncMoveOff")
@@ -168,13 +156,10 @@ def _pause(task: RapidTask, *, suspended: bool) -> None:
     group = moving_group(task)
     members = _partners(task)
     name = "SyncMoveSuspend" if suspended else "SyncMoveResume"
-    if not members or group.path_level == 1 or (_SUSPENDED in group.modal.extra) == suspended:
+    if not members or group.path_level == 1 or group.modal.suspended == suspended:
         raise FatalError(_REFUSED, name, "it belongs to synchronised movement behind StorePath")
     _meet(task, name, members, None, "ERR_SYNCMOVEON")
-    if suspended:
-        group.modal.extra[_SUSPENDED] = True
-    else:
-        del group.modal.extra[_SUSPENDED]
+    group.modal.suspended = suspended
 
 
 @builtin("TasksInSync")

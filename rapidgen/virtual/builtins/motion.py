@@ -18,6 +18,7 @@ from rapidgen.virtual.motion.arguments import dwell_of, speed_of, target_of, tim
 from rapidgen.virtual.motion.moves import Carrier, From, JointMove, PathEvent
 from rapidgen.virtual.motion.request import Given, bind, cartesian_move, joint_move
 from rapidgen.virtual.motion.targets import carrier_of
+from rapidgen.virtual.motion.together import together
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
 from rapidgen.virtual.values import Ref
@@ -31,7 +32,7 @@ def move_abs_j(
     task: Task,
     concurrent: bool | None,
     to: Data,
-    _identity: float | None,
+    identity: float | None,
     no_offsets: bool | None,
     speed: Data,
     tcp_speed: float | None,
@@ -53,19 +54,17 @@ def move_abs_j(
     if group.kinematics is not None:
         carrier = carrier_of(group, tool_data, object_data)
     group.use(tool_data, object_data)
-    group.move(
-        task,
-        JointMove(
-            target=group.with_active(target_of(to, group.map, group.path_target, offsets)),
-            speed=speed_of(speed, tcp_speed, modal),
-            zone=zone_of(zone, radius, stop),
-            time=time_of(time, modal),
-            concurrent=bool(concurrent),
-            dwell=dwell_of(stop),
-            carrier=carrier,
-            place=here(task),
-        ),
+    move = JointMove(
+        target=group.with_active(target_of(to, group.map, group.path_target, offsets)),
+        speed=speed_of(speed, tcp_speed, modal),
+        zone=zone_of(zone, radius, stop),
+        time=time_of(time, modal),
+        concurrent=bool(concurrent),
+        dwell=dwell_of(stop),
+        carrier=carrier,
+        place=here(task),
     )
+    group.move(task, together(task, group, move, identity))
 
 
 @builtin("MoveExtJ", cost="move")
@@ -73,7 +72,7 @@ def move_ext_j(
     task: Task,
     concurrent: bool | None,
     to: Data,
-    _identity: float | None,
+    identity: float | None,
     use_offsets: bool | None,
     speed: Data,
     time: float | None,
@@ -91,18 +90,16 @@ def move_ext_j(
             for joint, new, old in zip(group.config.joints, target, ends, strict=True)
         )
     )
-    group.move(
-        task,
-        JointMove(
-            target=target,
-            speed=replace(speed_of(speed, None, modal), tcp=inf, orientation=inf),
-            zone=zone_of(zone, None, stop),
-            time=time_of(time, modal),
-            concurrent=bool(concurrent),
-            dwell=dwell_of(stop),
-            place=here(task),
-        ),
+    move = JointMove(
+        target=target,
+        speed=replace(speed_of(speed, None, modal), tcp=inf, orientation=inf),
+        zone=zone_of(zone, None, stop),
+        time=time_of(time, modal),
+        concurrent=bool(concurrent),
+        dwell=dwell_of(stop),
+        place=here(task),
     )
+    group.move(task, together(task, group, move, identity))
 
 
 # -- with a signal, or a procedure, in the middle of the corner ---------------------------------

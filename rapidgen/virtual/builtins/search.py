@@ -16,6 +16,7 @@ from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.motion.moves import Move, Posture
 from rapidgen.virtual.motion.request import Given, cartesian_move, parameter_names
 from rapidgen.virtual.motion.targets import rob_target
+from rapidgen.virtual.motion.together import together
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
 from rapidgen.virtual.values import Ref
@@ -129,7 +130,7 @@ def _bind(name: str) -> None:
     def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
         given = dict(zip(names, arguments, strict=True))
         group, move = cartesian_move(task, given)
-        _search(task, group, move, given)
+        _search(task, group, together(task, group, move, given["ID"]), given)
 
 
 _bind("SearchL")

@@ -48,6 +48,7 @@ class CartesianWay:
         "limits",
         "measure",
         "shape",
+        "strength",
         "target",
     )
 
@@ -75,13 +76,13 @@ class CartesianWay:
         self._turns = self.measure.angle > NO_TURN
         self._shares, self._nodes = self._sample(origin)
         self.target = self._nodes[-1]
-        fastest, acceleration = self._bounds()
+        fastest, self.strength = self._bounds()
         if move.time is None:
             self.duration = max(nominal_time(self.measure, move.speed), SHORTEST)
         else:
             rests = from_rest + move.zone.fine
             total = move.time - rests * limits.ramp / 2
-            self.duration = timed(total, fastest, acceleration, rests / 2)
+            self.duration = timed(total, fastest, self.strength, rests / 2)
 
     @property
     def tcp(self) -> float:

@@ -271,6 +271,20 @@ class MotionGroup:
         self._settle()
         return leg
 
+    def whole_time(self, move: Move) -> float:
+        """s from standstill or the corner before to the end of a move, were it the next one."""
+        self._check(move)
+        path = self._path
+        if ways.goes_nowhere(self.config, self.kinematics, move, path.target):
+            return 0.0
+        from_rest = path.tail is None or path.tail.stops
+        if self.is_standing:
+            self._drive.ramp = ramp_now(self.settings, self.modal)
+        make = ways.make(self.config, self.kinematics, self.settings, self._limits())
+        way = make(path.target, move, from_rest)
+        rests = from_rest + move.zone.fine
+        return way.duration + rests * (0.5 / (way.duration * way.strength) + self._drive.ramp / 2)
+
     def wait(self, task: Waiter, leg: Leg, ready: Callable[[], bool]) -> None:
         """Hold a task until `ready()`, or until the leg is taken off the path."""
         hang = self.settings.cleared_move == "hang"
@@ -311,7 +325,7 @@ class MotionGroup:
         if standing and not self._stops:
             leg.began = self._kernel.now / S
         if failed:
-            self._corner_failure(path.legs[-2])
+            events.corner_failure(self._log, self.name, path.legs[-2].move)
         if not self._stops:
             self._replan()
         return leg
@@ -545,7 +559,7 @@ class MotionGroup:
                 tail.released = changed = True
             if now >= self._commit:
                 tail.committed = tail.released = changed = True
-                self._corner_failure(tail)
+                events.corner_failure(self._log, self.name, tail.move)
         self._events.fire(self.motion, now)
         done = self._path.passed(self._drive.place())
         if done:
@@ -579,16 +593,6 @@ class MotionGroup:
                 self._punctuality.finished(leg, self.motion)
         if legs and cleared:
             self.changed.notify()
-
-    def _corner_failure(self, leg: Leg) -> None:
-        where = leg.move.place() if leg.move.place is not None else None
-        self._log.warning(
-            events.CORNER_PATH_FAILURE,
-            "Corner path failure",
-            f"{self.name}: the corner is executed as a stop point"
-            + (f" ({where})" if where else ""),
-            "the next move was not planned in time",
-        )
 
     def _report(self, standing: bool) -> None:
         self._io.report("MechUnitNotMoving", int(standing), self.config.mechanical_unit)

@@ -30,6 +30,8 @@ class Geometry(Protocol):
     duration: float
     measure: Measure
     limits: AxisLimits
+    strength: float
+    """Acceleration that the axes allow, in ways per s^2."""
 
     @property
     def target(self) -> Posture:
@@ -78,7 +80,16 @@ class Leg:
 class JointWay:
     """All axes together on a straight line in joint space."""
 
-    __slots__ = ("_peak", "duration", "limits", "measure", "origin", "rates", "target")
+    __slots__ = (
+        "_peak",
+        "duration",
+        "limits",
+        "measure",
+        "origin",
+        "rates",
+        "strength",
+        "target",
+    )
 
     def __init__(
         self,
@@ -87,7 +98,9 @@ class JointWay:
         duration: float,
         measure: tuple[Measure, float],
         limits: AxisLimits,
+        strength: float,
     ) -> None:
+        self.strength = strength
         self.origin = origin
         self.target = target
         self.duration = duration
@@ -120,17 +133,16 @@ def joint_way(
     """The way of a joint move. `\\T` includes the ramps at ends where the robot stands."""
     deltas = [b - a for a, b in zip(origin, move.target, strict=True)]
     fastest = max(abs(d) / v for d, v in zip(deltas, limits.speeds, strict=True))
+    strongest = min(
+        (a / abs(d) for d, a in zip(deltas, limits.accelerations, strict=True) if d), default=inf
+    )
     if move.time is None:
         duration = max(fastest, nominal_time(measure[0], move.speed), SHORTEST)
     else:
-        strongest = min(
-            (a / abs(d) for d, a in zip(deltas, limits.accelerations, strict=True) if d),
-            default=inf,
-        )
         rests = from_rest + move.zone.fine
         total = move.time - rests * limits.ramp / 2
         duration = timed(total, fastest, strongest, rests / 2)
-    return JointWay(origin, move.target, duration, measure, limits)
+    return JointWay(origin, move.target, duration, measure, limits, strongest)
 
 
 def lever_measure(

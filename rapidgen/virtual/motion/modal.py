@@ -39,5 +39,9 @@ class ModalSettings:
     """SpeedLimAxis: rad/s or m/s by axis, while the speed is limited."""
     point_limit: float = inf
     """SpeedLimCheckPoint: m/s of the TCP, while the speed is limited."""
+    partners: frozenset[str] = frozenset()
+    """Tasks that move synchronously with this one, itself included (SyncMoveOn); lower case."""
+    suspended: bool = False
+    """SyncMoveSuspend"""
     extra: dict[str, object] = field(default_factory=dict)
     """Settings that change no motion here: kept so that a program can set them."""

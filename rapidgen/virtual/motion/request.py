@@ -14,6 +14,7 @@ from rapidgen.virtual.motion.targets import (
     external_posture,
     joints_for,
 )
+from rapidgen.virtual.motion.together import together
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
 
@@ -91,7 +92,7 @@ def bind(
     def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
         given = dict(zip(names, arguments, strict=True))
         group, move = make(task, given, events_of(task, given))
-        group.move(task, move)
+        group.move(task, together(task, group, move, given.get("ID")))
 
 
 def parameter_names(name: str) -> tuple[str, ...]:

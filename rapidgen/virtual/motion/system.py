@@ -1,6 +1,7 @@
 """All motion groups of one controller, and which task moves which."""
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from rapidgen.config.model import MotionGroup as GroupConfig
 from rapidgen.virtual.io import IOSystem
@@ -9,6 +10,9 @@ from rapidgen.virtual.log import EventLog
 from rapidgen.virtual.motion.group import MotionGroup
 from rapidgen.virtual.motion.recorder import Recorder
 from rapidgen.virtual.motion.settings import MotionSettings
+
+if TYPE_CHECKING:
+    from rapidgen.virtual.motion.together import Gathering
 
 
 class MotionSystem:
@@ -29,6 +33,8 @@ class MotionSystem:
         }
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
         self._moving = set(self._tasks)
+        self.gatherings: dict[tuple[frozenset[str], float], Gathering] = {}
+        """Tasks that wait for each other at moves of one \\ID, by partners and \\ID."""
 
     @property
     def settings(self) -> MotionSettings:
