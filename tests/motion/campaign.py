@@ -13,6 +13,7 @@ import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 
@@ -29,11 +30,12 @@ HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 RELEASED = 4.0
 """s at which every stop is taken back and the override is 100 %."""
 PERIOD = 0.002
-SPEED = {"joint": 1 + 1e-6, "flat": 1 + 1e-6, "cartesian": 1.02}
-ACCELERATION = {"joint": 1 + 1e-3, "flat": 1 + 1e-3, "cartesian": 1.2}
+SPEED = {"joint": 1 + 1e-6, "flat": 1 + 1e-6, "brakes": 1 + 1e-6, "cartesian": 1.02}
+ACCELERATION = {"joint": 1 + 1e-3, "flat": 1 + 1e-3, "brakes": inf, "cartesian": 1.2}
 """Shares of the axes' limits that may be reached. Those along a line come from samples of its
-inverse kinematics, so they are met less exactly. `flat`: a robot without geometry."""
-KINDS = ("joint", "flat", "cartesian", "cartesian")
+inverse kinematics, so they are met less exactly. `flat`: a robot without geometry; `brakes`: some
+stops are by the brakes, which slow down as hard as the end of an axis' range asks for."""
+KINDS = ("joint", "flat", "brakes", "cartesian", "cartesian", "cartesian")
 RAMPS = (0.05, 0.05, 0.0, 0.2)
 
 
@@ -48,7 +50,7 @@ class Outcome:
     acceleration: float
 
 
-def disturb(cell: Cell, rng: random.Random, *, count: int) -> None:
+def disturb(cell: Cell, rng: random.Random, *, count: int, brakes: bool = False) -> None:
     """Stops, starts, cleared paths and overrides at random times; all is released at 4 s."""
     group = cell.group
 
@@ -57,12 +59,14 @@ def disturb(cell: Cell, rng: random.Random, *, count: int) -> None:
 
     acts: dict[str, Callable[[], None]] = {
         "stop": lambda: group.stop("x", quick=False),
+        "brakes": lambda: group.stop("x", brakes=True),
         "start": lambda: group.start("x"),
         "clear": group.clear_path,
         "override": lambda: override(rng.choice([0.0, 0.1, 0.5, 1.0])),
     }
     for _ in range(rng.randrange(count)):
-        cell.at(3 * rng.random(), acts[rng.choice(["stop", "start", "stop", "clear", "override"])])
+        other = "brakes" if brakes else "stop"
+        cell.at(3 * rng.random(), acts[rng.choice(["stop", "start", other, "clear", "override"])])
 
     def release() -> None:
         group.override = 1.0
@@ -151,7 +155,7 @@ def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outco
         disturb(cell, rng, count=6)
         task = cell.start(cartesian_program(cell, rng))
     else:
-        disturb(cell, rng, count=8)
+        disturb(cell, rng, count=8, brakes=kind == "brakes")
         task = cell.start(joint_program(cell, rng))
 
     def over() -> bool:

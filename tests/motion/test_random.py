@@ -12,6 +12,11 @@ def test_joint_programs(seed):
     assert campaign.run(seed, kind, campaign.RAMPS[seed % 4]).faults == ()
 
 
+@pytest.mark.parametrize("seed", range(40))
+def test_programs_with_stops_by_the_brakes(seed):
+    assert campaign.run(seed, "brakes", campaign.RAMPS[seed % 4]).faults == ()
+
+
 @pytest.mark.parametrize("seed", range(30))
 def test_cartesian_programs(seed):
     assert campaign.run(seed, "cartesian", campaign.RAMPS[seed % 4]).faults == ()
