@@ -86,7 +86,7 @@ def test_speed_limits_hold_while_the_input_is_set(rapid):
 @pytest.mark.parametrize(
     ("call", "error"),
     [
-        ("SpeedLimAxis ROB_1, 1, 0;", "ERR_SPEEDLIM_VALUE"),
+        ("SpeedLimAxis ROB_1, 1, -1;", "ERR_SPEEDLIM_VALUE"),
         ("SpeedLimAxis ROB_1, 7, 10;", "ERR_AXIS_PAR"),
         ("SpeedLimCheckPoint -1;", "ERR_SPEEDLIM_VALUE"),
         ("SoftAct 7, 50;", "ERR_AXIS_PAR"),
@@ -97,6 +97,13 @@ def test_speed_limits_hold_while_the_input_is_set(rapid):
 def test_values_that_no_controller_takes(rapid, call, error):
     out = rapid(f'{call} ERROR IF ERRNO = {error} TPWrite "refused"; TRYNEXT;').run()
     assert out == ["refused"]
+
+
+def test_a_speed_limit_of_0_is_none(rapid):
+    """tetov/compas_rcf [code] gives axes 2 and 3 of its robot a limit of 0."""
+    taken = rapid("SpeedLimAxis ROB_1, 1, 5; SpeedLimAxis ROB_1, 2, 0; SpeedLimAxis ROB_1, 1, 0;")
+    taken.run()
+    assert taken.group.modal.axis_limits == {}
 
 
 def test_a_soft_servo_goes_the_same_way(rapid):

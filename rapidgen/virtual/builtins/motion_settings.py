@@ -161,11 +161,15 @@ def cir_path_mode(
 def speed_lim_axis(task: Task, unit: Data, number: float, speed: float) -> None:
     """deg/s or mm/s of an axis while the system input LimitSpeed is set [mem].
 
-    ERR_SPEEDLIM_VALUE: not positive; ERR_AXIS_PAR: no such axis of the unit.
+    0: none, as the robots of ETH's cell have it for axes 2 and 3 (tetov/compas_rcf [code]).
+    ERR_SPEEDLIM_VALUE: negative; ERR_AXIS_PAR: no such axis of the unit.
     """
-    if speed <= 0:
+    if speed < 0:
         raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
     group, joint = unit_axis(task, unit, number)
+    if speed == 0:
+        group.modal.axis_limits.pop(joint.axis, None)
+        return
     factor = RAD if joint.kind == "revolute" else 1 / 1000
     group.modal.axis_limits[joint.axis] = speed * factor
 
