@@ -65,8 +65,16 @@ class Order:
 class Bench:
     """A booted driver, ready to be asked for things."""
 
-    def __init__(self, config: RobotConfig, system: System, setting: Setting | None = None) -> None:
+    def __init__(
+        self,
+        config: RobotConfig,
+        system: System,
+        setting: Setting | None = None,
+        robots: Sequence[MotionGroup] = (),
+    ) -> None:
+        """Boot. `robots`: the controller's, where they are not the configuration's."""
         self.config = config
+        self._robots = robots or config.groups
         self.system = system
         self.setting = setting if setting is not None else Setting()
         self._beside: list[Bench] = []
@@ -83,7 +91,7 @@ class Bench:
     def _boot(self) -> VirtualController:
         controller = VirtualController(
             self.system,
-            self.config.groups,
+            self._robots,
             seed=self.setting.seed,
             schedule="random" if self.setting.random_schedule else "round-robin",
             switch_at_pers=self.setting.switch_at_pers,
@@ -95,9 +103,12 @@ class Bench:
         )
         return controller
 
-    def beside(self, system: System) -> "Bench":
-        """Another controller with another system, under the same setting; close it."""
-        other = Bench(self.config, system, self.setting)
+    def beside(self, system: System, robots: Sequence[MotionGroup] = ()) -> "Bench":
+        """Another controller with another system or other robots, under the same setting.
+
+        Whoever asks for it closes it.
+        """
+        other = Bench(self.config, system, self.setting, robots)
         self._beside.append(other)
         return other
 

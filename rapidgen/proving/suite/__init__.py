@@ -12,6 +12,7 @@ from rapidgen.proving.suite import (
     refusals,
     stopping,
     telling,
+    watching,
 )
 
 CASES: tuple[Case, ...] = (
@@ -22,6 +23,7 @@ CASES: tuple[Case, ...] = (
     *framing.CASES,
     *stopping.CASES,
     *telling.CASES,
+    *watching.CASES,
     *links.CASES,
     *controller.CASES,
     *failing.CASES,

@@ -2,7 +2,6 @@
 
 import re
 from dataclasses import replace
-from itertools import pairwise
 
 from rapidgen.protocol import spec
 from rapidgen.protocol.spec import Reason
@@ -230,42 +229,6 @@ def _state_for_hours(bench: Bench) -> None:
         raise Broken(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
 
 
-def _slow_reader(bench: Bench) -> None:
-    """It is dropped when a send to it does not end, and costs the others one short pause."""
-    deaf, other = bench.state(reading=False), bench.state()
-    bench.status(other)
-    begun = bench.now
-    # Its buffers are full after some minutes at the usual rate.
-    bench.run(2200 * bench.config.state_period)
-    stamps = [when for when, f in other.frames if f.number == spec.STATUS.number and when > begun]
-    pause = max(b - a for a, b in pairwise(stamps))
-    # Without traps in a send it lasts until that gives up by itself.
-    longest = 0.5 if bench.controller.dialect.send_attends else 62
-    if not bench.config.state_period * 1.5 < pause < longest + bench.config.state_period:
-        raise Broken(f"a client that does not read keeps STATUS from another for {pause:.2f} s")
-    deaf.read_on()
-    bench.run(1)
-    if not deaf.lost:
-        raise Broken("a client that does not read is not dropped")
-    if sum(b - a < 0.5 * bench.config.state_period for a, b in pairwise(stamps)) > 1:
-        raise Broken("after a pause STATUS comes in a burst")
-    bench.status(bench.state(), 5)
-
-
-def _breaks_in_a_send(bench: Bench) -> None:
-    """A state client that neither reads nor ends is reset while the server waits for it."""
-    link = bench.state(reading=False)
-    for _ in range(round(40_000 * bench.config.state_period)):
-        bench.run(0.05)
-        if bench.waits_in("ROS_stateServer", "SocketSend"):
-            break
-    else:
-        raise Broken("the state server sends without end to a client that does not read")
-    link.close(abort=True)
-    bench.run(1)
-    bench.status(bench.state(), 5)
-
-
 def _idle_costs_nothing(bench: Bench) -> None:
     """A driver that waits leaves the controller's processor to others."""
     link, state = bench.motion(), bench.state()
@@ -330,10 +293,6 @@ CASES = (
     Case("clocks-end", "a clock at the end of its 49 days", "failing", _clocks_at_their_end),
     Case("state-for-hours", "the state schedule over the ends of its clock", "failing",
          _state_for_hours),
-    Case("slow-reader", "a state client that does not read is dropped", "failing", _slow_reader,
-         "R13"),
-    Case("breaks-in-send", "a state client that is reset while the server sends", "failing",
-         _breaks_in_a_send, "R13"),
     Case("idle-costs", "a driver that waits takes little of the processor", "failing",
          _idle_costs_nothing, "R19"),
     Case("signals-fail", "signals that cannot be read are unknown", "failing", _signal_units_fail,

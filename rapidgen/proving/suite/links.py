@@ -70,13 +70,6 @@ def _state_client_comes_back(bench: Bench) -> None:
     bench.status(link, 5)
 
 
-def _state_client_does_not_read(bench: Bench) -> None:
-    bench.state(reading=False)
-    link = bench.motion()
-    bench.run(120)
-    bench.moves_through(link, bench.wave(5))
-
-
 def _many_come_and_go(bench: Bench) -> None:
     for _ in range(40):
         link = bench.motion()
@@ -96,7 +89,5 @@ CASES = (
     Case("dead-peer", "a peer that died without a word blocks nobody", "links", _dead_peer, "R12"),
     Case("state-comes-back", "a state client that comes back is served", "links",
          _state_client_comes_back, "R13"),
-    Case("state-does-not-read", "a state client that does not read holds nobody up", "links",
-         _state_client_does_not_read, "R13"),
     Case("come-and-go", "many short connections", "links", _many_come_and_go),
 )  # fmt: skip

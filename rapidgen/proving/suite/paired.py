@@ -152,6 +152,8 @@ def _progress_tells_the_way(bench: Bench) -> None:
     for number in range(1, 3):
         points = _straight(bench, 12)
         motion.send(bench.download(points))
+        bench.wait_until_moving()
+        bench.run(bench.config.state_period)
         told: list[messages.Progress] = []
         while not told or told[-1].state != TrajectoryState.DONE:
             told.append(bench.progress(link))
