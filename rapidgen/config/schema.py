@@ -302,7 +302,10 @@ class Trajectory(_Part):
 class State(_Part):
     """The state server."""
 
-    rate: Annotated[float, Rule("Messages a second, Hz.", ge=0.2, le=100)] = 10.0
+    rate: Annotated[
+        float,
+        Rule("Messages a second, Hz. Above 100 the controller may not keep up.", ge=0.2, le=250),
+    ] = 10.0
 
 
 @dataclass(frozen=True)

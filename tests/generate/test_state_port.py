@@ -378,6 +378,36 @@ def test_a_refusal_comes_as_an_event(bench):
     ]
 
 
+# -- PROGRESS of what does not go on ------------------------------------------------------------
+
+
+def test_paused_and_starved_are_states_of_a_motion(bench):
+    """As the supervisor and the motion task tell them; an end is told rather than a pause."""
+    b = bench()
+    state = subscribed(b, WANT_PROGRESS)
+    client = b.client()
+    client.send(b"".join(trajectory([[0.0] * 6, [0.3] * 6], [10, 20])))
+    b.vc.run_for(1)
+
+    def told():
+        b.vc.run_for(0.25)
+        state.frames()
+        b.vc.run_for(0.25)
+        return {struct.unpack_from("<2i", f, 16) for f in state.frames() if kind(f) == PROGRESS}
+
+    tasks = b.vc.tasks
+    for name, task, number in (("starved", "T_ROB1", 7), ("paused", "T_ROS_SUP", 8)):
+        for trajectory_number, wanted in ((1, number), (2, 2), (-1, 2)):
+            tasks[task][f"ROS_common:ROS_{name}"] = trajectory_number
+            assert told() == {(1, wanted)}
+    tasks["T_ROB1"]["ROS_common:ROS_starved"] = 1
+    tasks["T_ROS_SUP"]["ROS_common:ROS_paused"] = 1
+    assert told() == {(1, 8)}
+    b.vc.perform("stop")
+    b.vc.run_for(1)
+    assert told() == {(1, 5)}
+
+
 # -- HELLO --------------------------------------------------------------------------------------
 
 

@@ -1,0 +1,99 @@
+"""What the state port costs on the reference cost model, message by message.
+
+    python benchmarks/state.py
+
+Simulated time of one round (everything that one period takes: measure, pack, send, look after the
+clients) by clients and by what they ask for, found by asking for a period that cannot be kept; for
+the built-in part of the cost model x1/4, x1 and x4. Then how far the messages of one client stray
+from their schedule while a robot moves and two others come and go. The figures hold for that
+model; no controller was measured.
+"""
+
+import struct
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.protocol import spec
+from rapidgen.proving.bench import Bench
+from rapidgen.virtual.costs import Costs
+from tests.generate import bench as tests
+
+ALL = spec.Feature.PROGRESS | spec.Feature.FEEDBACK
+ROWS = (
+    ("1 client, JOINT and STATUS", 1, 0),
+    ("... and PROGRESS", 1, spec.Feature.PROGRESS),
+    ("... and JOINT_FEEDBACK", 1, spec.Feature.FEEDBACK),
+    ("... and both", 1, ALL),
+    ("2 clients, JOINT and STATUS", 2, 0),
+    ("3 clients, JOINT and STATUS", 3, 0),
+    ("3 clients, all", 3, ALL),
+)
+
+
+def hello(wanted):
+    return struct.pack("<9i", 32, spec.HELLO.number, 2, 0, spec.PROTOCOL_VERSION, 0, 1, 0, wanted)
+
+
+def rounds_in(bench, clients, seconds):
+    """Messages of the first client; all are read, so that nobody is held up."""
+    found = 0
+    for _ in range(round(seconds / 0.02)):
+        bench.vc.run_for(0.02)
+        told = [client.frames() for client in clients]
+        found += sum(frame[4] == spec.STATUS.number for frame in told[0]) if told else 0
+    return found
+
+
+def round_time(config, clients, wanted, scale):
+    """Simulated s of a round when there is no pause between them."""
+    bench = tests.Bench(config, costs=Costs().scaled(scale))
+    linked = []
+    for _ in range(clients):
+        linked.append(bench.state_client())
+        rounds_in(bench, linked, 0.5)
+        linked[-1].send(hello(wanted))
+    rounds_in(bench, linked, 0.5)
+    taken = 4 / rounds_in(bench, linked, 4)
+    bench.stop()
+    return taken
+
+
+def straying(config, system):
+    """Largest distance of a STATUS from its place in the schedule, in periods."""
+    bench = Bench(config, system)
+    bench.run(0.5)
+    steady, motion = bench.state(), bench.motion()
+    bench.run(1)
+    begun = bench.now
+    for n in range(20):
+        motion.send(bench.download(bench.wave(20)))
+        other = bench.state()
+        other.send(hello(ALL if n % 2 else 0))
+        bench.run(15)
+        other.close()
+    stamps = [when for when, f in steady.frames if when > begun and f.number == spec.STATUS.number]
+    period = config.state_period
+    bench.close()
+    return max(abs(when - stamps[0] - i * period) for i, when in enumerate(stamps)) / period
+
+
+def main():
+    config = load_config("irb120")
+    eager = replace(config, state_period=0.0001)
+    print(f"{'simulated ms a round':32}{'x1/4':>8}{'x1':>8}{'x4':>8}")
+    for name, clients, wanted in ROWS:
+        times = [round_time(eager, clients, wanted, scale) for scale in (0.25, 1, 4)]
+        print(f"{name:32}" + "".join(f"{1000 * t:8.2f}" for t in times))
+    for rate in (10, 50, 100, 250):
+        config = replace(config, state_period=1 / rate)
+        off = straying(config, make_system(config, build(config)))
+        print(f"{rate} Hz: at most {off:.2f} periods off the schedule")
+
+
+if __name__ == "__main__":
+    main()
