@@ -47,9 +47,11 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP)
 unit: $(STAMP)
 	$(BIN)/python -m pytest -n auto
 
-# Trial with abb_driver's own modules: FOREIGN is the folder that holds them.
+# Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
+# PROGRAM the trial (abb_driver, motion_program_exec, open_abb, text_servers; default: any program).
+PROGRAM = trial
 foreign: $(STAMP)
-	$(BIN)/python -m tests.foreign.abb_driver $(FOREIGN)
+	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
 
 # Has each conformance file of the language a defect that turns it red? Some minutes on one core.
 mutants: $(STAMP)

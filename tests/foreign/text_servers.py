@@ -78,7 +78,7 @@ def machina(folder: Path) -> None:
             commands = (
                 "4 200 100 200 100;", "5 5;", "3 10 20 -10 0 40 5;", "6 0.5;", "5 0;",
                 "1 350 40 450 0 0 1 0;", "8 0 0 100 1 0 0 0 1 0 0 50;", "9;", "14 1;",
-                '7 "hello from a client";', "30 350 -40 450 0 0 1 0 370 0 450;",
+                '7 "hello from a client";', "13 2;", "13 0;", "30 350 -40 450 0 0 1 0 370 0 450;",
                 "18 10 0 0 1 0 0 0;", "19;", "103 0.05;", "101 1;",
             )  # fmt: skip
             for number, command in enumerate(commands, 1):
@@ -89,7 +89,7 @@ def machina(folder: Path) -> None:
         print("    monitor:", *seen)
         assert "hello from a client" in controller.call(lambda: list(controller.operator.rows))
         link.send("@99 100;")
-    print("Machina: every instruction acknowledged, but for WorldAccLim \\On (13)")
+    print("Machina: every instruction acknowledged")
 
 
 TRIALS = {"main.py": gcode, "RAPID/TASK2": rapidserver, "src/Machina": machina}
