@@ -19,7 +19,7 @@ _FRACTION = 0.000005
 _ALL_DIGITS = Context(prec=800)
 """Enough for every float with decimals behind it."""
 _LITERAL = re.compile(
-    r'[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?|TRUE|FALSE|"(?:[^"]|"")*"|[\[\],]'
+    r'[+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?|TRUE|FALSE|"(?:[^"]|"")*"|[\[\],]', re.IGNORECASE
 )
 _BLANK = re.compile(r"\s*")
 
@@ -160,8 +160,8 @@ def _aggregate(
 
 
 def _atom(token: str, type_: Type) -> Any:  # noqa: ANN401
-    if type_.kind == "bool" and token in ("TRUE", "FALSE"):
-        return token == "TRUE"
+    if type_.kind == "bool" and token.upper() in ("TRUE", "FALSE"):  # any case [K §2.4, 2.6]
+        return token.upper() == "TRUE"
     if type_.kind == "string" and token[0] == '"':
         return token[1:-1].replace('""', '"')
     if type_.kind in ("num", "dnum") and token[-1] in "0123456789.":

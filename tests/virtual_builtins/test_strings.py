@@ -107,6 +107,7 @@ def test_numbers_of_many_digits(bench):
         (" -2.5E-3 ", NUM, single(-0.0025)),
         (".5", NUM, 0.5),
         ("TRUE", BOOL, True),
+        ("true", BOOL, True),  # a reserved word, in any case [K §2.3, 2.6]
         ('"a""b"', STRING, 'a"b'),
         ("0.1", DNUM, 0.1),
         ("[1,2,3]", Pos.rapid_type, Pos(1, 2, 3)),
@@ -129,7 +130,7 @@ def test_str_to_val(bench, text, type_, expected):
         ("[1,2,3,4]", Pos.rapid_type),
         ("[1,2,TRUE]", Pos.rapid_type),
         ("hello", STRING),
-        ("true", BOOL),
+        ("truee", BOOL),
         ("1 2", NUM),
         ("nan", NUM),
         ("[", Pos.rapid_type),

@@ -149,7 +149,8 @@ class Expressions(CompilerBase):
     def _name(self, node: n.Name, want: Type | None) -> E:
         data = self.data(node.name)
         if data is None:
-            return E("FAIL('ERR_REFUNKDAT')", want or NUM, fails=True, effect=SHARED, exact=True)
+            unknown = f"FAIL('ERR_REFUNKDAT', {node.name!r})"
+            return E(unknown, want or NUM, fails=True, effect=SHARED, exact=True)
         return self.read(data)
 
     def read(self, data: Data) -> E:
@@ -214,7 +215,8 @@ class Expressions(CompilerBase):
     def _function_call(self, node: n.FunctionCall, want: Type | None) -> E:
         routine = self.program.find_routine(self.module, node.name.lower())
         if routine is None or routine.kind != "FUNC":
-            return E("FAIL('ERR_REFUNKFUN')", want or NUM, fails=True, effect=SHARED, exact=True)
+            unknown = f"FAIL('ERR_REFUNKFUN', {node.name!r})"
+            return E(unknown, want or NUM, fails=True, effect=SHARED, exact=True)
         return self.call(routine, node)
 
     def _aggregate(self, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]) -> E:

@@ -23,9 +23,9 @@ from rapidgen.virtual.values import (
 _LARGEST_EXACT = 1 << 24
 
 
-def fail(name: str) -> NoReturn:
-    """Raise a RAPID error where only an expression may stand."""
-    raise RapidError(name)
+def fail(error: str, name: str = "") -> NoReturn:
+    """Raise a RAPID error where only an expression may stand; `name` is what is not there."""
+    raise RapidError(error, name)
 
 
 def whole_number(value: float) -> int:

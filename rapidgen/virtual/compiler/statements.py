@@ -279,7 +279,8 @@ class Statements(Structure):
         key = node.name.lower()
         if routine is None or routine.kind != "PROC":
             self.program.said_missing(node.name)
-            self.simple(E("FAIL('ERR_REFUNKPRC')", NUM, fails=True, effect=SHARED), [])
+            unknown = f"FAIL('ERR_REFUNKPRC', {node.name!r})"
+            self.simple(E(unknown, NUM, fails=True, effect=SHARED), [])
             return
         if routine.node is None and key in ("incr", "decr", "add", "clear"):
             self._step(key, node)
@@ -380,7 +381,9 @@ class Statements(Structure):
         target = self.target(node.target)
         trap = self.program.find_routine(self.module, node.trap.lower())
         if trap is None or trap.kind != "TRAP":
-            self.simple(E("FAIL('ERR_REFUNKTRP')", NUM, fails=True, effect=SHARED), [])
+            self.simple(
+                E(f"FAIL('ERR_REFUNKTRP', {node.trap!r})", NUM, fails=True, effect=SHARED), []
+            )
             return
         if target.e.type.kind != "num" or target.e.dims:
             self.fault("CONNECT takes an intnum", node)
