@@ -61,7 +61,8 @@ def test_system_information(bench):
     group = SimpleNamespace(config=SimpleNamespace(model="IRB 120-3/0.6"))
     bench.controller.motion = SimpleNamespace(groups={"rob1": group})
     assert bench("GetSysInfo", LanIp=True) == "127.0.0.1"
-    assert bench("GetSysInfo", SWVersion=True) == "6.08.00.00"
+    assert bench("GetSysInfo", SWVersion=True) == "ROBOTWARE_6.08.0000"
+    assert bench("GetSysInfo", SWVersionName=True) == "6.08.00.00"
     assert bench("GetSysInfo", RobotType=True) == "IRB 120-3/0.6"
     assert bench("GetSysInfo", SystemName=True) == "cell"
     assert bench("IsSysId", bench("GetSysInfo", SerialNo=True)) is True

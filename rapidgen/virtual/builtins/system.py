@@ -29,15 +29,19 @@ def get_sys_info(
     language: bool | None,
     system_name: bool | None,
 ) -> str:
-    """One fact about the controller."""
+    """One fact about the controller.
+
+    Forms of versions as backups keep what controllers answered (COMPAS RRC [code]):
+    `ROBOTWARE_6.04.1027` and `6.04.01.00`; there is no build number here.
+    """
     system: System = task.controller.system
     major, minor = system.robotware
     if serial:
         return _SERIAL
     if version:
-        return f"{major}.{minor:02d}.00.00"
+        return f"ROBOTWARE_{major}.{minor:02d}.0000"
     if version_name:
-        return f"{major}.{minor:02d}"
+        return f"{major}.{minor:02d}.00.00"
     if robot_type:
         groups = task.controller.motion.groups.values()
         configs: list[MotionGroup] = [group.config for group in groups]
