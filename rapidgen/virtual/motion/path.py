@@ -162,7 +162,7 @@ class Path:
         start = place - duration
         back = JointLine(start, place, start, here, rates, limits, 0.0)
         self._back = back.until(place, stop=True)
-        self.pieces = (self._back, *self.pieces)
+        self.pieces = (self._back, self.pieces[0].since(place), *self.pieces[1:])
         return start
 
     def way_back(self, place: float) -> tuple[Posture, Posture] | None:

@@ -44,6 +44,12 @@ class Piece:
         part.stop = stop
         return part
 
+    def since(self, start: float) -> "Piece":
+        """The part of this piece behind `start`."""
+        part = copy(self)
+        part.start = start
+        return part
+
 
 class JointLine(Piece):
     """All axes linear in nominal time: from `origin` at `zero` with `rates` per s."""
@@ -81,7 +87,7 @@ class Parabola(Piece):
     is that of the zone, while \\T stays exact.
     """
 
-    __slots__ = ("_bend", "_origin", "_slope", "_tangent", "_turn", "_w")
+    __slots__ = ("_begin", "_bend", "_origin", "_slope", "_tangent", "_turn", "_w")
 
     def __init__(
         self,
@@ -93,6 +99,7 @@ class Parabola(Piece):
         limits: "AxisLimits",
         tcp: float,
     ) -> None:
+        self._begin = start
         self._origin, self._tangent, self._bend = curve
         self._w = w
         self._slope = slopes[0]
@@ -104,7 +111,7 @@ class Parabola(Piece):
 
     def at(self, place: float) -> Posture:
         """Axis values at a place."""
-        t = place - self.start
+        t = place - self._begin
         w = self._w + (self._slope + self._turn * t / 2) * t
         return tuple(
             [
