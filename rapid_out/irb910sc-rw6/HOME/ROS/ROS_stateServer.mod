@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE := "1ff526e665a5";
+    CONST string ROS_BUILD_STATE := "f6d9ba371300";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -328,18 +328,24 @@ MODULE ROS_stateServer
         RETURN ROS_TRAJ_FAILED;
     ENDFUNC
 
-    ! TRUE while a trajectory is under way that was not halted, while an axis turns, and once
-    ! after any movement that fell between two messages.
+    ! TRUE while a trajectory is under way that was not halted and does not wait, while an axis
+    ! turns, and once after any movement that fell between two messages.
     LOCAL FUNC bool moving(jointtarget joints)
         VAR num started;
         VAR bool moved;
 
         started := ROS_started;
         moved := started <> told_started OR ROS_standing() = ROS_TRI_FALSE OR (NOT near(joints));
-        IF ROS_active() AND ROS_halted <> ROS_session moved := TRUE;
+        IF ROS_active() AND (NOT held()) moved := TRUE;
         told_started := started;
         told_joints := joints;
         RETURN moved;
+    ENDFUNC
+
+    ! TRUE if the trajectory under way stands: halted, paused or without a next point.
+    LOCAL FUNC bool held()
+        IF ROS_halted = ROS_session RETURN TRUE;
+        RETURN ROS_paused = ROS_session OR ROS_starved = ROS_session;
     ENDFUNC
 
     ! TRUE if no axis has moved since the last message by more than a sensor's noise.
