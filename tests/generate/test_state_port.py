@@ -408,6 +408,25 @@ def test_paused_and_starved_are_states_of_a_motion(bench):
     assert told() == {(1, 5)}
 
 
+@pytest.mark.parametrize("name", ["starved", "paused"])
+def test_a_robot_that_only_waits_is_not_in_motion(bench, name):
+    b = bench()
+    state = b.state_client()
+    client = b.client()
+    # It stands at the second point for some time: a motion under way all the same.
+    rows = [[0.0] * 6, [0.1] * 6, [0.1] * 6, [0.2] * 6]
+    client.send(b"".join(trajectory(rows, [10, 1, 20, 1])))
+    b.vc.run_for(4)
+    assert b.status(state)[4] == 1
+    task = {"starved": "T_ROB1", "paused": "T_ROS_SUP"}[name]
+    b.vc.tasks[task][f"ROS_common:ROS_{name}"] = 1
+    b.vc.run_for(0.3)
+    assert b.status(state)[4] == 0
+    b.vc.tasks[task][f"ROS_common:ROS_{name}"] = -1
+    b.vc.run_for(0.3)
+    assert b.status(state)[4] == 1
+
+
 # -- HELLO --------------------------------------------------------------------------------------
 
 
