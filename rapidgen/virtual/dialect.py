@@ -65,6 +65,10 @@ class Dialect:
     refused_connect: Literal["timeout", "unreachable", "closed"] = "timeout"
     """Which ERR_SOCK_ a connection that the partner refuses raises. No source."""
 
+    failed_connect: Literal["again", "create"] = "again"
+    """Behind a SocketConnect that failed the same socket may connect again, as a RETRY in public
+    programs does (Keyence's CV-X modules), or it has to be closed and created first [mem]."""
+
     receive_timeout: Literal["keep", "drop"] = "keep"
     """Bytes that came before a SocketReceive timed out wait for the next one, or are gone. No
     source."""

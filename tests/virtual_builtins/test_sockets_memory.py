@@ -235,8 +235,34 @@ def test_slow_reader_makes_the_sender_wait_and_then_time_out(bench):
     assert (error, waited) == ("ERR_SOCK_TIMEOUT", 60)
 
 
+def test_a_socket_connects_again_behind_a_failure(bench):
+    """A RETRY of SocketConnect, without a new socket: Keyence's CV-X modules [code]."""
+    socket = SocketDevice()
+
+    def calling(task):
+        bench.call(task, "SocketCreate", socket)
+        failed = failure(bench, task, "SocketConnect", socket, "127.0.0.1", PORT)
+        task.sleep(1)
+        bench.call(task, "SocketConnect", socket, "127.0.0.1", PORT)
+        bench.call(task, "SocketSend", socket, Str="hello")
+        return failed
+
+    def serving(task):
+        task.sleep(0.5)
+        server, accepted, text = SocketDevice(), SocketDevice(), bench.box("")
+        bench.call(task, "SocketCreate", server)
+        bench.call(task, "SocketBind", server, "127.0.0.1", PORT)
+        bench.call(task, "SocketListen", server)
+        bench.call(task, "SocketAccept", server, accepted)
+        bench.call(task, "SocketReceive", accepted, Str=text)
+        return text.get()
+
+    assert bench.run(calling, serving) == ["ERR_SOCK_TIMEOUT", "hello"]
+
+
 def test_refused_connect_and_what_follows(bench):
-    """The socket has to be closed and created again [manual]; which error is [mem]."""
+    """The socket has to be closed and created again, and which error: [mem]."""
+    bench.controller.dialect = Dialect(failed_connect="create")
     socket = SocketDevice()
 
     def body(task):

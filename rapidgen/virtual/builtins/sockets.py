@@ -174,13 +174,14 @@ def socket_accept(
 def socket_connect(
     task: Task, socket: SocketDevice, address: str, port: float, time: float | None
 ) -> None:
-    """Connect to a server; after a failure the socket must be closed and created again."""
+    """Connect to a server. For what a failure leaves see `Dialect.failed_connect`."""
     _require(socket)
     if socket.status is SocketStatus.CONNECTED:
         raise RapidError("ERR_SOCK_IS_CONN")
     if socket.status is not SocketStatus.CREATED or socket.endpoint is not None:
         raise RapidError("ERR_SOCK_UNSPEC", "close the socket and create it again")
     network = _network(task)
+    again = task.controller.dialect.failed_connect == "again"
     try:
         endpoint = socket.endpoint = network.connect(address, _port(port))
         there = task.wait_for(
@@ -193,9 +194,14 @@ def socket_connect(
         if fault.reason is Reason.REFUSED:
             raise RapidError(_REFUSED[task.controller.dialect.refused_connect]) from fault
         raise _error(fault) from fault
-    if not there:
-        raise RapidError("ERR_SOCK_TIMEOUT")
-    socket.status = SocketStatus.CONNECTED
+    else:
+        if not there:
+            raise RapidError("ERR_SOCK_TIMEOUT")
+        socket.status = SocketStatus.CONNECTED
+    finally:
+        if again and socket.status is SocketStatus.CREATED and socket.endpoint is not None:
+            network.close(socket.endpoint, abort=True)
+            socket.endpoint = None
 
 
 @builtin("SocketClose", cost="socket")
