@@ -73,6 +73,8 @@ class StreamRun(Motion):
         self._room_until = hello.ring
         """Points that may be sent at all, for what is known now."""
         self._flights: deque[_Flight] = deque()
+        self._looked_at = 0
+        """PROGRESS messages when one was looked at last."""
         self._is_flushing = False
         self._end_is_sent = False
         self._state = TrajectoryState.RECEIVING
@@ -258,16 +260,22 @@ class StreamRun(Motion):
         )
 
     def _by_progress(self, told: messages.Progress) -> None:
-        self._counts(told.planned, told.reached)
-        # A point that was given to the planner has made room for another one.
-        self._room_until = max(self._room_until, self._planned + self._ring)
-        self._now(told.state)
+        if self._tracker.progresses != self._looked_at:
+            self._looked_at = self._tracker.progresses
+            self._counts(told.planned, told.reached)
+            # A point that was given to the planner has made room for another one.
+            self._room_until = max(self._room_until, self._planned + self._ring)
+            self._now(told.state)
         super()._by_progress(told)
 
     def _counts(self, planned: int, reached: int) -> None:
-        self._planned = max(self._planned, min(unwrapped(planned, self._planned), self._sent))
-        reached_points = min(unwrapped(reached, self._reached_points), self._planned)
-        self._reached_points = max(self._reached_points, reached_points)
+        """Take what was told, unless it is older than what is known, or cannot be."""
+        planned = unwrapped(planned, self._planned)
+        if self._planned <= planned <= self._sent:
+            self._planned = planned
+        reached = unwrapped(reached, self._reached_points)
+        if self._reached_points <= reached <= self._planned:
+            self._reached_points = reached
 
     def _now(self, state: int) -> None:
         now = trajectory_state(state)
