@@ -9,6 +9,7 @@ from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.io import Signal
 from rapidgen.virtual.log import Event
 from rapidgen.virtual.operator import Question
+from rapidgen.virtual.stepping import CannotStep
 from rapidgen.virtual.text import NotALiteral, parse_value, value_text
 from rapidgen.virtual.values import Type
 
@@ -44,6 +45,7 @@ def commands(controller: VirtualController) -> dict[str, Callable[[Request], obj
         "questions": remote.questions,
         "answer": remote.answer,
         "where": remote.where,
+        "step": remote.step,
     }
     for action in _ACTIONS:
         found[action] = remote.action(action)
@@ -195,11 +197,25 @@ class _Remote:
             raise CommandError(error.name) from error
         return None
 
+    def step(self, request: Request) -> object:
+        """One statement of `task`; `back` and `over` are true or false."""
+        try:
+            self._task(request).step(
+                back=request.get("back") is True, over=request.get("over") is True
+            )
+        except CannotStep as error:
+            raise CommandError(str(error)) from error
+        return None
+
     def _datum(self, request: Request) -> tuple[TaskView, str]:
-        name, wanted = _text(request, "name"), _text(request, "task")
+        name = _text(request, "name")
+        return self._task(request), name
+
+    def _task(self, request: Request) -> TaskView:
+        wanted = _text(request, "task")
         for task in self._controller.tasks.values():
             if task.name.lower() == wanted.lower():
-                return task, name
+                return task
         raise CommandError(f"there is no task '{wanted}'")
 
     # -- log, screen, dialogs ---------------------------------------------------------------

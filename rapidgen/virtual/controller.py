@@ -136,6 +136,18 @@ class TaskView:
         """Stop the program."""
         self.rapid.stop()
 
+    def step(self, *, back: bool = False, over: bool = False) -> None:
+        """Execute one statement; `over`: calls as a whole. CannotStep says why not.
+
+        Time has to pass for it; the task is `stopped` again then.
+        """
+        self.rapid.controller.step_program(self.rapid, back=back, over=over)
+
+    @property
+    def place(self) -> Place | None:
+        """The statement before which a stopped task stands; None when that is unknown."""
+        return self.rapid.stands_before()
+
     def pp_to_main(self) -> None:
         """Set the program pointer to main."""
         self.rapid.pp_to_main()

@@ -112,6 +112,10 @@ class ResumeInside(Unwind):
         self.way = way
 
 
+class PointerMoved(Unwind):
+    """Everything is left and goes on where the program pointer is: no UNDO."""
+
+
 class EventStopped(Unwind):
     """Stop in an event routine: the routine is left, and the program stands."""
 

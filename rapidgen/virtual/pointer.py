@@ -6,12 +6,13 @@ routine is compiled anew (compiler/resume.py). Routines that the error left are 
 UNDO handlers run when the program pointer is moved.
 """
 
-from collections.abc import Callable, Sequence
-from types import TracebackType
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from types import FrameType, TracebackType
 from typing import Any
 
 from rapidgen.virtual.compiler.program import Program
 from rapidgen.virtual.compiler.resume import Standing, find
+from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.errors import RECOVERABLE, FatalError
 from rapidgen.virtual.recovery import is_part
 from rapidgen.virtual.task import Task
@@ -21,16 +22,21 @@ LARGEST_STACK = 100
 _OTHER_LEVELS = frozenset({"_serve_traps", "_run_event"})
 
 
-def standing(program: Program, traceback: TracebackType | None) -> list[Standing] | None:
-    """Where the routines of a traceback are, outermost first.
+def frames_of(traceback: TracebackType | None) -> Iterator[tuple[FrameType, int]]:
+    """Frames and lines of a traceback, outermost first."""
+    while traceback is not None:
+        yield traceback.tb_frame, traceback.tb_lineno
+        traceback = traceback.tb_next
+
+
+def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[Standing] | None:
+    """Where the routines of frames are, outermost first.
 
     None when the program cannot go on there: in a handler, a trap or an event routine, or too
     deep inside.
     """
     found: dict[int, Standing] = {}
-    while traceback is not None:
-        frame, line = traceback.tb_frame, traceback.tb_lineno
-        traceback = traceback.tb_next
+    for frame, line in frames:
         compiled = program.codes.get(frame.f_code.co_filename)
         name = frame.f_code.co_name
         if name in _OTHER_LEVELS or (compiled is not None and name in ("_h", "_u")):
@@ -78,7 +84,7 @@ class Pointer(Task):
         self._below = []
         self.place = None
         if self.keeps_place and fatal.restartable:
-            self.place = standing(self.program, raised.__traceback__)
+            self.place = standing(self.program, frames_of(raised.__traceback__))
         if self.place is None:
             self.leave_place()
 
@@ -116,14 +122,18 @@ class Pointer(Task):
     def go_on_below(self) -> None:
         """The next call of the routine below goes on with it instead."""
         place, rest = self._below.pop(0)
-        space, code = self.program.space, place.routine.code
+        self.intercept(place.routine, lambda *_, **__: rest(place.values))
+
+    def intercept(self, routine: Routine, instead: Callable[..., Any]) -> None:
+        """Let the next call of a routine do something else."""
+        space, code = self.program.space, routine.code
         self._intercepted = (code, space[code])
 
-        def instead(*_arguments: Any, **_named: Any) -> Any:  # noqa: ANN401
+        def once(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401
             self.not_below()
-            return rest(place.values)
+            return instead(*arguments, **named)
 
-        space[code] = instead
+        space[code] = once
 
     def not_below(self) -> None:
         """Calls are ordinary again."""

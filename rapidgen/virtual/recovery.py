@@ -13,6 +13,7 @@ from rapidgen.virtual.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,
     FatalError,
+    PointerMoved,
     RapidError,
     ResumeInside,
     as_rapid_error,
@@ -276,7 +277,7 @@ class Recovery(Process):
 
     def undo(self, handler: Callable[[], int], leaving: BaseException) -> None:
         """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
-        if isinstance(leaving, GreenletExit) or self.undo_failed:
+        if isinstance(leaving, GreenletExit | PointerMoved) or self.undo_failed:
             return
         if isinstance(leaving, RECOVERABLE):
             known = as_rapid_error(leaving)

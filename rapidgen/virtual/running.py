@@ -7,25 +7,27 @@ from typing import Any, Literal
 from rapidgen.system.model import TaskSpec
 from rapidgen.virtual.compiler.base import CannotCompile
 from rapidgen.virtual.compiler.program import Program, Shared
+from rapidgen.virtual.compiler.resume import Standing
 from rapidgen.virtual.errors import (
     RECOVERABLE,
     EndOfRun,
     EventStopped,
     ExitCycle,
     FatalError,
+    PointerMoved,
 )
 from rapidgen.virtual.kernel import Kernel
-from rapidgen.virtual.pointer import Pointer
 from rapidgen.virtual.recovery import DEEPEST
+from rapidgen.virtual.stepping import CannotStep, Step, Stepping
 
 State = Literal["ready", "running", "stopped", "finished", "error", "empty"]
-Event = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET"]
+Event = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP"]
 _WHILE_STOPPED: frozenset[Event] = frozenset({"STOP", "QSTOP", "POWER_ON"})
 """Their routines run at once, in a task that stands."""
-_AT_RESTART: frozenset[Event] = frozenset({"RESTART"})
+_AT_RESTART: frozenset[Event] = frozenset({"RESTART", "STEP"})
 
 
-class RapidTask(Pointer):
+class RapidTask(Stepping):
     """A task of the controller.
 
     `state`: `ready` PP stands at main · `running` · `stopped` goes on when it is started ·
@@ -51,6 +53,10 @@ class RapidTask(Pointer):
         self.fault: FatalError | None = None
         self._fresh = True
         """PP was set to main: variables are to be initialised."""
+        self._backward = False
+        """The step under way goes back."""
+        self._at_point = -1
+        """Depth of the statement before which a step has ended; -1 elsewhere."""
         self._start_asked = False
         """A start came while routines were still being left for PP to main."""
         self._events: list[Event] = []
@@ -73,7 +79,9 @@ class RapidTask(Pointer):
         elif self.state == "stopped":
             self._events.append("RESTART")
             self._set("running")
-            if not self._stop_routines_due:
+            if self.place is not None:
+                self.launch(self._body)
+            elif not self._stop_routines_due:
                 self.release()
         elif self.state in ("ready", "finished"):
             self.fault = None
@@ -99,6 +107,51 @@ class RapidTask(Pointer):
             if event:
                 self._events.append(event)
             self.hold()
+
+    def step(self, *, back: bool = False, over: bool = False) -> None:
+        """Execute one statement. CannotStep: not from here; nothing has changed then."""
+        if self.state in ("ready", "finished") and not back:
+            self._begin_step(over)
+            if not self.alive:
+                self.launch(self._body)
+            return
+        if self.state not in ("stopped", "error") or self.leaving or self.while_stopped:
+            raise CannotStep(f"the task is {self.state}")
+        if self.state == "error" and self.place is None:
+            raise CannotStep("the program pointer is lost: PP to main first")
+        if self._at_point >= 0 and not back:
+            self._begin_step(over, self._at_point)
+            self.release()
+            return
+        self.place = self.where_it_stands()
+        self._backward = back
+        self._begin_step(over)
+        if self.alive:
+            self.order(PointerMoved())
+            self.held = False
+        else:
+            self.launch(self._body)
+
+    def _begin_step(self, over: bool, depth: int = -1) -> None:
+        self.program.trace_from_now()
+        self.fault = None
+        self._events.append("STEP")
+        self._set("running")
+        self.step_under_way = Step(over, depth)
+
+    def step_ends(self) -> None:
+        """Stand before the statement that was reached; the robot stands, too."""
+        assert self.step_under_way is not None
+        motion = self.controller.motion
+        if motion.is_motion_task(self.name):
+            motion.of_task(self.name).wait_standing(self)
+        self._at_point = self.step_under_way.depth_now
+        self._set("stopped")
+        self.controller.step_ended(self)
+        try:
+            super().stop_here()
+        finally:
+            self._at_point = -1
 
     def hold(self) -> None:
         """Stop before the next statement, or in the wait; not in what runs because of a stop."""
@@ -130,7 +183,7 @@ class RapidTask(Pointer):
     @property
     def stands(self) -> bool:
         """Whether the program is stopped, even if something runs because of that."""
-        return super().stands or self.state == "error"
+        return super().stands or self.state == "error" or self.stepping
 
     @property
     def leaving(self) -> bool:
@@ -141,6 +194,8 @@ class RapidTask(Pointer):
 
     def _set(self, state: State) -> None:
         self.state = state
+        if state != "running":
+            self.step_under_way = None
         self.controller.task_changed(self)
 
     def _body(self) -> None:
@@ -186,6 +241,8 @@ class RapidTask(Pointer):
         self.attend()
         self.charge(self.controller.costs.statement)
         self._run_events()
+        if self._backward:
+            return self._back(places)
         try:
             self.go_on(places)
         except CannotCompile as error:
@@ -193,6 +250,28 @@ class RapidTask(Pointer):
                 40_001, "Program pointer is lost", f"{error}: PP to main", restartable=False
             ) from error
         return self._next_cycle()
+
+    def _back(self, places: list[Standing]) -> bool:
+        """Execute the statement before backward; the program then stands before it."""
+        self._backward = False
+        self.step_under_way = None
+        self.stepping_back = True
+        try:
+            self.place = self.step_back(places)
+        except CannotStep as reason:
+            self.place = places
+            self.controller.log.warning(
+                40_700, "Backward step is not possible", str(reason), task=self.name
+            )
+        except FatalError as fatal:
+            self._fail(fatal, fatal)
+            self.place = places
+            return False
+        finally:
+            self.stepping_back = False
+        self._set("stopped")
+        self.controller.step_ended(self)
+        return False
 
     def _guarded(self, step: Callable[[], bool]) -> bool:
         """Do a step of the run and deal with every way out of it; whether the run goes on."""
@@ -202,6 +281,8 @@ class RapidTask(Pointer):
             return self._next_cycle()
         except EndOfRun:
             return self._over()
+        except PointerMoved:
+            return True
         except FatalError as fatal:
             self._fail(fatal, fatal)
         except RECOVERABLE as error:

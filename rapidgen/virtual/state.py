@@ -17,6 +17,7 @@ from rapidgen.virtual.kernel import Kernel, WaitSet
 from rapidgen.virtual.loading import ModuleTable
 from rapidgen.virtual.motion.system import MotionSystem
 from rapidgen.virtual.network.device import SocketTable
+from rapidgen.virtual.stepping import CannotStep
 from rapidgen.virtual.task import Task
 
 if TYPE_CHECKING:
@@ -111,6 +112,19 @@ class ControllerState:
         if self.failed:
             return "system failure state"
         return "a task halted the system" if self.halted else "motors are off"
+
+    def step_program(self, task: "RapidTask", *, back: bool = False, over: bool = False) -> None:
+        """Execute one statement of a task. CannotStep: not in this state, or not from there."""
+        if self.failed or self.halted or self.e_stop or not self.motors_on:
+            raise CannotStep(self._why_not())
+        task.step(back=back, over=over)
+        for group in self.motion.groups.values():
+            group.start("program")
+        self._report()
+
+    def step_ended(self, task: "RapidTask") -> None:
+        """A task has done its step."""
+        self._stop_motion()
 
     def stop_program(
         self, *, quick: bool = False, event: Literal["STOP", "QSTOP", ""] = "STOP"
@@ -363,6 +377,8 @@ class ControllerState:
         for tracer in self.tracers:
             tracer(task, routine, node)
         module = routine.module
+        if task.reached(module):  # type: ignore[attr-defined]
+            task.step_ends()  # type: ignore[attr-defined]
         if not self._breakpoints or module is None:
             return
         line = module.tree.source.line(node.first)

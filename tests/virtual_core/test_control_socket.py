@@ -74,6 +74,14 @@ def test_values(client: Client) -> None:
     assert not client.ask("get", task="T1", name="sock")["ok"]
 
 
+def test_step(client: Client) -> None:
+    assert not client.ask("step", task="T1")["ok"]  # it runs
+    assert not client.ask("step", task="nobody")["ok"]
+    client.ask("stop")
+    assert client.ask("step", task="T1")["ok"]
+    client.ask("start")
+
+
 @pytest.mark.parametrize(
     "line",
     [

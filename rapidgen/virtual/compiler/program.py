@@ -11,7 +11,7 @@ from rapidgen.system.model import ModuleFile
 from rapidgen.virtual.compiler import predefined, runtime
 from rapidgen.virtual.compiler.base import CannotCompile, Options
 from rapidgen.virtual.compiler.evaluate import evaluate
-from rapidgen.virtual.compiler.resume import Standing, after, compile_rest
+from rapidgen.virtual.compiler.resume import Standing, after, compile_backward, compile_rest
 from rapidgen.virtual.compiler.routine import Compiled, compile_routine
 from rapidgen.virtual.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
 from rapidgen.virtual.errors import RECOVERABLE, FatalError
@@ -541,9 +541,22 @@ class Program:
         self.codes[name] = compiled
         return function
 
-    def rest(self, standing: Standing, *, calls: bool) -> Callable[[dict[str, Any]], Any]:
-        """A function that goes on with a routine where it stands. CannotCompile: it cannot."""
-        function, compiled, name = compile_rest(self, standing, self.options, calls=calls)
+    def rest(
+        self, standing: Standing, *, calls: bool = False, alone: bool = False
+    ) -> Callable[[dict[str, Any]], Any]:
+        """A function that goes on with a routine where it stands. CannotCompile: it cannot.
+
+        `calls`: the statement is a call that is under way. `alone`: only it is executed.
+        """
+        options = replace(self.options, tracing=False) if alone else self.options
+        function, compiled, name = compile_rest(self, standing, options, calls=calls, alone=alone)
+        self.codes[name] = compiled
+        return function
+
+    def backward(self, routine: Routine) -> Callable[..., Any]:
+        """The BACKWARD handler of a procedure as a function. CannotCompile."""
+        assert routine.module is not None
+        function, compiled, name = compile_backward(self, routine, self.options)
         self.codes[name] = compiled
         return function
 

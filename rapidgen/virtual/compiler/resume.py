@@ -6,7 +6,7 @@ statement list around, and loops from their next pass on.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from rapidgen.rapid import nodes as n
@@ -80,12 +80,17 @@ class ResumingCompiler(RoutineCompiler):
         options: Options,
         *,
         calls: bool,
+        alone: bool,
     ) -> None:
-        """`calls`: the statement is a call that is under way, and its routine goes on, too."""
+        """`calls`: the statement is a call that is under way, and its routine goes on, too.
+
+        `alone`: nothing follows it.
+        """
         super().__init__(program, module, standing.routine, options)
         self.entry = f"{self.routine.code}_rest"
         self._standing = standing
         self._calls = calls
+        self._alone = alone
         if self.goto:
             self.fault("a routine with GOTO cannot go on in the middle", self.node)
 
@@ -118,10 +123,13 @@ class ResumingCompiler(RoutineCompiler):
                 self.w.token = body[i].first
                 self.w.close()
                 self.w.emit("R.go_on_below()")
-            self.statement(body[i])
-            if self._calls:
+                self.one(body[i])  # which is under way: no trace tells of it again
                 self.w.close()
                 self.w.emit("R.not_below()")
+            else:
+                self.statement(body[i])
+        if self._alone:
+            return
         for statement in body[i + 1 :]:
             self.statement(statement)
 
@@ -129,7 +137,8 @@ class ResumingCompiler(RoutineCompiler):
         match statement:
             case n.While():
                 self._rest(deeper)
-                self.statement(statement)
+                if not self._alone:
+                    self.statement(statement)
             case n.For():
                 self._into_for(statement, deeper)
             case _:
@@ -143,20 +152,43 @@ class ResumingCompiler(RoutineCompiler):
         hidden = self.bind_loop(node, name, whole=False, limits=None)
         self._rest(deeper)
         self.unbind_loop(node, hidden)
+        if self._alone:
+            return
         self.w.close()
         self.resumed.add(node.first)
         self.statement(node)
 
 
+def compile_backward(
+    program: "Program", routine: Routine, options: Options
+) -> tuple[Callable[..., Any], Compiled, str]:
+    """The BACKWARD handler of a procedure, with its parameters and variables [K §6.1].
+
+    Errors in it are not for the procedure's own ERROR [K §7.1].
+    """
+    node, module = routine.node, routine.module
+    assert node is not None
+    assert node.backward is not None
+    assert module is not None
+    body = replace(node, body=node.backward.body, backward=None, error=None)
+    compiler = RoutineCompiler(program, module, replace(routine, node=body), options)
+    compiler.entry = f"{routine.code}_back"
+    compiler.file = f"{program.code_name(routine)} backward"
+    code, compiled = compiler.compile()
+    exec(code, program.space)
+    return program.space[compiler.entry], compiled, compiler.file
+
+
 def compile_rest(
-    program: "Program", standing: Standing, options: Options, *, calls: bool
+    program: "Program", standing: Standing, options: Options, *, calls: bool, alone: bool
 ) -> tuple[Callable[[dict[str, Any]], Any], Compiled, str]:
     """A function that goes on with a routine, given the values; and its Python file name."""
     module = standing.routine.module
     assert module is not None
-    compiler = ResumingCompiler(program, module, standing, options, calls=calls)
+    compiler = ResumingCompiler(program, module, standing, options, calls=calls, alone=alone)
     at = "".join(f" {i}" for _, i in standing.path)
-    compiler.file = f"{program.code_name(standing.routine)} from{at}"
+    only = " alone" if alone else ""
+    compiler.file = f"{program.code_name(standing.routine)} from{at}{only}"
     code, compiled = compiler.compile()
     space = program.space
     exec(code, space)

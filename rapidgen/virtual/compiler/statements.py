@@ -38,7 +38,7 @@ class Statements(Structure):
         w.token = node.first
         if self.options.tracing and not isinstance(node, n.Label):
             w.close()
-            w.emit(f"R.b = b; TRACE(R, {self.program.trace_point(self.routine, node)})")
+            w.emit(f"R.b = b; TRACE(R, {self.program.trace_point(self.routine, node)}); b = R.b")
         if self.too_deep(node):
             self.set_apart(node)
             return

@@ -1,0 +1,143 @@
+"""Statement by statement, forward and backward [K §6, S4 overview 4-39 to 4-42].
+
+A stopped program is taken down and goes on in code that reports every statement
+(pointer.py); it stops again before the next one. Backward, only simple statements are executed:
+assignments and CONNECT do nothing, a call of the program's own procedure executes its BACKWARD
+handler, everything else refuses. There are no interrupts meanwhile.
+"""
+
+import sys
+from dataclasses import dataclass, replace
+from types import FrameType
+from typing import Any
+
+from rapidgen.rapid import nodes as n
+from rapidgen.virtual.compiler.base import CannotCompile
+from rapidgen.virtual.compiler.program import LoadedModule
+from rapidgen.virtual.compiler.resume import Standing
+from rapidgen.virtual.pointer import Pointer, standing
+from rapidgen.virtual.recovery import Place
+
+
+class CannotStep(Exception):
+    """A step is not possible from where the program stands; the text says why."""
+
+
+@dataclass(slots=True)
+class Step:
+    """What is under way."""
+
+    over: bool
+    """Calls are executed as a whole."""
+    depth: int = -1
+    """Routines inside each other where the step began; not known before the first statement."""
+    depth_now: int = -1
+    """The same where it has come to."""
+
+
+class Stepping(Pointer):
+    """The part of a task that steps."""
+
+    def __init__(self, *arguments: Any) -> None:  # noqa: ANN401 - those of Task
+        super().__init__(*arguments)
+        self.step_under_way: Step | None = None
+        self.stepping_back = False
+
+    @property
+    def stepping(self) -> bool:
+        """Whether a step is being executed: there are no interrupts [S4 overview 4-39]."""
+        return self.step_under_way is not None or self.stepping_back
+
+    def where_it_stands(self) -> list[Standing]:
+        """Every routine of a stopped program. CannotStep: inside what cannot be left."""
+        if self.place is not None:
+            return self.place
+        frames: list[tuple[FrameType, int]] = []
+        frame: Any = self.frame
+        while frame is not None:
+            frames.append((frame, frame.f_lineno))
+            frame = frame.f_back
+        found = standing(self.program, reversed(frames))
+        if found is None:
+            raise CannotStep("it stands in a handler, a trap or an event routine")
+        return found
+
+    def stands_before(self) -> Place | None:
+        """The statement that a start would execute next."""
+        if self.place is None and self.frame is None:
+            return None
+        try:
+            last = self.where_it_stands()[-1]
+        except CannotStep:
+            return None
+        body, i = last.path[-1]
+        module = last.routine.module
+        assert module is not None
+        return Place(module.name, last.routine.name, module.span(body[i]), None)
+
+    def reached(self, module: LoadedModule | None) -> bool:
+        """A statement is about to be executed: whether the step ends before it.
+
+        Statements of NOSTEPIN modules are executed as a whole [S4 overview 4-8].
+        """
+        step = self.step_under_way
+        if step is None or self.event or self.in_trap:
+            return False
+        if module is not None and (module.installed or "NOSTEPIN" in module.tree.attributes):
+            return False
+        depth = step.depth_now = self._depth()
+        if step.depth < 0:
+            step.depth = depth
+            return False
+        return not step.over or depth <= step.depth
+
+    def _depth(self) -> int:
+        codes = self.program.codes
+        depth = 0
+        frame: FrameType | None = sys._getframe(2)
+        while frame is not None:
+            depth += frame.f_code.co_filename in codes
+            frame = frame.f_back
+        return depth
+
+    # -- backward --------------------------------------------------------------------------------
+
+    def step_back(self, places: list[Standing]) -> list[Standing]:
+        """Execute the statement before the place backward; where the program stands then.
+
+        CannotStep: there is none, or it has no backward behaviour. Arguments of a call are
+        evaluated even so [K §6].
+        """
+        last = places[-1]
+        body, i = last.path[-1]
+        if i == 0:
+            raise CannotStep("it stands at the top of a statement list")
+        statement = body[i - 1]
+        before = replace(last, path=[*last.path[:-1], (body, i - 1)])
+        if isinstance(statement, n.ProcedureCall):
+            self._call_back(statement, before)
+        elif not isinstance(statement, n.Assignment | n.Connect | n.Label):
+            raise CannotStep("the statement before cannot be executed backward")
+        return [*places[:-1], before]
+
+    def _call_back(self, call: n.ProcedureCall, before: Standing) -> None:
+        routine = self.program.find_routine(before.routine.module, call.name.lower())
+        if routine is None or routine.node is None:
+            raise CannotStep(f"{call.name} is not executed backward")
+        handler = routine.node.backward
+        try:
+            once = self.program.rest(before, alone=True)
+            function = self.program.backward(routine) if handler is not None else _nothing
+        except CannotCompile as error:
+            raise CannotStep(str(error)) from error
+        self.intercept(routine, lambda *a, **k: self.at_level(lambda: function(*a, **k)))
+        try:
+            once(before.values)
+        finally:
+            self.not_below()
+        if handler is None:
+            raise CannotStep(f"{call.name} has no BACKWARD handler")
+
+
+def _nothing(*_arguments: Any, **_named: Any) -> None:  # noqa: ANN401
+    """What a procedure without BACKWARD does."""
