@@ -97,7 +97,8 @@ def merge(base: Mapping, over: Mapping, path: tuple[str, ...] = ()) -> Mapping:
         if below and isinstance(below[1], Mapping) and isinstance(value, Mapping):
             value = merge(below[1], value, (*path, key))
         entries[key] = (place, value)
-    if len(path) == 4 and path[0] == "groups" and path[2] == "joints":
+    group, joint = len(path) == 2, len(path) == 4 and path[2] == "joints"
+    if path[:1] == ("groups",) and (group or joint):
         entries = _settle(entries, over)
     return Mapping(entries, over.span)
 

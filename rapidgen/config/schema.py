@@ -260,11 +260,11 @@ class GroupKeys(_Part):
     ] = 5000.0
     ports: Annotated[Ports, Rule("TCP ports.")] = field(default_factory=Ports)
     source: Annotated[
-        dict[Literal["limits", "speeds", "chain", "coupling", "mapping"], Text],
+        dict[Literal["limits", "speeds", "chain", "coupling", "mapping", "tcp_speed_limit"], Text],
         Rule("Where the group's figures come from."),
     ] = field(default_factory=dict)
     unsure: Annotated[
-        list[Literal["chain", "coupling", "mapping"]],
+        list[Literal["chain", "coupling", "mapping", "tcp_speed_limit"]],
         Rule("Parts without a sure source; a build says so."),
     ] = field(default_factory=list)
 

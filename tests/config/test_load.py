@@ -182,6 +182,16 @@ def test_a_figure_of_ones_own_is_no_longer_unsure(tmp_path):
     assert config.groups[0].joints[5].source == "mine"
 
 
+def test_a_tool_speed_of_ones_own_is_no_longer_unsure(tmp_path):
+    """The ceilings of collaborative robots are remembered only; a build says so."""
+    (warning,) = load_config("crb15000").diagnostics
+    assert "joint_6 lower/upper, tcp_speed_limit" in warning.message
+    (warning,) = load(tmp_path, "model: crb15000\ntcp_speed_limit: 1000").diagnostics
+    assert warning.message.endswith("joint_6 lower/upper")
+    for warning in load_config("irb14000").diagnostics:
+        assert "chain, tcp_speed_limit" in warning.message
+
+
 def test_a_joint_of_another_name_on_a_known_axis_is_that_joint(tmp_path):
     group = load(tmp_path, "model: irb120\njoints: {shoulder: {axis: rax_2}}").groups[0]
     assert [j.name for j in group.joints][:3] == ["joint_1", "shoulder", "joint_3"]
@@ -321,6 +331,8 @@ def test_a_positioner_is_an_external_unit_that_an_external_axis_moves(tmp_path):
     assert sorted(places(faults(tmp_path, text))) == [
         ("RG014", 4, 3), ("RG014", 5, 19), ("RG014", 6, 3)
     ]  # fmt: skip
+    without = load(tmp_path, "model: irb120_track\nexternal_units: [TRACK, TABLE]\n")
+    assert without.groups[0].positioners == ()  # the model's unit is not in this cell
     other = "joints: {turntable: {axis: eax_b}}\n"
     config = load(tmp_path, "model: irb120_track\n" + other)
     assert config.groups[0].positioners[0].chain[0].joint == "turntable"
