@@ -6,6 +6,7 @@ from pathlib import Path
 from rapidgen.config import model, schema
 from rapidgen.config.draft import GroupDraft, JointDraft, Report
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import Severity
 
 GENERATIONS = {
@@ -137,11 +138,17 @@ def _group(
     names = {joint.name for joint in draft.joints}
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
-    for unit, chain in draft.positioners.items():
+    for unit, chain in list(draft.positioners.items()):
         where: KeyPath = (*path, "positioners", unit)
+        moved = {step.joint for step in chain if step.joint}
+        if _is_shipped(where, draft.model, report) and not (
+            unit in keys.external_units and moved <= external
+        ):
+            del draft.positioners[unit]  # the model's, and this cell has none
+            continue
         if unit not in keys.external_units:
             report.error("RG014", f"'{unit}' is not in `external_units`", where, key=True)
-        if not any(step.joint for step in chain):
+        if not moved:
             report.error("RG014", f"no joint moves '{unit}'", where)
         _chain(chain, where, external, "the external axes of `joints`", report)
     ports = keys.ports
@@ -169,6 +176,13 @@ def _group(
             model.Positioner(unit, tuple(chain)) for unit, chain in draft.positioners.items()
         ),
     )
+
+
+def _is_shipped(path: KeyPath, name: str, report: Report) -> bool:
+    """Whether a part is as the shipped model has it."""
+    if not name:
+        return False
+    return Path(report.span(path, key=True).path).resolve() == find_shipped(name).resolve()
 
 
 def _chain(
