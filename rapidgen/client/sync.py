@@ -14,7 +14,7 @@ from rapidgen.client import control_flows, flows, stream_flows
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
 from rapidgen.client.core import STOP_FRAME, Core, Timeouts
-from rapidgen.client.errors import MotionStopped, RobotError, fault
+from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
 from rapidgen.client.feed import Feed, batches
 from rapidgen.client.flows import Close, Connect, Effect, Flow, Wait
 from rapidgen.client.group import Group
@@ -297,10 +297,17 @@ class Robot:
         channel = self._channels.get(effect.port)
         if channel is None:
             raise self._core.disconnected()
-        if effect.urgent:
-            channel.send_urgent(effect.data, effect.timeout)
-        elif not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
-            raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
+        try:
+            if effect.urgent:
+                channel.send_urgent(effect.data, effect.timeout)
+            elif not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
+                raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
+        except ConnectionLost as error:
+            with self._changed:
+                # The reader was first, and knows better why.
+                if self._channels.get(effect.port) is not channel:
+                    raise self._core.disconnected() from error
+            raise
         return True
 
     def _wait(self, effect: Wait) -> bool:
