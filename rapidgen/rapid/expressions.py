@@ -77,6 +77,8 @@ class ExpressionParser:
         self.diagnostics: list[Diagnostic] = []
         self.open: list[Block] = []
         self.depth = 0
+        self.loose = -2
+        """The last prefix operator that K does not derive."""
         self.end_reported = False
         """Whether an error at the end of the text is reported: one is enough."""
         self.after = 0
@@ -241,7 +243,9 @@ class ExpressionParser:
         return _SIGN_LEVEL
 
     def _loose(self, i: int, pending: list[tuple[int, str, int]], rule: str) -> None:
-        if len(pending) > 1 and pending[-1][2] < 0 and pending[-2][2] < 0:
+        again = ~pending[-1][2] == self.loose
+        self.loose = i
+        if again:
             return  # one warning for a row of prefixes
         self.report(
             faults.error(
@@ -364,11 +368,16 @@ class ExpressionParser:
                     value = self.expression(i)
                     argument = Argument(i, value.last, "required", None, value)
             elif kind == "\\":
-                argument = self._optional(i)
+                argument = self._optional(i, close)
             elif kind == "*" and kinds[i + 1] in _BEHIND_ARGUMENTS:
                 argument = Argument(i, i, "required", None, Star(i, i))
             elif kind is HOLDER and close == ";" and texts[i].upper() == "<ARG>":
                 argument = Argument(i, i, "required", None, Placeholder(i, i, "<ARG>"))
+            elif (
+                kind is HOLDER and close == ";" and kinds[i + 1] == ":=" and self._holder(i, "<ID>")
+            ):
+                value = self.expression(i + 2)
+                argument = Argument(i, value.last, "required", "<ID>", value)
             else:
                 value = self.expression(i)
                 argument = Argument(i, value.last, "required", None, value)
@@ -384,9 +393,10 @@ class ExpressionParser:
             elif kind != "\\":
                 raise SyntaxFault(i, f"',', '\\' or '{close}'")
 
-    def _optional(self, i: int) -> Argument:
+    def _optional(self, i: int, close: str) -> Argument:
+        """The optional or conditional argument at a backslash; <ID> and <VAR> for procedures."""
         kinds, texts = self.kinds, self.texts
-        if kinds[i + 1] is not NAME:
+        if kinds[i + 1] is not NAME and not (close == ";" and self._holder(i + 1, "<ID>")):
             raise SyntaxFault(i + 1, "the name of an optional argument")
         name = texts[i + 1]
         kind = kinds[i + 2]
@@ -395,9 +405,12 @@ class ExpressionParser:
             return Argument(i, value.last, "optional", name, value)
         if kind == "?":
             at = i + 3
-            if kinds[at] is NAME:
+            if kinds[at] is NAME or (close == ";" and self._holder(at, "<ID>")):
                 return Argument(i, at, "conditional", name, Name(at, at, texts[at]))
-            if kinds[at] is HOLDER and texts[at].upper() == "<VAR>":
+            if close == ";" and self._holder(at, "<VAR>"):
                 return Argument(i, at, "conditional", name, Placeholder(at, at, "<VAR>"))
             raise SyntaxFault(at, "the name of an optional parameter")
         return Argument(i, i + 1, "switch", name, None)
+
+    def _holder(self, i: int, text: str) -> bool:
+        return self.kinds[i] is HOLDER and self.texts[i].upper() == text

@@ -222,7 +222,7 @@ class ModuleParser(RoutineParser):
         while kinds[at] != "ENDRECORD":
             try:
                 if kinds[at] is not NAME:
-                    raise SyntaxFault(at, "a component (type and name) or ENDRECORD")
+                    self.identifier(at, "a component (type and name) or ENDRECORD")
                 name_here = self.identifier(at + 1, "the name of the component")
                 end = at + 2
                 if kinds[end] == "{":

@@ -73,8 +73,10 @@ class CallChecker(TypeChecker):
         groups: dict[int, Argument] = {}
         given: set[int] = set()
         for argument in node.arguments:
-            if isinstance(argument.value, Placeholder) and argument.kind == "required":
-                return
+            if argument.name == "<ID>" or (
+                isinstance(argument.value, Placeholder) and argument.kind == "required"
+            ):
+                return  # which parameter is meant is not known yet
             if argument.kind == "required" and argument.name is None:
                 k = self._next_required(parameters, at, groups)
                 if k < 0:
@@ -299,7 +301,7 @@ class CallChecker(TypeChecker):
 
     def _conditional(self, parameter: Parameter, argument: Argument) -> None:
         value = argument.value
-        if not isinstance(value, Name):
+        if not isinstance(value, Name) or value.name == "<ID>":
             return
         own = self.find(value.name)
         if own is None or not isinstance(own.node, Parameter) or not own.node.optional:
