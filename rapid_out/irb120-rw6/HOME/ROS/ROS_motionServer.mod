@@ -10,7 +10,7 @@ MODULE ROS_motionServer
     ! the ring to the motion task. The client's STOP lies in the same stream behind its points,
     ! so this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "9f5632a2e22f";
+    CONST string ROS_BUILD_MOTION_SERVER := "cb6a054a433e";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE := "f6d9ba371300";
+    CONST string ROS_BUILD_STATE := "82dda9b25aaf";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -169,7 +169,7 @@ MODULE ROS_stateServer
         IF stamp >= CLOCK_LIMIT stamp := stamp - CLOCK_LIMIT;
         ROS_pack_joints state, joints;
 
-        look;
+        ROS_look newest;
         IF newest.state = ROS_TRAJ_REFUSED OR newest.state = ROS_TRAJ_FAILED
             in_error := ROS_TRI_TRUE;
         IF ROS_controller_error() = ROS_TRI_TRUE in_error := ROS_TRI_TRUE;
@@ -266,67 +266,6 @@ MODULE ROS_stateServer
         suspect := sends;
         set_alarm TRUE;
     ENDTRAP
-
-    ! See what has become of the newest trajectory: look again if a newer one begins meanwhile,
-    ! so that a number never comes with what belongs to another.
-    LOCAL PROC look()
-        VAR num trajectory := -1;
-
-        WHILE trajectory <> ROS_trajectory DO
-            trajectory := ROS_trajectory;
-            look_at trajectory;
-        ENDWHILE
-    ENDPROC
-
-    LOCAL PROC look_at(num trajectory)
-        newest := [trajectory,ROS_TRAJ_RECEIVING,0,0,0,ROS_REASON_NONE,-1];
-        ! It begins just now: all the rest is still of the one before.
-        IF ROS_phase_of <> trajectory RETURN;
-        newest.state := ROS_phase;
-        newest.received := ROS_received;
-        TEST newest.state
-        CASE ROS_TRAJ_REFUSED, ROS_TRAJ_STOPPED:
-            ! A refusal becomes a stop when STOP comes: the code says which it is.
-            newest.code := ROS_refusal;
-            IF newest.code = ROS_REASON_STOPPED THEN
-                newest.state := ROS_TRAJ_STOPPED;
-            ELSE
-                newest.state := ROS_TRAJ_REFUSED;
-                newest.index := ROS_refused_at;
-            ENDIF
-        CASE ROS_TRAJ_MOVING:
-            look_at_motion trajectory;
-        ENDTEST
-    ENDPROC
-
-    ! The state is read before the counts, and what was reached before what was planned: none
-    ! is told that is ahead of what it follows from.
-    LOCAL PROC look_at_motion(num trajectory)
-        IF ROS_done = trajectory THEN
-            newest.state := ROS_TRAJ_DONE;
-        ELSEIF ROS_dead = trajectory THEN
-            newest.code := ROS_dead_reason;
-            newest.state := ended(newest.code);
-        ELSEIF ROS_halted = trajectory THEN
-            newest.code := ROS_halt_reason;
-            newest.state := ended(newest.code);
-        ELSEIF ROS_paused = trajectory THEN
-            newest.state := ROS_TRAJ_PAUSED;
-        ELSEIF ROS_starved = trajectory THEN
-            newest.state := ROS_TRAJ_STARVED;
-        ENDIF
-        IF ROS_started = trajectory THEN
-            newest.reached := ROS_reached;
-            newest.planned := ROS_planned;
-        ENDIF
-        IF newest.code <> ROS_REASON_NONE newest.index := newest.reached;
-    ENDPROC
-
-    ! State of a trajectory that ended early for this reason.
-    LOCAL FUNC num ended(num code)
-        IF code = ROS_REASON_STOPPED OR code = ROS_REASON_SUPERSEDED RETURN ROS_TRAJ_STOPPED;
-        RETURN ROS_TRAJ_FAILED;
-    ENDFUNC
 
     ! TRUE while a trajectory is under way that was not halted and does not wait, while an axis
     ! turns, and once after any movement that fell between two messages.
