@@ -630,7 +630,7 @@ EVENT = Message(
     "controller",
     (Port.STATE,),
     (
-        _int("domain", "of the event's number: 1 to 14"),
+        _int("domain", "of the event's number: 1 to 14; 0: so many were not told"),
         _int("number", "within the domain"),
         _int("type", "1 state change, 2 warning, 3 error"),
         Field("title", Wire.CHAR, 80, "", "in the controller's language"),
