@@ -4,6 +4,8 @@ import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from rich.progress import Progress, TaskID
+
     from rapidgen.client import Execution, Result
 
 
@@ -30,6 +32,11 @@ def follow(execution: "Execution") -> "Result":
             except RobotTimeout:
                 if execution.is_over:
                     raise
-            bar.update(task, completed=execution.progress.fraction)
-        bar.update(task, completed=execution.progress.fraction)
+            _show(bar, task, execution)
+        _show(bar, task, execution)
     return execution.result()
+
+
+def _show(bar: "Progress", task: "TaskID", execution: "Execution") -> None:
+    progress = execution.progress
+    bar.update(task, completed=progress.fraction, description=progress.state.name.lower())

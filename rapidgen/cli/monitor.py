@@ -30,8 +30,8 @@ def monitor(
 ) -> int:
     """Watch a robot: joints against limits, mode, rate, jitter, last event. Ctrl-C ends it.
 
-    A driver serves one state connection: the newest. Watching takes it from a program that
-    moves the robot, which then stops.
+    A rapidgen driver tells three clients at once. A plain one tells the newest: watching takes
+    the connection from a program that moves the robot, which then stops.
     """
     from rapidgen.client import Robot
     from rapidgen.client.watch import Watcher
@@ -43,11 +43,16 @@ def monitor(
             _live(robot, watcher, count)
             return 0
         for number, state in enumerate(robot.states(), 1):
-            watcher.take(state)
+            _take(robot, state, watcher)
             typer.echo(_json(state, watcher) if as_json else _line(state, watcher))
             if number == count:
                 break
     return 0
+
+
+def _take(robot: "Robot", state: "State", watcher: "Watcher") -> None:
+    watcher.take(state)
+    watcher.tell(robot.events[-1] if robot.events else None)
 
 
 def _live(robot: "Robot", watcher: "Watcher", count: int) -> None:
@@ -55,14 +60,14 @@ def _live(robot: "Robot", watcher: "Watcher", count: int) -> None:
 
     with Live(refresh_per_second=10) as live:
         for number, state in enumerate(robot.states(), 1):
-            watcher.take(state)
+            _take(robot, state, watcher)
             live.update(_table(robot, state, watcher))
             if number == count:
                 return
 
 
 def _line(state: "State", watcher: "Watcher") -> str:
-    from rapidgen.client.watch import error_text
+    from rapidgen.client.watch import activity, error_text
 
     joints = " ".join(f"{value:.4f}" for value in state.joints)
     status = state.status
@@ -71,7 +76,7 @@ def _line(state: "State", watcher: "Watcher") -> str:
         joints,
         f"{state.rate:.1f}/s",
         status.mode.name.lower(),
-        "moving" if state.is_moving else "standing",
+        activity(state),
         error_text(status),
         watcher.event,
     ]
@@ -98,6 +103,7 @@ def _json(state: "State", watcher: "Watcher") -> str:
             "motion_possible": status.motion_possible.name.lower(),
             "in_error": status.in_error.name.lower(),
             "error_code": status.error_code,
+            "trajectory": state.trajectory.name.lower() if state.trajectory is not None else None,
             "event": watcher.event,
         }
     )
@@ -108,7 +114,7 @@ def _table(robot: "Robot", state: "State", watcher: "Watcher") -> "Table":
 
     from rich.table import Table
 
-    from rapidgen.client.watch import error_text
+    from rapidgen.client.watch import activity, error_text
 
     status = state.status
     p50, p99 = watcher.jitter()
@@ -117,8 +123,7 @@ def _table(robot: "Robot", state: "State", watcher: "Watcher") -> "Table":
         "value",
         "speed",
         "limits",
-        title=f"{robot.address}  {status.mode.name.lower()}  "
-        f"{'moving' if state.is_moving else 'standing'}",
+        title=f"{robot.address}  {status.mode.name.lower()}  {activity(state)}",
         caption=f"{state.rate:.1f} states/s, jitter p50 {p50 * 1000:.1f} ms, p99 "
         f"{p99 * 1000:.1f} ms, age {state.age * 1000:.0f} ms\n"
         f"{error_text(status) or watcher.event or 'nothing happened yet'}",

@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from rapidgen.client import Execution, Result, Robot, Trajectory
+    from rapidgen.client import Result, Robot, Trajectory
+    from rapidgen.client.motion import Way
     from rapidgen.diagnostics import Diagnostic
 
 
@@ -41,8 +42,16 @@ def move(
         Path | None, typer.Option(help="Write the executed joints as CSV.", metavar="FILE")
     ] = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")] = False,
+    stream: Annotated[
+        bool | None,
+        typer.Option(
+            "--stream/--download",
+            help="Send points while the robot moves, or all before it does; default what fits.",
+        ),
+    ] = None,
 ) -> int:
     """Execute a trajectory. Ctrl-C stops the robot."""
+    from rapidgen.cli.following import follow
     from rapidgen.client import Robot, Trajectory
     from rapidgen.client.permission import first_speed, need_confirmation, remember
 
@@ -62,13 +71,13 @@ def move(
         if approach is not None:
             trajectory = trajectory.starting_at(robot.state, approach)
         warnings = robot.check(trajectory)
-        _show_plan(robot, trajectory, used)
+        way = _way(robot, trajectory, stream)
+        _show_plan(robot, trajectory, used, way)
         _tell(warnings)
         if must_ask:
             _ask(robot)
         with robot.recording() as recording:
-            execution = robot.execute(trajectory)
-            result = _follow(execution)
+            result = follow(robot.execute(trajectory, way=way))
         if record is not None:
             recording.to_csv(record)
     if not robot.address.is_loopback:
@@ -86,6 +95,12 @@ def _resampled(trajectory: "Trajectory", period: float) -> "Trajectory":
     return trajectory.resampled(period) if sound else trajectory
 
 
+def _way(robot: "Robot", trajectory: "Trajectory", stream: bool | None) -> "Way":
+    if stream is None:
+        return robot.way_for(trajectory)
+    return "stream" if stream else "download"
+
+
 def _positive(option: str, value: float | None) -> None:
     if value is not None and not 0 < value < float("inf"):
         raise typer.BadParameter(f"must be above 0, not {value}", param_hint=option)
@@ -98,7 +113,7 @@ def _tell(warnings: "tuple[Diagnostic, ...]") -> None:
     sys.stderr.write(render(warnings, colour=use_colour()))
 
 
-def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float) -> None:
+def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float, way: "Way") -> None:
     from rich.console import Console
     from rich.table import Table
 
@@ -107,7 +122,8 @@ def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float) -> None:
     who = f"rapidgen driver {driver.version}" if driver.is_rapidgen else "plain simple_message"
     console.print(
         f"{len(trajectory)} points, {trajectory.duration:.2f} s at {speed:.0%} of the file's "
-        f"speed, to {robot.address} ({who})"
+        f"speed, to {robot.address} ({who}), "
+        + ("sent while it moves" if way == "stream" else "sent before it moves")
     )
     table = Table("joint", "here", "from", "to", "end", "least", "greatest", box=None)
     ordered = trajectory.reordered(robot.group.names)
@@ -136,34 +152,6 @@ def _ask(robot: "Robot") -> None:
     typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
 
 
-def _follow(execution: "Execution") -> "Result":
-    """Wait for the end, with a progress bar on a terminal."""
-    if not sys.stderr.isatty():
-        return execution.result()
-    from rich.console import Console
-    from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
-
-    from rapidgen.client import RobotTimeout
-
-    columns = (
-        TextColumn("{task.description}"),
-        BarColumn(),
-        TextColumn("{task.percentage:>3.0f} %"),
-        TimeElapsedColumn(),
-    )
-    with Progress(*columns, console=Console(stderr=True)) as bar:
-        task = bar.add_task("moving", total=1.0)
-        while not execution.is_over:
-            try:
-                execution.result(timeout=0.1)
-            except RobotTimeout:
-                if execution.is_over:
-                    raise
-            bar.update(task, completed=execution.progress.fraction)
-        bar.update(task, completed=execution.progress.fraction)
-    return execution.result()
-
-
 def _report(result: "Result", as_json: bool) -> None:
     if as_json:
         import json
@@ -175,6 +163,8 @@ def _report(result: "Result", as_json: bool) -> None:
                     "seconds": result.seconds,
                     "planned_seconds": result.planned_seconds,
                     "deviation": result.deviation,
+                    "way": result.way,
+                    "starved": result.starved,
                     "joints": result.state.by_name,
                 }
             )
@@ -182,5 +172,5 @@ def _report(result: "Result", as_json: bool) -> None:
         return
     typer.echo(
         f"done: {result.points} points in {result.seconds:.2f} s, "
-        f"{result.deviation:.4f} (rad, m) from the last point"
+        f"{result.deviation:.4f} (rad, m) from the last point ({result.way})"
     )

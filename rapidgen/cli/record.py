@@ -21,23 +21,27 @@ def record(
     reconnect: Annotated[
         float, typer.Option(help="Try a lost connection again for so many seconds.", min=0)
     ] = 0.0,
+    feedback: Annotated[
+        bool,
+        typer.Option("--feedback", help="Times of the controller's clock, not of this machine's."),
+    ] = False,
 ) -> int:
     """Write every joint message to a CSV: `time,<joint names>` in s and rad (m).
 
-    A driver serves one state connection: the newest. Recording takes it from a program that
-    moves the robot; `rapidgen move --record` does both.
+    A rapidgen driver tells three clients at once. A plain one tells the newest: recording takes
+    the connection from a program that moves the robot; `rapidgen move --record` does both.
     """
     from rapidgen.client import Robot
     from rapidgen.client.recording import CsvWriter
 
-    robot = Robot(config, address=to or None, group=group, watch=True, reconnect=reconnect)
+    robot = Robot(
+        config, address=to or None, group=group, watch=True, reconnect=reconnect, feedback=feedback
+    )
     with robot, CsvWriter(out, robot.group) as writer:
         end = time.monotonic() + (seconds or float("inf"))
         try:
-            for state in robot.states():
-                writer.write(state)
-                if state.time >= end:
-                    break
+            while time.monotonic() < end:
+                writer.write(robot.next_feedback() if feedback else robot.next_state())
         except KeyboardInterrupt:
             # The usual way to end a recording.
             typer.echo("", err=True)

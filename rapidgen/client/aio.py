@@ -12,9 +12,17 @@ from typing import Self, TypeVar, cast
 
 import numpy.typing as npt
 
-from rapidgen.client import control_flows, flows, stream_flows
+from rapidgen.client import (
+    connect_flows,
+    control_flows,
+    flows,
+    state_flows,
+    stop_flows,
+    stream_flows,
+)
 from rapidgen.client.address import Address
 from rapidgen.client.core import STOP_FRAME, Core, Timeouts
+from rapidgen.client.effects import Close, Connect, Effect, Flow, Send, Wait
 from rapidgen.client.errors import (
     ConnectionFailed,
     MotionStopped,
@@ -24,7 +32,6 @@ from rapidgen.client.errors import (
     os_reason,
 )
 from rapidgen.client.feed import Feed, batches
-from rapidgen.client.flows import Close, Connect, Effect, Flow, Send, Wait
 from rapidgen.client.group import Group
 from rapidgen.client.motion import Motion, Result, Way
 from rapidgen.client.recording import Recording
@@ -118,7 +125,7 @@ class AsyncRobot:
         Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
         """
         try:
-            await self._run(flows.connect(self._core))
+            await self._run(connect_flows.connect(self._core))
         except BaseException:
             self._hang_up()
             raise
@@ -189,7 +196,7 @@ class AsyncRobot:
 
     async def next_state(self, timeout: float | None = None) -> State:
         """The state of the next joint message. Raises RobotTimeout, ConnectionLost."""
-        return await self._run(flows.next_state(self._core, timeout))
+        return await self._run(state_flows.next_state(self._core, timeout))
 
     async def states(self, timeout: float | None = None) -> AsyncIterator[State]:
         """Each new state as it comes; `timeout` s for each."""
@@ -198,7 +205,7 @@ class AsyncRobot:
 
     async def wait_until(self, condition: Callable[[State], bool], timeout: float) -> State:
         """The first state for which `condition` holds. Raises RobotTimeout, ConnectionLost."""
-        flow = flows.wait_until(self._core, condition, timeout, "what was waited for")
+        flow = state_flows.wait_until(self._core, condition, timeout, "what was waited for")
         return await self._run(flow)
 
     @contextmanager
@@ -220,14 +227,14 @@ class AsyncRobot:
         self, timeout: float | None = None, *, after: Event | None = None
     ) -> Event:
         """The next event, or the one behind `after`. Raises RobotTimeout, ConnectionLost."""
-        return await self._run(flows.next_event(self._core, timeout, after))
+        return await self._run(state_flows.next_event(self._core, timeout, after))
 
     async def next_feedback(self, timeout: float | None = None) -> Feedback:
         """The next joints with the controller's time.
 
         Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
         """
-        return await self._run(flows.next_feedback(self._core, timeout))
+        return await self._run(state_flows.next_feedback(self._core, timeout))
 
     # Motion
 
@@ -246,6 +253,10 @@ class AsyncRobot:
         """
         run = await self._run(stream_flows.execute(self._core, trajectory, way))
         return AsyncExecution(self, run)
+
+    def way_for(self, trajectory: Trajectory) -> Way:
+        """The way that `execute` takes by default. Raises InvalidTrajectory, NotReady."""
+        return self._core.way_for(trajectory)
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> "AsyncStream":
         """A trajectory without an end that is known: see `AsyncStream`. Nothing is sent yet.
@@ -282,7 +293,7 @@ class AsyncRobot:
         motion port alone is opened and None is returned. Raises StopFailed: use the emergency
         stop.
         """
-        return await self._run(flows.stop(self._core))
+        return await self._run(stop_flows.stop(self._core))
 
     async def _run(self, flow: Flow[T]) -> T:
         """Carry out a flow on this loop."""

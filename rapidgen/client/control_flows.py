@@ -1,8 +1,9 @@
-"""What goes over the control port, step by step, as generators run by both clients."""
+"""What goes over the control port, as generators run by both clients (see `effects`)."""
 
+from rapidgen.client.connect_flows import alive
 from rapidgen.client.core import Core
+from rapidgen.client.effects import Flow, Wait
 from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout, fault
-from rapidgen.client.flows import Flow, Wait, alive
 from rapidgen.client.motion import reason_of, reason_text
 from rapidgen.diagnostics import suggest
 from rapidgen.protocol import messages

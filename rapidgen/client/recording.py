@@ -7,7 +7,7 @@ from typing import Self
 import numpy as np
 
 from rapidgen.client.group import Group
-from rapidgen.client.state import State
+from rapidgen.client.state import Feedback, State
 from rapidgen.client.tracker import Sample
 from rapidgen.client.trajectory import Array, Trajectory
 
@@ -54,7 +54,7 @@ class Recording:
 
 
 class CsvWriter:
-    """States to a CSV file as they come; nothing is kept. Raises OSError.
+    """States or feedback to a CSV file as they come; nothing is kept. Raises OSError.
 
     The first line says the units, as a comment; then `time,<joint names>`, s from the first.
     """
@@ -69,8 +69,8 @@ class CsvWriter:
         self._file.write(f"# time s, {', '.join(pairs)}\n")
         self._file.write(",".join(["time", *group.names]) + "\n")
 
-    def write(self, state: State) -> None:
-        """Add one state, unless it came together with the one before."""
+    def write(self, state: State | Feedback) -> None:
+        """Add one, unless it came together with the one before."""
         if not self.count:
             self._began = state.time
         time = state.time - self._began

@@ -1,4 +1,4 @@
-"""Streams step by step, as generators run by both clients (see `flows`)."""
+"""Streams step by step, as generators run by both clients (see `effects`)."""
 
 from collections.abc import Callable
 
@@ -7,11 +7,12 @@ import numpy.typing as npt
 from rapidgen.client import flows
 from rapidgen.client.checks import Piece, piece
 from rapidgen.client.core import Core
+from rapidgen.client.effects import INTERRUPTIONS, Flow
 from rapidgen.client.errors import InvalidTrajectory, NotSupported, RobotTimeout, fault
 from rapidgen.client.feed import Feed
-from rapidgen.client.flows import INTERRUPTIONS, Flow
 from rapidgen.client.motion import Result, Way
 from rapidgen.client.run import Run
+from rapidgen.client.stop_flows import stop_and_leave
 from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.protocol.spec import MAX_JOINTS, Port, batch_points
@@ -128,7 +129,7 @@ def _until(core: Core, run: StreamRun, condition: Callable[[], bool]) -> Flow[No
     try:
         yield from flows.patiently(core, run, lambda: run.is_over or condition())
     except INTERRUPTIONS:
-        yield from flows.stop_and_leave(core)
+        yield from stop_and_leave(core)
         raise
     if not (run.is_over or condition()):
         waited = flows.patience(core, run)

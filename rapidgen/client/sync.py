@@ -10,13 +10,20 @@ from typing import Self, TypeVar
 
 import numpy.typing as npt
 
-from rapidgen.client import control_flows, flows, stream_flows
+from rapidgen.client import (
+    connect_flows,
+    control_flows,
+    flows,
+    state_flows,
+    stop_flows,
+    stream_flows,
+)
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
 from rapidgen.client.core import STOP_FRAME, Core, Timeouts
+from rapidgen.client.effects import Close, Connect, Effect, Flow, Wait
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
 from rapidgen.client.feed import Feed, batches
-from rapidgen.client.flows import Close, Connect, Effect, Flow, Wait
 from rapidgen.client.group import Group
 from rapidgen.client.motion import Motion, Result, Way
 from rapidgen.client.recording import Recording
@@ -80,7 +87,7 @@ class Robot:
         Raises ConnectionFailed, RobotTimeout, ProtocolError, IncompatibleDriver.
         """
         try:
-            self._run(flows.connect(self._core))
+            self._run(connect_flows.connect(self._core))
         except BaseException:
             self._hang_up()
             raise
@@ -152,7 +159,7 @@ class Robot:
 
     def next_state(self, timeout: float | None = None) -> State:
         """The state of the next joint message. Raises RobotTimeout, ConnectionLost."""
-        return self._run(flows.next_state(self._core, timeout))
+        return self._run(state_flows.next_state(self._core, timeout))
 
     def states(self, timeout: float | None = None) -> Iterator[State]:
         """Each new state as it comes; `timeout` s for each."""
@@ -161,7 +168,7 @@ class Robot:
 
     def wait_until(self, condition: Callable[[State], bool], timeout: float) -> State:
         """The first state for which `condition` holds. Raises RobotTimeout, ConnectionLost."""
-        flow = flows.wait_until(self._core, condition, timeout, "what was waited for")
+        flow = state_flows.wait_until(self._core, condition, timeout, "what was waited for")
         return self._run(flow)
 
     @contextmanager
@@ -184,14 +191,14 @@ class Robot:
 
     def next_event(self, timeout: float | None = None, *, after: Event | None = None) -> Event:
         """The next event, or the one behind `after`. Raises RobotTimeout, ConnectionLost."""
-        return self._run(flows.next_event(self._core, timeout, after))
+        return self._run(state_flows.next_event(self._core, timeout, after))
 
     def next_feedback(self, timeout: float | None = None) -> Feedback:
         """The next joints with the controller's time.
 
         Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
         """
-        return self._run(flows.next_feedback(self._core, timeout))
+        return self._run(state_flows.next_feedback(self._core, timeout))
 
     # Motion
 
@@ -209,6 +216,11 @@ class Robot:
         when nothing will move, NotSupported, RobotTimeout, ConnectionLost.
         """
         return Execution(self, self._run(stream_flows.execute(self._core, trajectory, way)))
+
+    def way_for(self, trajectory: Trajectory) -> Way:
+        """The way that `execute` takes by default. Raises InvalidTrajectory, NotReady."""
+        with self._changed:
+            return self._core.way_for(trajectory)
 
     def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> "Stream":
         """A trajectory without an end that is known: see `Stream`. Nothing is sent yet.
@@ -244,7 +256,7 @@ class Robot:
         Also without a connection: then the motion port alone is opened, nobody sees the robot
         stand, and None is returned. Raises StopFailed: use the emergency stop.
         """
-        return self._run(flows.stop(self._core))
+        return self._run(stop_flows.stop(self._core))
 
     def _run(self, flow: Flow[T]) -> T:
         """Carry out a flow: effects without the lock, its own steps with it."""

@@ -4,10 +4,16 @@ from collections import deque
 
 import numpy as np
 
-from rapidgen.client.state import State, Status
-from rapidgen.protocol.spec import REASON_TEXTS, Mode, TriState
+from rapidgen.client.state import Event, State, Status
+from rapidgen.protocol.spec import REASON_TEXTS, Mode, TrajectoryState, TriState
 
 _WINDOW = 500
+_ACTIVITIES = {TrajectoryState.STARVED: "starved", TrajectoryState.PAUSED: "paused"}
+_WORDS: dict[TrajectoryState | None, str] = {
+    TrajectoryState.STARVED: "the stream ran out of points",
+    TrajectoryState.PAUSED: "paused",
+    TrajectoryState.FAILED: "the trajectory failed",
+}
 
 
 class Watcher:
@@ -18,6 +24,7 @@ class Watcher:
         self._last: State | None = None
         self.event = ""
         """What changed last, empty before anything did."""
+        self._told: Event | None = None
 
     def take(self, state: State) -> None:
         """The next state."""
@@ -25,9 +32,17 @@ class Watcher:
             if state.number == self._last.number + 1:
                 self._intervals.append(state.time - self._last.time)
             changed = changes(self._last.status, state.status)
+            if state.trajectory is not self._last.trajectory and state.trajectory in _WORDS:
+                changed.append(_WORDS[state.trajectory])
             if changed:
                 self.event = "; ".join(changed)
         self._last = state
+
+    def tell(self, event: Event | None) -> None:
+        """The newest entry of the controller's log."""
+        if event is not None and event != self._told:
+            self._told = event
+            self.event = str(event)
 
     def jitter(self) -> tuple[float, float]:
         """Median and 99th percentile of how far intervals are from their median, s."""
@@ -36,6 +51,13 @@ class Watcher:
         intervals = np.array(self._intervals)
         away = np.abs(intervals - np.median(intervals))
         return float(np.percentile(away, 50)), float(np.percentile(away, 99))
+
+
+def activity(state: State) -> str:
+    """What the robot is at, in a word."""
+    if state.trajectory is not None and state.trajectory in _ACTIVITIES:
+        return _ACTIVITIES[state.trajectory]
+    return "moving" if state.is_moving else "standing"
 
 
 def changes(before: Status, after: Status) -> list[str]:
