@@ -19,6 +19,7 @@ from rapidgen.virtual.controller import Deadlock, VirtualController
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.faults import FaultPlan
+from rapidgen.virtual.log import Domain
 from rapidgen.virtual.tracing import Coverage
 
 Lines: TypeAlias = dict[str, dict[int, int]]
@@ -34,6 +35,9 @@ SAMPLE = 4_000_000
 """ns between two samples of the record while the robot moves ..."""
 SAMPLE_STANDING = 100_000_000
 """... and while it stands and says so."""
+LATE = 59_901
+"""Event of the virtual controller: moves took longer than told. That they do not take much
+longer is measured."""
 PLOTTED = 200
 """Samples of one series in a plot, about."""
 SETTLED = 1e-4
@@ -71,6 +75,7 @@ class Bench:
         system: System,
         setting: Setting | None = None,
         robots: Sequence[MotionGroup] = (),
+        controller: VirtualController | None = None,
     ) -> None:
         """Boot. `robots`: the controller's, where they are not the configuration's."""
         self.config = config
@@ -78,8 +83,9 @@ class Bench:
         self.system = system
         self.setting = setting if setting is not None else Setting()
         self._beside: list[Bench] = []
-        self.controller = self._boot()
-        self._coverage = Coverage(self.controller) if self.setting.coverage else None
+        self.controller = controller if controller is not None else self._boot()
+        tracked = self.setting.coverage and controller is None
+        self._coverage = Coverage(self.controller) if tracked else None
         self.group: MotionGroup = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
         self.orders: list[Order] = []
@@ -103,14 +109,35 @@ class Bench:
         )
         return controller
 
-    def beside(self, system: System, robots: Sequence[MotionGroup] = ()) -> "Bench":
-        """Another controller with another system or other robots, under the same setting.
+    def beside(
+        self,
+        system: System,
+        robots: Sequence[MotionGroup] = (),
+        setting: Setting | None = None,
+    ) -> "Bench":
+        """Another controller with another system, other robots or another setting.
 
         Whoever asks for it closes it.
         """
-        other = Bench(self.config, system, self.setting, robots)
+        other = Bench(self.config, system, setting or self.setting, robots)
         self._beside.append(other)
         return other
+
+    def of_group(self, number: int) -> "Bench":
+        """Another motion group of the same controller; it is closed with this one."""
+        return Bench(
+            self.config,
+            self.system,
+            replace(self.setting, group=number),
+            self._robots,
+            controller=self.controller,
+        )
+
+    @property
+    def mechanical_unit(self) -> str:
+        """Mechanical unit group of this group's tasks."""
+        tasks = {task.name: task for task in self.system.tasks}
+        return tasks[self.group.task].mechanical_unit_group
 
     def lines(self) -> Lines:
         """Lines of RAPID that were reached here and beside; empty without `coverage`."""
@@ -217,11 +244,9 @@ class Bench:
 
     def task(self, module: str) -> str:
         """Name of this group's task that runs a module."""
-        tasks = {task.name: task for task in self.system.tasks}
-        unit = tasks[self.group.task].mechanical_unit_group
-        for task in tasks.values():
+        for task in self.system.tasks:
             names = [m.name.casefold() for m in task.modules]
-            if task.mechanical_unit_group == unit and module.casefold() in names:
+            if task.mechanical_unit_group == self.mechanical_unit and module.casefold() in names:
                 return task.name
         raise KeyError(module)
 
@@ -353,11 +378,27 @@ class Bench:
         )
 
     def moves_through(self, link: Link, points: Sequence[Point]) -> None:
-        """Send a trajectory and see it executed whole and in order."""
-        since = self.now
+        """Send a trajectory and see it executed whole, in order, in time and without a complaint.
+
+        With full speed in automatic mode, that is.
+        """
+        since, asked = self.now, sum(d for _, d in points[1:])
+        last = max((e.sequence for e in self.controller.log), default=0)
         link.send(self.download(points))
-        self.wait_until_at(points[-1][0], 30 + 3 * sum(d for _, d in points[1:]))
+        self.wait_until_at(points[-1][0], 30 + 3 * asked)
         self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
+        group = self.controller.motion.group(self.group.name)
+        if group.override < 1 or group.reduced:
+            return
+        if self.now - since > 1.1 * asked + 3:
+            raise Broken(f"{asked:.2f} s of motion took {self.now - since:.2f} s")
+        complaints = [
+            event
+            for event in self.controller.log.since(last)
+            if event.domain is Domain.MOTION and event.code != LATE
+        ]
+        if complaints:
+            raise Broken(f"the controller complains of the motion: {complaints[0]}")
 
     def track_at(self, when: float) -> Position:
         """Where the robot was at a time."""

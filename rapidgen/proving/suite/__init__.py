@@ -6,6 +6,7 @@ from rapidgen.proving.suite import (
     controller,
     edges,
     failing,
+    faults,
     framing,
     links,
     paired,
@@ -27,4 +28,5 @@ CASES: tuple[Case, ...] = (
     *links.CASES,
     *controller.CASES,
     *failing.CASES,
+    *faults.CASES,
 )

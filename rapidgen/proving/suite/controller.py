@@ -6,7 +6,6 @@ from functools import partial
 from rapidgen.protocol import spec
 from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.link import Point
 from rapidgen.proving.model import Broken, Case
 
 
@@ -107,15 +106,6 @@ def _pp_to_main_idle(bench: Bench) -> None:
         bench.run(1.5)
 
 
-def _half_speed(bench: Bench) -> None:
-    group = bench.controller.motion.group(bench.group.name)
-    group.override = 0.5
-    link = bench.motion()
-    points: list[Point] = bench.wave(4)
-    bench.moves_through(link, points)
-    group.override = 1.0
-
-
 def _without_signals(bench: Bench) -> None:
     bare = replace(bench.system, signals=(), outputs=(), cross=())
     other = bench.beside(bare)
@@ -131,12 +121,11 @@ def _without_signals(bench: Bench) -> None:
 
 def _mixed_builds(bench: Bench) -> None:
     build = bench.system.build_id.encode()
-    mine = {t.name: t for t in bench.system.tasks}[bench.group.task].mechanical_unit_group
     files = {
         module.path: module.data
         for task in bench.system.tasks
         for module in task.modules
-        if task.mechanical_unit_group == mine and build in module.data
+        if task.mechanical_unit_group == bench.mechanical_unit and build in module.data
     }
     for path, data in sorted(files.items()):
         mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
@@ -181,8 +170,6 @@ CASES = (
     Case("e-stop-status", "STATUS shows an emergency stop", "controller", _e_stop_shows, "R15"),
     Case("manual-status", "STATUS shows manual mode", "controller", _manual_mode_shows),
     Case("pp-to-main", "PP to main leaves nothing taken", "controller", _pp_to_main_idle, "R7a"),
-    Case("half-speed", "a speed override changes the time, not the path", "controller",
-         _half_speed),
     Case("without-signals", "missing signals are not fatal", "controller", _without_signals, "R15"),
     Case("mixed-builds", "modules of different builds refuse to move", "controller",
          _mixed_builds),

@@ -1,6 +1,7 @@
 """The last value that is taken and the first that is not; times that were asked for."""
 
 import math
+from itertools import pairwise
 
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason
@@ -126,15 +127,28 @@ def _start_tolerance(bench: Bench) -> None:
             continue
         start = _with(bench.position, axis, _inward(bench, axis, 0.97 * near))
         end = _with(start, axis, _inward(bench, axis, 0.97 * near + 0.02 * joint.speed))
-        link = bench.motion()
-        link.send(bench.download([(start, 10.0), (end, 0.5), (end, 0.5)]))
+        # Its duration is not the client's business: a stamp behind the last one of the trajectory
+        # before makes it a short one.
+        link, since = bench.motion(), bench.now
+        link.send(bench.download([(start, 10.0 if axis % 2 else 1e-3), (end, 0.5), (end, 0.5)]))
         bench.wait_until_at(end, 30)
+        _slow_to(bench, start, since, policy.approach_speed * joint.speed)
         link.close()
         bench.run(1.2)
         start = _with(bench.position, axis, _inward(bench, axis, 1.03 * near))
         end = _with(start, axis, _inward(bench, axis, 1.03 * near + 0.02 * joint.speed))
         frames = bench.download([(start, 10.0), (end, 0.5), (end, 0.5)])
         refused(bench, frames, [Reason.START_TOO_FAR], axis + 1, 0)
+
+
+def _slow_to(bench: Bench, start: Position, since: float, speed: float) -> None:
+    """Broken when the robot came to its first point faster than at approach speed."""
+    for (t1, one), (t2, two) in pairwise([(t, p) for t, p in bench.track if t >= since]):
+        if distance(one, two) > 1.5 * speed * (t2 - t1) + 1e-4:
+            raise Broken(f"on the way to the first point the robot was faster than {speed:.3f}/s")
+        if distance(two, start) < SETTLED:
+            return
+    raise Broken("the first point was left out")
 
 
 def _moved(bench: Bench, since: float) -> tuple[float, float]:

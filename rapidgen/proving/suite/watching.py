@@ -164,6 +164,17 @@ def _events(bench: Bench) -> None:
         raise Broken(f"three events were written, EVENT told {told}")
     if any(f.number == spec.EVENT.number for _, f in plain.frames):
         raise Broken("EVENT comes to a client that did not ask for it")
+    for number in range(25):
+        write(80_150 + number, "Flood")
+    bench.run(6)
+    bench.healthy()
+    floods = [
+        content
+        for _, frame in link.frames
+        if isinstance(content := decode(frame), messages.Event) and content.title.startswith("F")
+    ]
+    if not 8 <= len(floods) <= 25:
+        raise Broken(f"of 25 events at once {len(floods)} are told")
     link.close()
     bench.run(1)
     for number in range(100):
