@@ -22,6 +22,19 @@ def test_cartesian_programs(seed):
     assert campaign.run(seed, "cartesian", campaign.RAMPS[seed % 4]).faults == ()
 
 
+@pytest.mark.parametrize(
+    ("seed", "kind", "ramp"),
+    [
+        (804, "joint", 0.05),  # a corner so sharp that the ramp made it take minutes
+        (5221, "flat", 0.05),  # a new move in the nanosecond in which the plan stands
+        (1046, "brakes", 0.0),  # a path cleared twice while the robot was off it
+        (1284, "brakes", 0.05),
+    ],
+)
+def test_programs_that_campaigns_found(seed, kind, ramp):
+    assert campaign.run(seed, kind, ramp).faults == ()
+
+
 def test_a_short_campaign(capsys):
     assert campaign.main(4, 1000) == 0
     assert "4 programs" in capsys.readouterr().out
