@@ -4,6 +4,7 @@ python benchmarks/client.py [--quick]
 """
 
 import asyncio
+import contextlib
 import multiprocessing
 import os
 import resource
@@ -21,20 +22,29 @@ from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeou
 from rapidgen.client.core import STOP_FRAME
 from rapidgen.client.group import Group
 from rapidgen.client.tracker import Tracker
-from rapidgen.protocol.bulk import FRAME_BYTES, encode_trajectory
+from rapidgen.protocol.bulk import (
+    FRAME_BYTES,
+    decode_batches,
+    encode_points,
+    encode_trajectory,
+)
+from rapidgen.protocol.spec import Port
 
 HEAD = struct.Struct("<4i")
 JOINT = HEAD.pack(56, 10, 1, 0) + struct.pack("<i10f", 0, *[0.0] * 10)
 STATUS = HEAD.pack(40, 13, 1, 0) + struct.pack("<7i", 1, 0, 0, 0, 0, 2, 1)
 REPLY = HEAD.pack(12, 11, 3, 1)
 HELLO_BYTES = 36
+RING = 512
+BEAT = HEAD.pack(16, 1306, 2, 0)
 
 
 def hello(features):
     limits = [3.0] * 6 + [0.0] * 4
-    data = struct.pack("<4i12s12s4i4f", 1, 0, 1, 0, b"0" * 12, b"", features, 10**9, 6, 0,
+    data = struct.pack("<4i12s12s4i4f", 2, 0, 1, 0, b"0" * 12, b"", features, 10**9, 6, 0,
                        0.02, 0.1, 0.01, 0.005)  # fmt: skip
     data += struct.pack("<30f", *[-v for v in limits], *limits, *[9.0] * 10)
+    data += struct.pack("<iifii", 1 if features & 2 else 0, RING, 0.5, 30, 0)
     return HEAD.pack(12 + len(data), 1300, 3, 1) + data
 
 
@@ -59,12 +69,20 @@ class Sink:
 
     @staticmethod
     def accept(server, serve):
+        def served(client):
+            # A client that hangs up is no news.
+            with contextlib.suppress(OSError):
+                serve(client)
+
         while True:
             client, _ = server.accept()
             client.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-            threading.Thread(target=serve, args=(client,), daemon=True).start()
+            threading.Thread(target=served, args=(client,), daemon=True).start()
 
     def motion(self, client):
+        if self.features & 4:
+            self.points(client)
+            return
         buffer = bytearray(1 << 20)
         tail = b""
         chunk = 4096 if self.rate else len(buffer)
@@ -80,10 +98,31 @@ class Sink:
             elif tail == STOP_FRAME:
                 client.sendall(REPLY)
 
+    def points(self, client):
+        """A driver that executes points at once: every batch is answered, all have room."""
+        buffer, accepted = b"", 0
+        self.number, self.state = self.number + 1, 2
+        while data := client.recv(1 << 20):
+            buffer += data
+            replies = b""
+            while len(buffer) >= 4 and len(buffer) >= 4 + (n := HEAD.unpack(buffer[:16])[0]):
+                stream, flags, first, count = struct.unpack_from("<4i", buffer, 16)
+                buffer = buffer[4 + n :]
+                accepted = first + count
+                self.state = 3 if flags & 2 else 2
+                done = (stream, self.number, accepted, RING, accepted, accepted, self.state)
+                replies += HEAD.pack(40, 1302, 3, 1) + struct.pack("<7i", *done)
+            client.sendall(replies)
+
     def control(self, client):
+        client.recv(HELLO_BYTES)
+        client.sendall(hello(self.features))
         while data := client.recv(4096):
             now = time.monotonic_ns()
-            for _ in range(len(data) // FRAME_BYTES):
+            # Heartbeats come beside STOP: they are answered, and not counted.
+            for beat in range(data.count(BEAT)):
+                client.sendall(HEAD.pack(20, 1306, 3, 1) + struct.pack("<2i", beat, 2))
+            for _ in range(data.count(STOP_FRAME)):
                 self.stamps.put(now)
                 client.sendall(REPLY)
 
@@ -146,6 +185,38 @@ def encoding(count):
     print(f"encode alone                {count / best:14,.0f} points/s   (>= 1,000,000)")
 
 
+def points(count):
+    """POINTS by numpy: both directions, in bulk and one message at a time."""
+    joints = np.random.default_rng(1).uniform(-3, 3, size=(count, 6))
+    durations = np.full(count, 0.1)
+    frames = encode_points(1, 0, durations, joints)
+    best = min(_timed(lambda: encode_points(1, 0, durations, joints)) for _ in range(5))
+    print(f"POINTS, encode              {count / best:14,.0f} points/s   (>= 1,000,000)")
+    best = min(_timed(lambda: decode_batches(frames, 6)) for _ in range(5))
+    print(f"POINTS, decode and check    {count / best:14,.0f} points/s   (>= 1,000,000)")
+    few = frames[: min(len(frames), 1000)]
+    one = [(durations[i : i + 30], joints[i : i + 30]) for i in range(0, 30 * len(few), 30)]
+    best = min(_timed(lambda: [encode_points(1, 0, *some) for some in one]) for _ in range(5))
+    print(f"POINTS, one message a call  {30 * len(few) / best:14,.0f} points/s")
+
+
+def streaming(count, rounds):
+    """Checked, encoded, sent and acknowledged by a sink that executes at once."""
+    times, joints = np.arange(count) * 0.1, np.zeros((count, 6))
+    rates = []
+    for _ in range(rounds):
+        with Running(period=0.02, features=5) as sink, robot_at(sink) as robot:
+            stream = robot.stream()
+            started = time.perf_counter()
+            for at in range(0, count, 3000):
+                stream.append(times[at : at + 3000], joints[at : at + 3000])
+            stream.end()
+            robot.wait_until(lambda s, stream=stream: stream.is_over, 60)
+            rates.append(count / (time.perf_counter() - started))
+            stream.result()
+    print(f"stream, with replies        {statistics.median(rates):14,.0f} points/s")
+
+
 def _timed(function):
     started = time.perf_counter()
     function()
@@ -192,7 +263,7 @@ def stopping(seconds, stops):
         loader = threading.Thread(target=load, daemon=True)
         loader.start()
         time.sleep(0.5)
-        channel = robot._channels[robot._core.stop_port]
+        channel = robot._channels[Port.CONTROL]
         latencies = []
         for _ in range(stops):
             begun = time.monotonic_ns()
@@ -321,7 +392,9 @@ def memory(points):
 def main():
     quick = "--quick" in sys.argv
     encoding(200_000)
+    points(200_000)
     decoding(100_000)
+    streaming(60_000, 1 if quick else 3)
     sending(100_000, 3 if quick else 10)
     frames_before_stop(2 if quick else 10)
     stopping(2 if quick else 10, 200 if quick else 1000)

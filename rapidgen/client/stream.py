@@ -24,7 +24,7 @@ from rapidgen.client.talk import Pending
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
 from rapidgen.protocol import messages
-from rapidgen.protocol.bulk import encode_points
+from rapidgen.protocol.bulk import Words, pack_points, points_frame
 from rapidgen.protocol.spec import INDEX_WRAP, StreamFlag, TrajectoryState
 
 
@@ -63,7 +63,8 @@ class StreamRun(Motion):
         """Points of one message."""
         self._least = min(self.batch, max(1, hello.ring // 2))
         self._patience = reply
-        self._queue: deque[tuple[Array, Array]] = deque()
+        self._queue: deque[Words] = deque()
+        self._no_points = pack_points(np.zeros(0), np.zeros((0, len(group.names))))
         self._total = 0
         self._sent = 0
         self._accepted = 0
@@ -122,7 +123,7 @@ class StreamRun(Motion):
 
     def put(self, piece: Piece) -> None:
         """Points to be sent, checked before."""
-        self._queue.append((piece.durations, piece.wire))
+        self._queue.append(pack_points(piece.durations, piece.wire))
         self._last = piece.last
         self._total += len(piece.wire)
         self._seconds += float(piece.durations.sum())
@@ -152,7 +153,7 @@ class StreamRun(Motion):
     def next_frame(self, pending: Pending) -> bytes:
         """The batch that is due, whose reply is `pending`."""
         size = min(self.backlog, self.batch, self._room_until - self._sent)
-        durations, wire = self._take(size)
+        words = self._take(size)
         flags = StreamFlag.BEGIN if self._sent == 0 else StreamFlag(0)
         if size == self.backlog:
             if self.is_ended:
@@ -161,23 +162,21 @@ class StreamRun(Motion):
             if self._is_flushing:
                 flags |= StreamFlag.FLUSH
                 self._is_flushing = False
-        first = self._sent % INDEX_WRAP
-        (frame,) = encode_points(self.stream, first, durations, wire, flags=flags)
+        frame = points_frame(self.stream, self._sent, words, flags=flags)
         self._sent += size
         self._flights.append(_Flight(pending, self._sent, self._tracker.clock()))
         return frame
 
-    def _take(self, size: int) -> tuple[Array, Array]:
-        durations: list[Array] = [np.zeros(0)]
-        wire: list[Array] = [np.zeros((0, len(self._group.names)))]
+    def _take(self, size: int) -> Words:
+        """Points from the queue; none as a row of no words."""
+        parts: list[Words] = [self._no_points]
         while size:
-            some_durations, some_wire = self._queue.popleft()
-            durations.append(some_durations[:size])
-            wire.append(some_wire[:size])
-            if len(some_wire) > size:
-                self._queue.appendleft((some_durations[size:], some_wire[size:]))
-            size -= len(wire[-1])
-        return np.concatenate(durations), np.concatenate(wire)
+            some = self._queue.popleft()
+            parts.append(some[:size])
+            if len(some) > size:
+                self._queue.appendleft(some[size:])
+            size -= len(parts[-1])
+        return np.concatenate(parts) if len(parts) != 2 else parts[1]
 
     # What comes in
 

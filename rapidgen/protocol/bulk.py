@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence as Rows
 from itertools import groupby
+from struct import Struct
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -80,16 +81,21 @@ _HALF = np.uint64(PAIR_BITS)
 _LOW = np.uint64(PAIR_BASE - 1)
 _UPPER = np.uint64(32)
 _MODULUS = np.uint64(CHECKSUM_MODULUS)
-_SQUARE = np.uint64(PAIR_BASE**2 % CHECKSUM_MODULUS)
+_SQUARE = PAIR_BASE**2
+_POINTS_HEAD = Struct("<8i")
+_CHECKSUM = Struct("<Q")
+_POINTS = spec.POINTS.number
+_REQUEST, _TOPIC, _NONE = int(Comm.REQUEST), int(Comm.TOPIC), int(ReplyCode.NONE)
 _HEAD = (spec.PREFIX_BYTES + spec.HEADER_BYTES) // _WORD.itemsize
 """Words before the data."""
 _PAIRS = _HEAD + 2
-"""Words before the pairs: stream and flags, first and count enter the checksum too."""
+"""Words before the pairs: stream and flags, first and points enter the checksum too."""
 # 2^k modulo the checksum's modulus, for every place that a word of a message can have.
 _POWERS = np.array(
-    [pow(2, k, CHECKSUM_MODULUS) for k in range(spec.MAX_MESSAGE_BYTES // _WORD.itemsize)],
+    [pow(2, k, CHECKSUM_MODULUS) for k in reversed(range(spec.MAX_MESSAGE_BYTES // 8))],
     dtype=np.uint64,
 )
+_POWERS_HIGH, _POWERS_LOW = _POWERS >> _HALF, _POWERS & _LOW
 
 
 class Batch(NamedTuple):
@@ -102,22 +108,50 @@ class Batch(NamedTuple):
     joints: npt.NDArray[np.float64]
 
 
-def checksums(words: Words) -> Words:
+def checksums(words: Words) -> list[int]:
     """The checksum of each row of (n, m) words, m <= 128.
 
     It is linear, the sum of word i * 2^(m-1-i), and so three sums of products of 26-bit halves.
     None of them reaches 2^60: everything is exact in 64 bits.
     """
     reduced = words % _MODULUS
-    powers = _POWERS[: words.shape[1]][::-1]
     high, low = reduced >> _HALF, reduced & _LOW
-    power_high, power_low = powers >> _HALF, powers & _LOW
-    top = (high @ power_high) % _MODULUS * _SQUARE % _MODULUS
-    middle = (high @ power_low + low @ power_high) % _MODULUS
-    for _ in range(2):
-        middle = (middle << np.uint64(PAIR_BITS // 2)) % _MODULUS
-    total: Words = (top + middle + low @ power_low) % _MODULUS
-    return total
+    width = words.shape[1]
+    powers_high, powers_low = _POWERS_HIGH[-width:], _POWERS_LOW[-width:]
+    top = (high @ powers_high).tolist()
+    middle = (high @ powers_low + low @ powers_high).tolist()
+    bottom = (low @ powers_low).tolist()
+    return [
+        (t * _SQUARE + m * PAIR_BASE + b) % CHECKSUM_MODULUS
+        for t, m, b in zip(top, middle, bottom, strict=True)
+    ]
+
+
+def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
+    """(n, pairs) words of n points: `durations` (n,) s, `joints` (n, k) rad or m, k <= 10.
+
+    Raises ContentError for what a pair cannot hold.
+    """
+    values = np.asarray(joints, dtype=np.float64)
+    count, axes = values.shape
+    if not 1 <= axes <= spec.MAX_JOINTS:
+        raise ValueError(f"points of {axes} joints")
+    numbers = np.zeros((count, 2 * spec.point_pairs(axes)))
+    numbers[:, 0] = durations
+    numbers[:, 1 : 1 + axes] = values
+    # Written so that NaN does not pass.
+    if not np.all(np.abs(numbers) <= PAIR_LIMIT):
+        raise ContentError(f"values beyond {PAIR_LIMIT}, or none at all")
+    steps = (np.rint(numbers * PAIR_SCALE) + PAIR_ZERO).astype(_WORD)
+    words: Words = steps[:, ::2] << _HALF | steps[:, 1::2]
+    return words
+
+
+def points_frame(
+    stream: int, first: int, words: Words, *, flags: int = 0, request: bool = True
+) -> bytes:
+    """Points `first`, `first` + 1, ... of a stream, packed, as one POINTS frame."""
+    return _sealed([_unsealed(stream, first, words, flags, request)])[0]
 
 
 def encode_points(
@@ -132,60 +166,44 @@ def encode_points(
 ) -> list[bytes]:
     """Points `first`, `first` + 1, ... of a stream as POINTS frames; a frame also for no point.
 
-    `durations` (n,) s and `joints` (n, k) controller axis values, rad or m, k <= 10; `batch` is
-    how many points a frame takes, by default as many as fit. BEGIN goes to the first frame, END
-    and FLUSH to the last. Raises ContentError for what a pair cannot hold.
+    As `pack_points`; `batch` is how many points a frame takes, by default as many as fit. BEGIN
+    goes to the first frame, END and FLUSH to the last.
     """
-    values = np.asarray(joints, dtype=np.float64)
-    count, axes = values.shape
-    if not 1 <= axes <= spec.MAX_JOINTS:
-        raise ValueError(f"points of {axes} joints")
-    most = spec.batch_points(axes)
-    size = most if batch is None else batch
-    if not 1 <= size <= most:
-        raise ValueError(f"{size} points in one message: at most {most}")
-    words = _words(np.asarray(durations, dtype=np.float64), values)
-    whole = count - count % size
-    blocks = []
-    if whole:
-        blocks.append(_frames(stream, first, words[:whole], size, axes, request))
-    if whole < count or not count:
-        rest = _frames(stream, first + whole, words[whole:], count - whole, axes, request)
-        blocks.append(rest)
-    blocks[0][0, _HEAD] |= np.uint64(flags & StreamFlag.BEGIN) << _UPPER
-    blocks[-1][-1, _HEAD] |= np.uint64(flags & ~StreamFlag.BEGIN) << _UPPER
-    for block in blocks:
-        block[:, -1] = checksums(block[:, _HEAD:-1])
-    return [frame.tobytes() for block in blocks for frame in block]
+    words = pack_points(durations, joints)
+    size = spec.batch_points(2 * words.shape[1] - 1) if batch is None else batch
+    starts = range(0, len(words), size) if len(words) else range(1)
+    every = [0] * len(starts)
+    every[0] |= flags & StreamFlag.BEGIN
+    every[-1] |= flags & ~StreamFlag.BEGIN
+    return _sealed(
+        [
+            _unsealed(stream, first + at, words[at : at + size], own, request)
+            for at, own in zip(starts, every, strict=True)
+        ]
+    )
 
 
-def _words(durations: npt.NDArray[np.float64], joints: npt.NDArray[np.float64]) -> Words:
-    """(n, pairs) words of n points."""
-    count, axes = joints.shape
-    numbers = np.zeros((count, 2 * spec.point_pairs(axes)))
-    numbers[:, 0] = durations
-    numbers[:, 1 : 1 + axes] = joints
-    # Written so that NaN does not pass.
-    if not np.all(np.abs(numbers) <= PAIR_LIMIT):
-        raise ContentError(f"values beyond {PAIR_LIMIT}, or none at all")
-    steps = (np.rint(numbers * PAIR_SCALE) + PAIR_ZERO).astype(np.uint64)
-    words: Words = steps[:, ::2] << _HALF | steps[:, 1::2]
-    return words
+def _unsealed(stream: int, first: int, words: Words, flags: int, request: bool) -> bytes:
+    """A POINTS frame without its checksum."""
+    length = spec.POINTS.length + words.nbytes
+    if length > spec.MAX_LENGTH:
+        raise ValueError(f"{len(words)} points do not fit in one message")
+    comm = _REQUEST if request else _TOPIC
+    head = _POINTS_HEAD.pack(
+        length, _POINTS, comm, _NONE, stream, flags, first % INDEX_WRAP, len(words)
+    )
+    return head + words.tobytes()
 
 
-def _frames(stream: int, first: int, words: Words, size: int, axes: int, request: bool) -> Words:
-    """Frames of `size` points each, (n, words of a frame), without flags and checksum."""
-    count = len(words) // size if size else 1
-    width = size * words.shape[1]
-    frames = np.zeros((count, _PAIRS + width + 1), dtype=_WORD)
-    comm = Comm.REQUEST if request else Comm.TOPIC
-    indices = (first + size * np.arange(count, dtype=np.int64)) % INDEX_WRAP
-    frames[:, 0] = spec.points_length(size, axes) | spec.POINTS.number << 32
-    frames[:, 1] = comm | ReplyCode.NONE << 32
-    frames[:, _HEAD] = stream
-    frames[:, _HEAD + 1] = indices.astype(np.uint64) | np.uint64(size << 32)
-    frames[:, _PAIRS:-1] = words.reshape(count, width)
-    return frames
+def _sealed(frames: Rows[bytes]) -> list[bytes]:
+    """Frames with their checksums; only the last one may be of another length."""
+    found = []
+    for same in (frames[:-1], frames[-1:]):
+        if same:
+            words = np.frombuffer(b"".join(same), dtype=_WORD).reshape(len(same), -1)
+            pairs = zip(same, checksums(words[:, _HEAD:]), strict=True)
+            found += [frame + _CHECKSUM.pack(checksum) for frame, checksum in pairs]
+    return found
 
 
 def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
@@ -212,7 +230,7 @@ def _batches(frames: Words, axes: int) -> list[Batch]:
         raise ContentError(f"no POINTS of {axes} joints")
     if np.any(frames[:, _HEAD + 1] >> _UPPER != count):
         raise ContentError("the count does not fit the length")
-    if np.any(frames[:, -1] != checksums(frames[:, _HEAD:-1])):
+    if frames[:, -1].tolist() != checksums(frames[:, _HEAD:-1]):
         raise ContentError("the checksum is wrong")
     words = frames[:, _PAIRS:-1]
     if np.any(words >> np.uint64(2 * PAIR_BITS)):

@@ -73,6 +73,8 @@ class Script:
     """The control port is another driver's."""
     stream: StreamModel | None = None
     """Takes points while it moves; needs `speed` of its own."""
+    feedback: bool = False
+    """Tells it with each state, from a clock of 0.02 s a state."""
     raw_control: bytes = b""
     """Sent on the control port before anything else."""
 
@@ -304,6 +306,7 @@ class FakeController:
             client.sendall(script.raw_state)
             return
         subscribed = False
+        told = 0
         client.setblocking(False)
         heard = b""
         pending = []
@@ -336,6 +339,11 @@ class FakeController:
                 if subscribed:
                     out += progress + self.extra
                     self.extra = b""
+                if subscribed and script.feedback:
+                    told += 1
+                    pad = [0.0] * (10 - script.joints)
+                    values = [*self.position, *pad, *[0.0] * 20]
+                    out += frame(15, 1, 0, struct.pack("<2if30f", 0, 7, told * 0.02, *values))
                 moving_for = time.monotonic() - self._started if self._moving else 0.0
             if moving_for < script.silent_after:
                 pending.append(out)

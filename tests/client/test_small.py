@@ -1,21 +1,26 @@
 """Addresses, targets, changes of status, the public surface, cells on the scripted controller."""
 
 import asyncio
+import inspect
 
 import pytest
 
 import rapidgen.client
 from rapidgen.client import (
     AsyncCell,
+    AsyncExecution,
     AsyncRobot,
+    AsyncStream,
     Cell,
     ConnectionFailed,
     ConnectionLost,
+    Execution,
     InvalidTrajectory,
     MotionFailed,
     Robot,
     RobotError,
     Status,
+    Stream,
     Trajectory,
     TrajectoryRefused,
 )
@@ -115,6 +120,25 @@ def test_exported_members():
     assert sorted(rapidgen.client.__all__) == rapidgen.client.__all__
     for name in rapidgen.client.__all__:
         assert getattr(rapidgen.client, name).__doc__
+
+
+@pytest.mark.parametrize(
+    ("blocking", "asynchronous"), [(Robot, AsyncRobot), (Execution, AsyncExecution),
+                                   (Stream, AsyncStream), (Cell, AsyncCell)]
+)  # fmt: skip
+def test_both_clients_have_the_same_surface(blocking, asynchronous):
+    def surface(kind):
+        found = {}
+        for name in dir(kind):
+            member = getattr(kind, name)
+            if name.startswith("_"):
+                continue
+            is_call = callable(member)
+            found[name] = list(inspect.signature(member).parameters) if is_call else "property"
+        return found
+
+    assert surface(blocking) == surface(asynchronous)
+    assert surface(blocking)
 
 
 def test_the_tree_of_exceptions_is_the_one_that_is_drawn():

@@ -3,10 +3,13 @@
 import io
 import json
 import re
+import struct
 from pathlib import Path
 
+import numpy as np
 import pytest
 from fake_controller import FakeController
+from fake_stream import StreamModel, frame
 
 from rapidgen.cli.app import main
 from rapidgen.client import Trajectory
@@ -195,8 +198,6 @@ def test_plot_of_names_that_want_out(tmp_path):
 
 
 def test_plot_thins_long_recordings(tmp_path):
-    import numpy as np
-
     from rapidgen.client.plot import Curve, write_plot
 
     times = np.arange(200_000) * 0.01
@@ -210,10 +211,146 @@ def test_plot_thins_long_recordings(tmp_path):
 
 
 def test_plot_without_points(tmp_path):
-    import numpy as np
-
     from rapidgen.client.plot import Curve, write_plot
 
     empty = Trajectory(np.zeros(0), np.zeros((0, 2)), ("a", "b"))
     write_plot(tmp_path / "e.png", tmp_path / "e.html", [Curve("nothing", empty)], title="empty")
     assert (tmp_path / "e.png").stat().st_size > 500
+
+
+@pytest.fixture
+def streaming():
+    with FakeController(stream=StreamModel(speed=20, ring=64), control=True) as fake:
+        yield fake
+
+
+@pytest.fixture
+def many(tmp_path):
+    path = tmp_path / "many.csv"
+    positions = [[0.002 * n] * 6 for n in range(150)]
+    Trajectory.from_points(positions, seconds=0.1, names=JOINTS).to_csv(path)
+    return path
+
+
+def mapping_of(name):
+    from rapidgen.client.group import Group
+
+    config = load_config(name)
+    return Group.of(config, config.groups[0]).mapping
+
+
+@pytest.mark.parametrize(
+    ("words", "way"), [([], "stream"), (["--stream"], "stream"), (["--download"], "download")]
+)
+def test_move_tells_which_way_the_points_go(streaming, many, capsys, words, way):
+    streaming.script.mapping = mapping_of("irb120")
+    streaming.script.capacity = 100
+    call = ["move", "irb120", str(many), "--to", streaming.address, "-y", *words]
+    if way == "download":
+        # as a whole it does not fit
+        assert main(call) == 1
+        assert "RG617" in capsys.readouterr().err
+        return
+    assert main([*call, "--json"]) == 0
+    shown = capsys.readouterr()
+    told = json.loads(shown.out)
+    assert (told["way"], told["points"], told["starved"]) == ("stream", 150, 0)
+    assert "sent while it moves" in " ".join(shown.err.split())
+
+
+def test_a_fault_on_the_way_is_told_with_its_point(streaming, many, capsys):
+    streaming.script.mapping = mapping_of("irb120")
+    streaming.script.stream.point_fault = (100, 7, 0)
+    assert main(["move", "irb120", str(many), "--to", streaming.address, "-y"]) == 1
+    assert "at point 100: a duration needs more speed than the TCP" in " ".join(
+        capsys.readouterr().err.split()
+    )
+
+
+def test_stream_where_the_driver_cannot(controller, points, capsys):
+    call = ["move", "irb120", str(points), "--to", controller.address, "-y"]
+    assert main([*call, "--stream"]) == 1
+    assert "RG624" in capsys.readouterr().err
+    assert main(call) == 0
+    assert "(download)" in capsys.readouterr().out
+
+
+def test_the_progress_bar_tells_what_the_robot_is_at(streaming, monkeypatch):
+    import rich.console
+
+    from rapidgen.cli import following
+    from rapidgen.client import Robot
+
+    class Terminal(io.StringIO):
+        def isatty(self):
+            return True
+
+    terminal = Terminal()
+    monkeypatch.setattr(following.sys, "stderr", terminal)
+    made = rich.console.Console
+    monkeypatch.setattr(
+        rich.console, "Console", lambda **_: made(file=terminal, force_terminal=True, width=80)
+    )
+    with Robot(streaming.address) as robot:
+        path = Trajectory.from_points([[0.0] * 6, [0.2] * 6], seconds=20)
+        result = following.follow(robot.execute(path, way="stream"))
+    assert result.points == 2
+    assert "moving" in terminal.getvalue()
+    assert "done" in terminal.getvalue()
+    assert "100 %" in terminal.getvalue()
+
+
+def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
+    from rapidgen.client import Robot
+
+    with Robot(streaming.address) as robot:
+        feed = robot.stream()
+        feed.append([0, 0.6], [[0.0] * 6, [0.01] * 6])
+        robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 2)
+        data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
+        words = ["monitor", streaming.address, "--plain", "--count", "3"]
+        streaming.extra = frame(1308, 1, 0, data)
+        assert robot.next_event(1).code == 50024
+        assert main(words) == 0
+        assert "starved" in capsys.readouterr().out
+        robot.pause()
+        assert main([*words, "--json"]) == 0
+        assert json.loads(capsys.readouterr().out.splitlines()[-1])["trajectory"] == "paused"
+        robot.resume()
+        feed.cancel()
+
+
+def test_words_of_a_monitor():
+    from types import SimpleNamespace
+
+    from rapidgen.client import Event, Status
+    from rapidgen.client.watch import Watcher
+    from rapidgen.protocol.spec import EventType, TrajectoryState
+
+    watcher = Watcher()
+    for number, trajectory in enumerate((TrajectoryState.MOVING, TrajectoryState.STARVED)):
+        watcher.take(
+            SimpleNamespace(number=number, time=number, status=Status(), trajectory=trajectory)
+        )
+    assert watcher.event == "the stream ran out of points"
+    event = Event(0.0, 50024, EventType.ERROR, "Corner path failure", 1)
+    watcher.tell(event)
+    watcher.tell(None)
+    assert watcher.event == "50024 Corner path failure"
+
+
+def test_record_with_the_controllers_time(streaming, tmp_path):
+    out = tmp_path / "r.csv"
+    words = ["record", streaming.address, "--feedback", "--seconds", "0.3", "-o", str(out)]
+    streaming.script.feedback = True
+    assert main(words) == 0
+    recorded = Trajectory.from_csv(out)
+    # of a clock that runs twice as fast as this one
+    assert 0.3 < recorded.duration < 2.0
+    assert np.diff(recorded.times) == pytest.approx(0.02, abs=1e-4)
+
+
+def test_stop_over_the_control_port_when_the_motion_port_is_dead(streaming, capsys):
+    streaming._servers["motion"].close()
+    assert main(["stop", streaming.address]) == 0
+    assert len(streaming.stops) == 1
