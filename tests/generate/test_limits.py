@@ -124,7 +124,8 @@ def test_a_wider_limit_does_not(bench):
             ),
         )
     ]
-    assert try_point(b, [0, 0, 0, 2.9, 0, 0]) == (2, (LIMIT, 1, 4))
+    for joint in (2.9, -2.9):
+        assert try_point(b, [0, 0, 0, joint, 0, 0]) == (2, (LIMIT, 1, 4))
     move_well(b)
 
 

@@ -109,8 +109,19 @@ def test_hello_is_answered_within_a_second_at_any_rate(bench):
     second = b.state_client()
     hello(second)
     hello(first)
+    asked = b.vc.kernel.now
     for client in (first, second):
-        b.vc.run_until(lambda c=client: c.pump() or HELLO in map(kind, c.frames()), timeout=0.9)
+        assert b.vc.run_until(lambda c=client: HELLO in map(kind, c.frames()), timeout=0.9)
+    assert b.vc.kernel.now - asked < 0.9e9
+
+
+def test_the_next_client_does_not_wait_for_the_turn_of_the_last(bench):
+    b = bench(state_period=5.0)
+    first = b.state_client()
+    b.vc.run_for(1)
+    first.close()
+    b.vc.run_for(0.5)
+    assert served(b, b.state_client(), 0.5)
 
 
 def test_the_rate_of_one_is_kept_while_others_come_and_go(bench):
@@ -273,7 +284,7 @@ def test_the_time_stamp_counts_a_thousand_seconds(bench):
     b.vc.run_for(0.5)
     state.frames()
     begun, unwrapped, last = None, 0.0, None
-    for _ in range(64):
+    for _ in range(130):
         b.vc.run_for(50)
         for valid, time, _, velocities in feedback_of(state.frames()):
             assert 0 <= time < 1000
@@ -287,7 +298,26 @@ def test_the_time_stamp_counts_a_thousand_seconds(bench):
                 unwrapped += step
             last = time
     assert begun is not None
-    assert unwrapped == pytest.approx(3200, abs=0.8)
+    assert unwrapped == pytest.approx(6500, abs=0.8)
+
+
+def test_speed_is_right_where_the_time_stamp_begins_again(bench):
+    b = bench(overrides=["state.rate=2"])
+    client, state = b.client(), subscribed(b, WANT_FEEDBACK)
+    b.vc.run_for(120)
+    while (last := feedback_of(state.frames())[-1])[1] < 980:
+        b.vc.run_for(5)
+    assert last[3] == [0.0] * 10
+    rows = [[0.05 * (n % 2)] * 6 for n in range(40)]
+    client.send(b"".join(trajectory(rows, [10] + [1.3] * 39)))
+    b.vc.run_for(40)
+    told = feedback_of(state.frames())
+    assert told[0][1] > 980
+    assert told[-1][1] < 100
+    for (_, early, old, _), (_, late, new, velocities) in itertools.pairwise(told):
+        seconds = (late - early) % 1000
+        means = [(v - w) / seconds for v, w in zip(new, old, strict=True)]
+        assert close_to(velocities, means, 2e-4)
 
 
 # -- EVENT --------------------------------------------------------------------------------------
@@ -324,6 +354,12 @@ def test_events_of_before_are_not_told(bench):
     first.close()
     b.vc.run_for(1)
     b.vc.log.error(50_204, "while nobody asks")
+    b.vc.run_for(1)
+    leaves = subscribed(b, WANT_EVENTS)
+    for _ in range(9):
+        b.vc.log.error(50_204, "for one who leaves")
+    b.vc.run_for(0.2)
+    leaves.close()
     b.vc.run_for(1)
     second = subscribed(b, WANT_EVENTS)
     b.vc.run_for(1)
