@@ -148,6 +148,23 @@ class TaskView:
         """The statement before which a stopped task stands; None when that is unknown."""
         return self.rapid.stands_before()
 
+    def pp_to_routine(self, name: str) -> None:
+        """Set the program pointer to a procedure without parameters. CannotStep: no such one."""
+        self.rapid.pp_to_routine(name)
+        self.rapid.controller.drop_paths()
+
+    def pp_to_statement(self, line: int) -> None:
+        """Set the program pointer to another statement of the routine (PP to cursor).
+
+        Data and interrupts are kept, the path is gone. CannotStep: it cannot go on there.
+        """
+        self.rapid.pp_to_statement(line)
+        self.rapid.controller.drop_paths()
+
+    def call_service(self, name: str) -> None:
+        """Execute a service routine of a stopped task. CannotStep: it runs, or no such one."""
+        self.rapid.call_service(name)
+
     def pp_to_main(self) -> None:
         """Set the program pointer to main."""
         self.rapid.pp_to_main()

@@ -8,6 +8,7 @@ from rapidgen.system.model import TaskSpec
 from rapidgen.virtual.compiler.base import CannotCompile
 from rapidgen.virtual.compiler.program import Program, Shared
 from rapidgen.virtual.compiler.resume import Standing
+from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.errors import (
     RECOVERABLE,
     EndOfRun,
@@ -53,6 +54,10 @@ class RapidTask(Stepping):
         self.fault: FatalError | None = None
         self._fresh = True
         """PP was set to main: variables are to be initialised."""
+        self._routine: Routine | None = None
+        """Where PP was set instead of main."""
+        self._service: list[Routine] = []
+        """Service routines that are to be executed while the program stands."""
         self._backward = False
         """The step under way goes back."""
         self._at_point = -1
@@ -80,12 +85,14 @@ class RapidTask(Stepping):
             self._events.append("RESTART")
             self._set("running")
             if self.place is not None:
-                self.launch(self._body)
+                # A program that is still being left goes on by itself.
+                if not self.alive:
+                    self.launch(self._body)
             elif not self._stop_routines_due:
                 self.release()
         elif self.state in ("ready", "finished"):
             self.fault = None
-            self._events.append("START")
+            self._events.append("START" if self._routine is None else "RESTART")
             self._set("running")
             if not self.alive:
                 self.launch(self._body)
@@ -161,10 +168,48 @@ class RapidTask(Stepping):
 
     def pp_to_main(self) -> None:
         """Leave everything (UNDO handlers run) and set PP to main."""
+        self._leave(None)
+
+    def pp_to_routine(self, name: str) -> None:
+        """Set PP to a procedure without parameters: as main, but RESET routines do not run."""
+        self._leave(self._procedure(name))
+
+    def pp_to_statement(self, line: int) -> None:
+        """Set PP to a statement of the routine in which the program stands (PP to cursor).
+
+        CannotStep: there is none, or the program cannot go on there.
+        """
+        if self.state not in ("stopped", "error"):
+            raise CannotStep(f"the task is {self.state}")
+        self.place = self.standing_at(line)
+        if self.alive:
+            self.order(PointerMoved())
+            self.held = False
+        self._set("stopped")
+
+    def call_service(self, name: str) -> None:
+        """Execute a procedure without parameters at user level, while the program stands."""
+        if self.state == "running" or self.leaving:
+            raise CannotStep(f"the task is {self.state}")
+        self._service.append(self._procedure(name))
+        if not self.alive:
+            self.launch(self._body)
+        else:
+            self.wake()
+
+    def _procedure(self, name: str) -> Routine:
+        found = self.program.find_routine(None, name.lower())
+        if found is None or found.node is None or found.kind != "PROC" or found.parameters:
+            raise CannotStep(f"{self.name} has no procedure {name} without parameters")
+        return found
+
+    def _leave(self, routine: Routine | None) -> None:
+        self._routine = routine
         self._fresh = True
         self._start_asked = False
         self._events = [e for e in self._events if e == "POWER_ON"]
-        self._events.append("RESET")
+        if routine is None:
+            self._events.append("RESET")
         if self.state in ("running", "stopped") and self.alive:
             self.order(EndOfRun())
             self.held = False
@@ -201,9 +246,16 @@ class RapidTask(Stepping):
     def _body(self) -> None:
         """The greenlet of one run."""
         step = self._begin if self.place is None else self._again
+        if self._service and self.state != "running":
+            step = self._serve
         # Whoever hears of a state may start the task again at once.
         while self._guarded(step) or self.state == "running":
             step = self._cycle if self.place is None else self._again
+
+    def _serve(self) -> bool:
+        """Service routines of a program of which nothing is being executed."""
+        self._stop_routines()
+        return False
 
     def _begin(self) -> bool:
         """What is due without a start: UNDO after PP to main, routines of POWER_ON."""
@@ -220,7 +272,7 @@ class RapidTask(Stepping):
         self.program.reset_variables()
         self.interrupts.clear()
         self.errno = self.intno = 0
-        self.controller.reset_task(self)
+        self.controller.reset_task(self, settings=self._routine is None)
 
     def _cycle(self) -> bool:
         """One pass of the entry routine; whether another one follows at once."""
@@ -229,16 +281,16 @@ class RapidTask(Stepping):
         self.attend()
         self.charge(self.controller.costs.statement)
         self._run_events()
-        entry = self.program.globals.get(self.spec.entry.lower())
+        entry = self._routine or self.program.globals.get(self.spec.entry.lower())
         self.program.function(entry)()  # type: ignore[arg-type]
         return self._next_cycle()
 
     def _again(self) -> bool:
         """Go on where an error stopped the program."""
-        places, self.place = self.place, None
-        assert places is not None
         self.undo_failed = False
         self.attend()
+        places, self.place = self.place, None
+        assert places is not None
         self.charge(self.controller.costs.statement)
         self._run_events()
         if self._backward:
@@ -282,7 +334,7 @@ class RapidTask(Stepping):
         except EndOfRun:
             return self._over()
         except PointerMoved:
-            return True
+            return self.state == "running"
         except FatalError as fatal:
             self._fail(fatal, fatal)
         except RECOVERABLE as error:
@@ -295,8 +347,9 @@ class RapidTask(Stepping):
         self.cycles += 1
         if self.controller.dialect.cycle_resets_interrupts:
             self.interrupts.clear()
-        if self.controller.cycle == "forever":
+        if self.controller.cycle == "forever" and self._routine is None:
             return True
+        self._routine = None
         self._set("finished")
         return False
 
@@ -345,7 +398,7 @@ class RapidTask(Stepping):
                 if found is not None and found.node is not None:
                     self._run_event(due[0], self.program.function(found))
 
-    def _run_event(self, event: Event, routine: Callable[..., Any]) -> None:
+    def _run_event(self, event: Event | Literal["SERVICE"], routine: Callable[..., Any]) -> None:
         """Execute a routine at user level: interrupts wait, errors are nobody's but its own."""
         outer, self.event = self.event, event
         try:
@@ -367,13 +420,16 @@ class RapidTask(Stepping):
 
     @property
     def _stop_routines_due(self) -> bool:
-        return not self.while_stopped and any(e in _WHILE_STOPPED for e in self._events)
+        due = bool(self._service) or any(e in _WHILE_STOPPED for e in self._events)
+        return due and not self.while_stopped
 
     def _stop_routines(self) -> None:
         self.while_stopped = True
         self.held = False
         try:
             self._run_events(_WHILE_STOPPED)
+            while self._service:
+                self._run_event("SERVICE", self.program.function(self._service.pop(0)))
         finally:
             self.while_stopped = False
             self.held = self.state == "stopped" and not self.leaving

@@ -150,6 +150,11 @@ class ControllerState:
             group.reset()
         self.log.info(10_002, "Program pointer has been reset")
 
+    def drop_paths(self) -> None:
+        """PP was moved, not to main: the path is gone, settings stay [S4 overview 4-24]."""
+        for group in self.motion.groups.values():
+            group.clear_path()
+
     def set_motors(self, on: bool, *, event: Literal["STOP", "QSTOP", ""] = "STOP") -> None:
         """Motors on or off; off stops the program, and the routines of `event` run."""
         if on and (self.e_stop or self.failed):
@@ -341,13 +346,16 @@ class ControllerState:
                 if other is not task and other.spec.type == "NORMAL":
                     other.stop()
 
-    def reset_task(self, task: Task) -> None:
-        """PP to main of a task: its sockets and files are closed, its dynamic modules go."""
+    def reset_task(self, task: Task, *, settings: bool = True) -> None:
+        """PP to main of a task: its sockets and files are closed, its dynamic modules go.
+
+        Without `settings` (PP to a routine) those of motion stay.
+        """
         self.modules.drop_dynamic(task)
         self.sockets.close_task(task.name)
         self.files.close_task(task.name)
         group = self.motion.of_task(task.name)
-        if group is not None and self.motion.is_motion_task(task.name):
+        if settings and group is not None and self.motion.is_motion_task(task.name):
             group.reset()
 
     def event_routines(self, task: "RapidTask", event: str) -> Iterator[str]:

@@ -12,9 +12,10 @@ from types import FrameType
 from typing import Any
 
 from rapidgen.rapid import nodes as n
+from rapidgen.virtual.compiler.analysis import walk
 from rapidgen.virtual.compiler.base import CannotCompile
 from rapidgen.virtual.compiler.program import LoadedModule
-from rapidgen.virtual.compiler.resume import Standing
+from rapidgen.virtual.compiler.resume import Standing, find
 from rapidgen.virtual.pointer import Pointer, standing
 from rapidgen.virtual.recovery import Place
 
@@ -74,6 +75,26 @@ class Stepping(Pointer):
         module = last.routine.module
         assert module is not None
         return Place(module.name, last.routine.name, module.span(body[i]), None)
+
+    def standing_at(self, line: int) -> list[Standing]:
+        """The same stack with the innermost routine at another statement. CannotStep."""
+        places = self.where_it_stands()
+        last = places[-1]
+        module, node = last.routine.module, last.routine.node
+        assert module is not None
+        assert node is not None
+        source = module.tree.source
+        tokens = sorted(at.first for at in walk(node) if source.line(at.first) == line)
+        paths = (find(node.body, token) for token in tokens)
+        path = next((p for p in paths if p is not None), None)
+        if path is None:
+            raise CannotStep(f"no statement of {last.routine.name} begins in line {line}")
+        there = replace(last, path=path)
+        try:
+            self.program.rest(there)
+        except CannotCompile as error:
+            raise CannotStep(str(error)) from error
+        return [*places[:-1], there]
 
     def reached(self, module: LoadedModule | None) -> bool:
         """A statement is about to be executed: whether the step ends before it.

@@ -108,7 +108,7 @@ def call_by_var(task: RapidTask, name: str, number: float) -> None:
 def event_type(task: RapidTask) -> int:
     """EventType: which event routine is being executed."""
     names = ("", "POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP")
-    return names.index(task.event)
+    return names.index(task.event) if task.event in names else 0
 
 
 @builtin("ExecLevel")

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from rapidgen.rapid import nodes as n
-from rapidgen.virtual.compiler.base import E
+from rapidgen.virtual.compiler.base import CALLS, E
 from rapidgen.virtual.values import BOOL, NUM, STRING, Type
 
 if TYPE_CHECKING:
@@ -142,7 +142,25 @@ def _is_var(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E:
     return E(f"(not {pers.code})", BOOL, cost=c.options.call)
 
 
+def _arg_name(c: "Calls", node: n.FunctionCall | n.ProcedureCall) -> E:
+    """ArgName: of a parameter; its name is all that is passed on."""
+    first = node.arguments[0].value if node.arguments else None
+    if not isinstance(first, n.Name):
+        c.fault("ArgName takes a parameter", node)
+    codes, parts = [repr(first.name)], []
+    for argument in node.arguments[1:]:
+        parameter = c.known_routine("ArgName").parameters[1]  # type: ignore[union-attr]
+        number = c.argument(parameter, argument, builtin=True)
+        codes.append(number.code)
+        parts.append(number)
+    cost = int(50_000 * c.options.builtin_scale)
+    e = E(f"ARGNAME(R, {', '.join(codes)})", STRING, cost=cost, exact=True).take(*parts)
+    e.effect, e.fails = CALLS, True
+    return e
+
+
 INLINE: dict[str, Inline] = {
+    "argname": _arg_name,
     "present": _present,
     "dim": _dim,
     "abs": _abs,
@@ -154,5 +172,5 @@ INLINE: dict[str, Inline] = {
     "isvar": _is_var,
 }
 
-NEVER_BOXES = frozenset({*INLINE, "incr", "decr", "add", "clear"})
+NEVER_BOXES = frozenset({*INLINE.keys() - {"argname"}, "incr", "decr", "add", "clear"})
 """Built-ins with reference parameters that need no box for a local variable."""

@@ -8,6 +8,7 @@ from rapidgen.diagnostics import Diagnostic, Severity, Span
 from rapidgen.rapid import nodes as n
 from rapidgen.rapid import signatures
 from rapidgen.system.model import ModuleFile
+from rapidgen.virtual.argname import arg_name
 from rapidgen.virtual.compiler import predefined, runtime
 from rapidgen.virtual.compiler.base import CannotCompile, Options
 from rapidgen.virtual.compiler.evaluate import evaluate
@@ -97,6 +98,7 @@ class Program:
             "ARRAY": make_array,
             "TRACE": _trace,
             "AFTER": after,
+            "ARGNAME": arg_name,
         }
         dialect = options.dialect
         if dialect.for_loop == "tested":
