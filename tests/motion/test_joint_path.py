@@ -343,3 +343,16 @@ def test_reset_forgets_path_stops_and_settings(cell, joint):
     assert group.stop_reasons == ()
     assert group.modal.speed_override == 1.0
     assert at_rest(cell, 0)
+
+
+def test_a_stop_point_waits_for_the_settling_time_from_the_first_move_on(make_cell, joint):
+    cell = make_cell(settings=MotionSettings(settle=0.2))
+    ended = []
+
+    def program(task):
+        for degrees in (10, 20):
+            cell.group.move(task, joint(degrees))
+            ended.append((task.kernel.now - cell.group.motion.end) / S)
+
+    cell.run(program)
+    assert ended == pytest.approx([0.2, 0.2], abs=1e-6)

@@ -29,6 +29,7 @@ def test_cartesian_programs(seed):
         (5221, "flat", 0.05),  # a new move in the nanosecond in which the plan stands
         (1046, "brakes", 0.0),  # a path cleared twice while the robot was off it
         (1284, "brakes", 0.05),
+        (7292, "brakes", 0.2),  # the brakes pulled in the last ramp before a stop point
     ],
 )
 def test_programs_that_campaigns_found(seed, kind, ramp):

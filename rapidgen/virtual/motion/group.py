@@ -4,10 +4,9 @@ The kernel is asked for one event at a time (a release, a deadline, a standstill
 costs a few events a move, and nothing at all while it stands.
 """
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, inf
-from typing import Protocol
 
 from rapidgen.axes.kinematics import Kinematics, MovingFrame
 from rapidgen.axes.mapping import JointMap
@@ -30,23 +29,11 @@ from rapidgen.virtual.motion.pieces import AxisLimits
 from rapidgen.virtual.motion.punctuality import Punctuality
 from rapidgen.virtual.motion.settings import MotionSettings
 from rapidgen.virtual.motion.timelaw import TimeLaw
+from rapidgen.virtual.motion.waiter import Waiter
 from rapidgen.virtual.values import Record
 
 _BRAKES = "brakes"
 """The stop that holds while the brakes bring the robot to rest."""
-
-
-class Waiter(Protocol):
-    """What a task can do for a move."""
-
-    def wait_for(
-        self,
-        predicate: Callable[[], bool],
-        *,
-        on: Iterable[WaitSet] = (),
-        timeout: float | None = None,
-    ) -> bool:
-        """Wait until the predicate holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,8 +77,8 @@ class MotionGroup:
         self._punctuality = Punctuality()
         self._concurrent = 0
         self._limited = False
-        self._settled = 0
-        """Start of the motion whose settling was told."""
+        self._settled: Motion | None = None
+        """The motion whose settling was told."""
         self.modal = ModalSettings()
         self.inactive: set[str] = set()
         """External axes of deactivated units (DeactUnit)."""
@@ -561,8 +548,8 @@ class MotionGroup:
                 tail.committed = tail.released = changed = True
                 events.corner_failure(self._log, self.name, tail.move)
         self._events.fire(self.motion, now)
-        done = self._path.passed(self._drive.place())
-        if done:
+        # Off the path nothing is reached, wherever on it the robot should be.
+        if self.motion.coast is None and (done := self._path.passed(self._drive.place())):
             self._finish(done, cleared=False)
             changed = True
         standing = self.is_standing
@@ -572,18 +559,23 @@ class MotionGroup:
             if standing:
                 self._punctuality.report(self._log, self.name)
             changed = True
-        if standing and _BRAKES in self._stops:
-            del self._stops[_BRAKES]
-            if self.motion.coast is not None:
-                self._come_back(self.motion.rest, self.motion.law.place)
-            if not self._stops:
-                self._replan()
-        if standing and self._settled != self.motion.start:
-            self._settled = self.motion.start
+        if self.is_settled and self._settled is not self.motion:
+            self._settled = self.motion
             changed = True
         self._schedule()
         if changed:
             self.changed.notify()
+        if standing and _BRAKES in self._stops:
+            self._brakes_off()
+
+    def _brakes_off(self) -> None:
+        """The brakes have done: the way back is the first of the path."""
+        del self._stops[_BRAKES]
+        if self.motion.coast is not None:
+            self._come_back(self.motion.rest, self.motion.law.place)
+        if not self._stops:
+            self._replan()
+        self._settle()
 
     def _finish(self, legs: list[Leg], *, cleared: bool) -> None:
         for leg in legs:
