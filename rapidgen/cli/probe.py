@@ -11,16 +11,22 @@ def probe(
         Path | None,
         typer.Option("--output", "-o", help="File to write; default stdout.", metavar="FILE"),
     ] = None,
+    moving: Annotated[
+        bool,
+        typer.Option("--moving", help="Questions about motion: THE ROBOT TURNS ITS AXIS 6."),
+    ] = False,
 ) -> int:
     """Write a module that asks a controller what is only assumed about it.
 
     Load it alone into a NORMAL task and start it: each line on the pendant is an answer that
-    `rapidgen run --dialect` takes. It moves nothing and sets no output.
+    `rapidgen run --dialect` takes. It moves nothing and sets no output, unless `--moving` asks
+    for the other module: that one turns axis 6 by 10 degrees, after a question on the pendant.
     """
     from rapidgen._data import data_folder
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
-    text = (data_folder("templates") / "ROS_probe.mod").read_text(encoding="latin-1")
+    name = "ROS_probe_motion.mod" if moving else "ROS_probe.mod"
+    text = (data_folder("templates") / name).read_text(encoding="latin-1")
     if output is None:
         typer.echo(text, nl=False)
         return 0

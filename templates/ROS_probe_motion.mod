@@ -1,0 +1,174 @@
+MODULE ROS_probe_motion
+    ! Questions to a controller about motion, which it can only answer by moving: THE ROBOT TURNS
+    ! ITS AXIS 6 BY UP TO 10 DEGREES, slowly and back again, from where it stands. Look whether
+    ! cables and tool allow that. For a robot without axis 6 change the routine `turned`.
+    !
+    ! Load this module alone into the task of the robot, PP to main, reduced speed in manual mode or
+    ! a fenced cell, Start, and read the pendant (or the event log, 80003). Each line is an answer,
+    ! `switch=value`, as rapidgen's motion model takes it (docs/motion-model.md).
+
+    ! deg, and s for that way
+    LOCAL CONST num WAY := 5;
+    LOCAL CONST num SECONDS := 2;
+
+    LOCAL VAR jointtarget start;
+    LOCAL VAR jointtarget place;
+    LOCAL VAR clock watch;
+    LOCAL VAR num lasted := 0;
+    LOCAL VAR intnum alarm;
+    LOCAL VAR intnum second_alarm;
+    LOCAL VAR bool running := FALSE;
+    LOCAL PERS num changes := 0;
+    LOCAL VAR num traps := 0;
+
+    PROC main()
+        VAR num consent := 0;
+
+        TPReadFK consent, "May axis 6 turn by 10 degrees?", stEmpty, stEmpty, stEmpty, "Yes", "No";
+        IF consent <> 4 EXIT;
+        start := CJointT();
+        ask_quick_changes;
+        ask_zero_length;
+        ask_refresh_timed;
+        tell_planning_lead;
+        ask_stop;
+        go_back;
+        ask_range_error;
+        EXIT;
+    ENDPROC
+
+    LOCAL PROC answer(string line)
+        TPWrite line;
+        ErrWrite \I, "ROS probe", line;
+    ENDPROC
+
+    ! Where the robot stood at first, but for axis 6.
+    LOCAL FUNC jointtarget turned(num degrees)
+        VAR jointtarget target;
+
+        target := start;
+        target.robax.rax_6 := target.robax.rax_6 + degrees;
+        RETURN target;
+    ENDFUNC
+
+    ! Move with a stop point; s until the program goes on.
+    LOCAL PROC turn(num degrees, num time)
+        place := turned(degrees);
+        ClkReset watch;
+        ClkStart watch;
+        MoveAbsJ place \NoEOffs, v100 \T:=time, fine, tool0;
+        lasted := ClkRead(watch);
+        ClkStop watch;
+    ENDPROC
+
+    LOCAL PROC go_back()
+        turn 0, SECONDS;
+    ENDPROC
+
+    ! Are two quick changes of a persistent one interrupt or two?
+    LOCAL PROC ask_quick_changes()
+        IDelete alarm;
+        CONNECT alarm WITH on_change;
+        IPers changes, alarm;
+        changes := changes + 1;
+        changes := changes + 1;
+        WaitTime 0.5;
+        IDelete alarm;
+        changes := 0;
+        answer "! two quick changes of a PERS: " + ValToStr(traps) + " traps";
+    ENDPROC
+
+    LOCAL TRAP on_change
+        traps := traps + 1;
+    ENDTRAP
+
+    ! Does a move to where the robot stands take its \T?
+    LOCAL PROC ask_zero_length()
+        turn 0, 1;
+        turn 0, 1;
+        IF lasted < 0.5 THEN
+            answer "zero_length=skip";
+        ELSE
+            answer "zero_length=wait";
+        ENDIF
+    ENDPROC
+
+    ! Does SpeedRefresh stretch a \T?
+    LOCAL PROC ask_refresh_timed()
+        SpeedRefresh 50;
+        turn WAY, SECONDS;
+        SpeedRefresh 100;
+        IF lasted > 1.5 * SECONDS THEN
+            answer "refresh_timed=true";
+        ELSE
+            answer "refresh_timed=false";
+        ENDIF
+        go_back;
+    ENDPROC
+
+    ! When does a fly-by move let the program go on?
+    LOCAL PROC tell_planning_lead()
+        VAR jointtarget there;
+
+        place := turned(WAY);
+        there := turned(2 * WAY);
+        ClkReset watch;
+        ClkStart watch;
+        MoveAbsJ place \NoEOffs, v100 \T:=SECONDS, z1, tool0;
+        lasted := ClkRead(watch);
+        MoveAbsJ there \NoEOffs, v100 \T:=SECONDS, fine, tool0;
+        answer "! a fly-by move returns " + NumToStr(SECONDS - lasted, 2) + " s before its point";
+        go_back;
+    ENDPROC
+
+    ! Does StopMove wait for standstill, and does a move return when its path is gone?
+    LOCAL PROC ask_stop()
+        running := TRUE;
+        IDelete alarm;
+        CONNECT alarm WITH on_stop;
+        ITimer \Single, SECONDS / 2, alarm;
+        IDelete second_alarm;
+        CONNECT second_alarm WITH on_hang;
+        ITimer \Single, SECONDS + 8, second_alarm;
+        turn WAY, SECONDS;
+        running := FALSE;
+        IDelete second_alarm;
+        IF lasted < SECONDS + 7 answer "cleared_move=return";
+        IDelete alarm;
+    ENDPROC
+
+    LOCAL TRAP on_stop
+        VAR jointtarget stopping;
+        VAR jointtarget standing;
+
+        StopMove;
+        stopping := CJointT();
+        WaitTime 1;
+        standing := CJointT();
+        IF Abs(standing.robax.rax_6 - stopping.robax.rax_6) > 0.01 THEN
+            answer "stop_waits=false";
+        ELSE
+            answer "stop_waits=true";
+        ENDIF
+        ClearPath;
+        StartMove;
+    ENDTRAP
+
+    LOCAL TRAP on_hang
+        IF NOT running RETURN;
+        answer "cleared_move=hang";
+        answer "! The robot stands beside its first place. This is the end.";
+        EXIT;
+    ENDTRAP
+
+    ! Can a target outside the axis ranges be handled?
+    LOCAL PROC ask_range_error()
+        place := turned(20000);
+        answer "! If the program stops now: range_error=fatal";
+        MoveAbsJ place \NoEOffs, v100, fine, tool0;
+    ERROR
+        SkipWarn;
+        answer "range_error=recoverable";
+        RETURN;
+    ENDPROC
+ENDMODULE
