@@ -112,14 +112,15 @@ class Event:
 
     time: float
     code: int
-    """Domain and number as the pendant shows them: 50024 is number 24 of domain 5."""
+    """Domain and number as the pendant shows them: 50024 is number 24 of domain 5. 0: the title
+    says how many events the driver could not tell."""
     type: EventType
     title: str
     number: int
     """Events since the connection was made."""
 
     def __str__(self) -> str:
-        return f"{self.code} {self.title}"
+        return f"{self.code} {self.title}" if self.code else self.title
 
 
 @dataclass(frozen=True, slots=True)

@@ -235,6 +235,9 @@ class Tracker:
 
 
 def _event(content: messages.Event, now: float, number: int) -> Event:
+    if content.domain == 0:
+        title = f"{content.number} events were not told"
+        return Event(now, 0, EventType.WARNING, title, number)
     # An event of a type that nobody knows is told as the gravest.
     known = content.type in list(EventType)
     return Event(

@@ -329,9 +329,11 @@ def test_events(fake, client):
     with client(controller.address) as robot:
         data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
         strange = struct.pack("<3i80s", 1, 10, 9, b"?")
-        controller.extra = frame(1308, 1, 0, data) + frame(1308, 1, 0, strange)
-        assert comes(lambda: len(robot.events) == 2)
-        first, second = robot.events
+        missed = struct.pack("<3i80s", 0, 7, 2, b"")
+        controller.extra = b"".join(frame(1308, 1, 0, told) for told in (data, strange, missed))
+        assert comes(lambda: len(robot.events) == 3)
+        first, second, third = robot.events
+        assert str(third) == "7 events were not told"
         assert str(first) == "50024 Corner path failure"
         assert first.type is EventType.ERROR
         assert second.type is EventType.ERROR, "of a type that nobody knows"
