@@ -27,7 +27,8 @@ class Stepper:
     def step(self, **how: bool) -> str:
         """One step; the line where the task stands then, or its state."""
         self.task.step(**how)
-        self.controller.run_for(3)
+        self.controller.run_until(lambda: self.task.state != "running", timeout=30)
+        self.controller.run_for(0.1)
         return self.line() if self.task.state == "stopped" else self.task.state
 
     def line(self) -> str:
@@ -361,3 +362,34 @@ def test_a_move_ends_before_the_step_does() -> None:
         s.step()
         s.controller.run_for(3)
         assert group.positions()[0] == pytest.approx(0, abs=1e-4)
+
+
+def test_trigg_in_a_step_sets_its_signal_and_runs_no_trap() -> None:
+    """[S4 2-TriggL-3]"""
+    from rapidgen.config import load_config
+    from rapidgen.system.model import SignalSpec
+
+    text = (
+        "CONST robtarget a := [[350,0,450],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "CONST robtarget b := [[350,150,450],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "VAR triggdata io;\nVAR triggdata int;\nVAR intnum i;\n"
+        'TRAP t\n TPWrite "trap";\nENDTRAP\n'
+        "PROC main()\n CONNECT i WITH t;\n TriggInt int, 50, i;\n"
+        " TriggIO io, 50 \\DOp:=lamp, 1;\n MoveJ a, v1000, fine, tool0;\n"
+        " TriggL b, v200, io \\T2:=int, fine, tool0;\n WaitTime 1;\nENDPROC"
+    )
+    options = {
+        "robots": load_config("irb120").groups,
+        "specs": {"T1": {"motion": True}},
+        "signals": (SignalSpec("lamp", "DO"),),
+    }
+    with Stepper(text, **options) as s:
+        for _ in range(4):
+            s.step()
+        assert s.controller.signals["lamp"] == 0
+        assert s.step() == "main 16"
+        assert (s.controller.signals["lamp"], s.printed) == (1, [])
+    with Stepper(text, **options) as s:
+        s.controller.start_program()
+        s.controller.run_for(9)
+        assert (s.controller.signals["lamp"], s.printed) == (1, ["trap"])
