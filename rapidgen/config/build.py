@@ -60,6 +60,8 @@ def build(
             too_fast=settings.too_fast,
             min_segment=settings.min_segment,
             approach_speed=settings.approach_speed,
+            ring=settings.ring,
+            preload=settings.preload,
         ),
         state_period=1 / configuration.state.rate,
         bind=configuration.network.bind,
@@ -399,6 +401,8 @@ def _check_ports(
         given = configuration.groups[group.name].ports
         for name in ("motion", "control", "state"):
             port = getattr(group.ports, name)
+            if not port:
+                continue
             path: KeyPath = ("groups", group.name, "ports", name)
             if port in users:
                 report.error(

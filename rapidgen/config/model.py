@@ -95,7 +95,7 @@ class WorkObject:
 
 @dataclass(frozen=True, slots=True)
 class Ports:
-    """TCP ports of one motion group; `control` is the paired client's own connection."""
+    """TCP ports of one motion group; `control` is the paired client's own connection, 0: none."""
 
     motion: int = 11000
     control: int = 11001
@@ -145,6 +145,10 @@ class TrajectoryPolicy:
     min_segment: float = 0.1
     approach_speed: float = 0.1
     """Fraction of the axis speeds for the first point's approach, where one is allowed."""
+    ring: int = 128
+    """Places for points between motion server and motion task; one stays free."""
+    preload: float = 0.5
+    """s of points of a stream that wait in the ring before the robot moves."""
 
 
 @dataclass(frozen=True, slots=True)

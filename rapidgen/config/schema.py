@@ -180,7 +180,10 @@ class Ports(_Part):
     """TCP ports of one group. Defaults: 11000, 11001, 11002, and 10 more for each next group."""
 
     motion: Annotated[Port | None, Rule("Trajectories and stop.")] = None
-    control: Annotated[Port | None, Rule("The paired client's own connection.")] = None
+    control: Annotated[
+        Port | Literal[0] | None,
+        Rule("The paired client's own connection, for STOP among others; 0: none."),
+    ] = None
     state: Annotated[Port | None, Rule("Joint positions and status.")] = None
 
 
@@ -296,6 +299,14 @@ class Trajectory(_Part):
     approach_speed: Annotated[
         float, Rule("Fraction of the axis speeds for an approach to the first point.", gt=0, le=1)
     ] = 0.1
+    ring: Annotated[
+        Literal[64, 128, 256, 512],
+        Rule("Points between the server and the motion task: how far ahead a stream may be."),
+    ] = 128
+    preload: Annotated[
+        float,
+        Rule("Seconds of a stream that are there before the robot moves.", ge=0, le=10),
+    ] = 0.5
 
 
 @dataclass(frozen=True)

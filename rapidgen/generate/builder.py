@@ -77,13 +77,15 @@ def _modules(
     context = group_context(config, group, build_id, data_folder("templates"))
     files = []
     faults = []
-    for module in layout.MODULES:
+    for module in layout.modules(group):
         kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
         rendered = renderer.render(f"{module}.{kind}.j2", **context)
         path = f"HOME/{layout.module_file(config, group, module)}"
         faults += lint(path, rendered.text, ascii_only=config.robotware[0] >= 7)
         tasks = tuple(
-            layout.task_name(config, group, role) for role in layout.ROLES if module in role.modules
+            layout.task_name(config, group, role)
+            for role in layout.roles(group)
+            if module in role.modules
         )
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
         data = rendered.text.encode("latin-1", errors="replace")
@@ -108,9 +110,13 @@ def _head(config: RobotConfig, build_id: str) -> dict[str, Any]:
             group.name: {
                 "task": group.task,
                 "ports": {
-                    "motion": group.ports.motion,
-                    "control": group.ports.control,
-                    "state": group.ports.state,
+                    name: port
+                    for name, port in (
+                        ("motion", group.ports.motion),
+                        ("control", group.ports.control),
+                        ("state", group.ports.state),
+                    )
+                    if port
                 },
                 "joints": [joint.name for joint in group.joints],
             }

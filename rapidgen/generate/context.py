@@ -8,17 +8,15 @@ from pathlib import Path
 from rapidgen import __version__
 from rapidgen.config.model import Frame, Joint, Load, MotionGroup, RobotConfig, Tool, WorkObject
 from rapidgen.generate import layout
+from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.protocol import rapid, spec
-from rapidgen.protocol.mapping import mapping_hash
-from rapidgen.protocol.spec import Feature, ReplyCode, Wire
+from rapidgen.protocol.spec import ReplyCode
 
-RING = 128
 # Clients that the state port serves at a time.
 STATE_CLIENTS = 3
-# A multiple of the ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
+# A multiple of every ring's size within the integers that a num counts exactly, 2^23 [K §2.13].
 WRAP = 2**22
-FEATURES = Feature.PROGRESS | Feature.EVENTS | Feature.FEEDBACK
 _HEADER_AND_PREFIX = spec.PREFIX_BYTES + spec.HEADER_BYTES
 # Speed that rounding to single on the way must not push a point over.
 _SPEED_MARGIN = 1.001
@@ -37,9 +35,7 @@ def group_context(
     x = layout.suffix(config, group)
     joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
     constants = used_constants(templates)
-    roles = [
-        {"role": role.name, "task": layout.task_name(config, group, role)} for role in layout.ROLES
-    ]
+    roles = layout.roles(group)
     return {
         "name": config.name,
         "group": group.name,
@@ -47,11 +43,14 @@ def group_context(
         "version": __version__,
         "build": build_id,
         "x": x,
-        "tasks": roles,
+        "tasks": [
+            {"role": role.name, "task": layout.task_name(config, group, role)} for role in roles
+        ],
+        "one_build": {role.name: _one_build(role) for role in roles},
         "constants": constants,
         "reasons": _reasons(constants),
         "factors": [f for f in _FACTORS if any(j["factor"] == f["name"] for j in joints)],
-        "ring": RING,
+        "ring": config.trajectory.ring,
         "wrap": WRAP,
         "joints": joints,
         "robax": _axes(group, [f"rax_{n}" for n in range(1, 7)], "0"),
@@ -89,8 +88,59 @@ def group_context(
         "slots": STATE_CLIENTS + 1,
         "feedback_wrap": literal(spec.FEEDBACK_WRAP),
         "status_at": spec.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,
-        "hello": _hello(config, group, build_id),
+        "hello": hello_reply(config, group, build_id),
+        **_streams(config, joints),
+        "exposed": _exposed(config),
+        "heartbeat_reply": _reply_length(spec.HEARTBEAT),
+        "signal_reply": _reply_length(spec.SIGNAL),
     }
+
+
+def _one_build(role: layout.Role) -> list[str]:
+    """The constants that have to equal ROS_BUILD_ID for a task to be of one build."""
+    return [_build_constant(module) for module in role.modules if module != layout.COMMON]
+
+
+def _build_constant(module: str) -> str:
+    """ROS_motionServer: ROS_BUILD_MOTION_SERVER."""
+    return "ROS_BUILD_" + re.sub(r"(?<=[a-z])(?=[A-Z])", "_", module.removeprefix("ROS_")).upper()
+
+
+def _streams(config: RobotConfig, joints: list[dict[str, object]]) -> dict[str, object]:
+    """What batches of points look like to RAPID."""
+    even = len(joints) % 2 == 0
+    return {
+        "preload": config.trajectory.preload,
+        "words": spec.point_pairs(len(joints)),
+        "pad_word": spec.point_pairs(len(joints)) if even else 0,
+        "batch_head": _HEADER_AND_PREFIX + 16,
+        "steps": spec.PAIR_SCALE,
+        "units": {joint["factor"] for joint in joints},
+        "deg_step": literal(math.degrees(1 / spec.PAIR_SCALE)),
+        "mm_step": literal(_MM / spec.PAIR_SCALE),
+        "points_accepted": _reply_length(spec.POINTS),
+        "points_refused": _reply_length(spec.POINTS, ReplyCode.FAILURE),
+    }
+
+
+def _reply_length(message: spec.Message, code: ReplyCode = ReplyCode.SUCCESS) -> int:
+    """Length field of a reply, of whose code there is only one."""
+    (reply,) = [reply for reply in message.replies if reply.code is code]
+    return spec.HEADER_BYTES + sum(field.size for field in reply.fields)
+
+
+def _exposed(config: RobotConfig) -> list[dict[str, object]]:
+    """Signals that SIGNAL reaches, by number."""
+    return [
+        {
+            "n": n,
+            "name": signal.name,
+            "kind": signal.kind,
+            "access": signal.access,
+            "reader": signal.kind[0] + ("Input" if signal.kind[1] == "I" else "Output"),
+        }
+        for n, signal in enumerate(config.signals, 1)
+    ]
 
 
 def used_constants(templates: Path) -> list[dict[str, object]]:
@@ -137,6 +187,10 @@ def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]
         "arm": layout.arm(group, joint),
         "tolerance": literal(round(to_rapid(joint, tolerance), 4)),
         "factor": "ROS_DEG" if revolute else "ROS_MM",
+        # Where it is in a batch: the upper or the lower half of a word, in steps.
+        "word": n // 2 + 1,
+        "half": "MOD" if n % 2 else "DIV",
+        "step": "DEG" if revolute else "MM",
     }
 
 
@@ -155,53 +209,6 @@ def _padding(joints: int) -> dict[str, object]:
     missing = spec.MAX_JOINTS - joints
     pairs = [first + 8 * n for n in range(missing // 2)]
     return {"pairs": pairs, "last": first + 4 * (missing - 1) if missing % 2 else 0}
-
-
-def _hello(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, object]:
-    """The reply to HELLO as pack instructions, in the order of the specification."""
-    joints = group.joints
-    policy = config.trajectory
-    numbers = range(1, len(joints) + 1)
-    filled = ["0"] * (spec.MAX_JOINTS - len(joints))
-    values: dict[str, list[str]] = {
-        "protocol": [str(spec.PROTOCOL_VERSION)],
-        "driver": re.findall(r"\d+", __version__)[:3],
-        "build_id": [f'"{build_id}"'],
-        "mapping": [
-            '"'
-            + mapping_hash(
-                ((j.name, j.axis, j.kind, j.sign, j.offset) for j in joints), group.coupling
-            )
-            + '"'
-        ],
-        "features": [str(int(FEATURES))],
-        "capacity": ["ROS_CAPACITY"],
-        "joint_count": [str(len(joints))],
-        "prismatic": [str(sum(1 << i for i, j in enumerate(joints) if j.kind == "prismatic"))],
-        "state_period": [literal(config.state_period)],
-        "min_segment": [literal(policy.min_segment)],
-        "start_tolerance": [literal(policy.start_tolerance)],
-        "start_tolerance_linear": [literal(policy.start_tolerance_linear)],
-        "lower": [*(f"ROS_lower_{n}" for n in numbers), *filled],
-        "upper": [*(f"ROS_upper_{n}" for n in numbers), *filled],
-        "speed": [*(literal(j.speed) for j in joints), *filled],
-        "control_port": ["0"],
-        "ring": [str(RING)],
-        "preload": ["0"],
-        "batch": ["0"],
-        "signals": ["0"],
-    }
-    forms = {Wire.INT32: "\\IntX:=DINT", Wire.FLOAT32: "\\Float4", Wire.CHAR: "\\ASCII"}
-    reply = next(r for r in spec.HELLO.replies if r.code is ReplyCode.SUCCESS)
-    items = []
-    offset = _HEADER_AND_PREFIX + 1
-    for field in reply.fields:
-        given = values[field.name]
-        step = field.size if field.type is Wire.CHAR else field.type.size
-        for value in given:
-            items.append({"value": value, "offset": offset, "form": forms[field.type]})
-            offset += step
-    return {"length": offset - 1 - spec.PREFIX_BYTES, "parts": items}
 
 
 def _tool(tool: Tool) -> dict[str, object]:

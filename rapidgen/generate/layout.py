@@ -41,13 +41,32 @@ ROLES = (
     Role(
         "motion_server",
         "T_ROS_RECV",
-        (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_motionServer"),
+        (
+            COMMON,
+            LIMITS,
+            MESSAGES,
+            SOCKET,
+            "ROS_acceptance",
+            "ROS_download",
+            "ROS_stream",
+            "ROS_motionServer",
+        ),
     ),
     Role("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
+    Role("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_control")),
     Role("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
 )
 SYSTEM_MODULES = (COMMON, LIMITS, MESSAGES, SOCKET)
-MODULES = (*SYSTEM_MODULES, "ROS_motionServer", "ROS_supervisor", "ROS_stateServer", "ROS_motion")
+
+
+def roles(group: MotionGroup) -> tuple[Role, ...]:
+    """The tasks of a group: without a control port there is no control server."""
+    return tuple(role for role in ROLES if group.ports.control or role.name != "control")
+
+
+def modules(group: MotionGroup) -> tuple[str, ...]:
+    """Modules of a group, each once: those that several tasks load first."""
+    return tuple(dict.fromkeys((*SYSTEM_MODULES, *(m for r in roles(group) for m in r.modules))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +145,7 @@ def make_system(config: RobotConfig, build_id: str) -> System:
     """The tasks with empty modules (`target` tells their files), signals and event routines."""
     return System(
         name=config.name,
-        tasks=tuple(_task(config, group, role) for group in config.groups for role in ROLES),
+        tasks=tuple(_task(config, group, role) for group in config.groups for role in roles(group)),
         signals=_signals(config),
         outputs=_outputs(config),
         events=tuple(

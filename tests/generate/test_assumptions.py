@@ -50,10 +50,10 @@ DIALECTS = [
     {"error_reach": "own"},
     {"find_behind": "error"},
     {"byte_to_str": "code"},
+    {"unpack_ulint": "single"},
 ]
 # The first message breaks the link, or a task stops at its start: nothing moves.
 REFUSED = [
-    {"unpack_ulint": "single"},
     {"unpack_ulint": "error"},
     {"alias_by_name": False},
 ]

@@ -1168,8 +1168,9 @@ def test_progress_is_one_snapshot(bench, module, routine):
 @pytest.mark.parametrize(
     ("task", "module", "routine"),
     [
-        ("T_ROS_RECV", "ROS_motionServer", "new_trajectory"),
-        ("T_ROS_RECV", "ROS_motionServer", "hand_over"),
+        ("T_ROS_RECV", "ROS_acceptance", "ROS_new_trajectory"),
+        ("T_ROS_RECV", "ROS_acceptance", "ROS_hand_over"),
+        ("T_ROS_RECV", "ROS_download", "hand_over"),
         ("T_ROB1", "ROS_motion", "next_point"),
     ],
 )

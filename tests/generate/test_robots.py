@@ -90,7 +90,7 @@ def test_tasks_of_two_arms(tmp_path):
         ("T_ROB_L", "rob_L"),
         ("T_ROB_R", "rob_R"),
     ]
-    assert len(system.tasks) == 8
+    assert len(system.tasks) == 10
     assert {t.type for t in system.tasks if not t.motion} == {"SEMISTATIC"}
     assert {e.event for e in system.events if e.task == "T_ROB_R"} == {
         "POWER_ON",

@@ -97,12 +97,16 @@ def patched(system, module, old, new):
 DEFECTS = {
     # The sequence check of the motion server, left out.
     "hole": (
-        "ROS_motionServer",
-        "ELSEIF sequence = count OR sequence = ROS_SEQ_END OR count = 0 THEN",
+        "ROS_download",
+        "ELSEIF sequence = ROS_count OR sequence = ROS_SEQ_END OR ROS_count = 0 THEN",
         "ELSEIF TRUE THEN",
     ),
-    "too-many-points": ("ROS_motionServer", "refuse ROS_REASON_CAPACITY, count;", ""),
-    "padding": ("ROS_motionServer", "IF NOT (value = 0) refuse", "IF FALSE refuse"),
+    "too-many-points": (
+        "ROS_download",
+        "ROS_refuse_download ROS_REASON_CAPACITY, ROS_count, sequence = ROS_SEQ_END;",
+        "",
+    ),
+    "padding": ("ROS_download", "IF NOT (padding = 0) ROS_object", "IF FALSE ROS_object"),
     "newest-takes-over": (
         "ROS_motionServer",
         "taken_over := welcome(newcomer, 0.001);",
@@ -110,7 +114,7 @@ DEFECTS = {
     ),
     "leaves-moving": (
         "ROS_motionServer",
-        "end_session ROS_REASON_CLIENT_LOST;\n    ENDPROC",
+        "ROS_end_session ROS_REASON_CLIENT_LOST;\n    ENDPROC",
         "ENDPROC",
     ),
 }

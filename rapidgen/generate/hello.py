@@ -1,0 +1,68 @@
+"""What a driver answers to HELLO: who it is, what it can do, and within which limits."""
+
+import re
+
+from rapidgen import __version__
+from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.generate.numbers import literal
+from rapidgen.protocol import spec
+from rapidgen.protocol.mapping import mapping_hash
+from rapidgen.protocol.spec import Feature, ReplyCode, Wire
+
+
+def features(config: RobotConfig, group: MotionGroup) -> Feature:
+    """What the driver of a group can do beyond the standard messages."""
+    found = Feature.PROGRESS | Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK
+    if group.ports.control:
+        found |= Feature.CONTROL
+        if config.signals:
+            found |= Feature.SIGNALS
+    return found
+
+
+def hello_reply(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, object]:
+    """The reply to HELLO as pack instructions, in the order of the specification."""
+    joints = group.joints
+    policy = config.trajectory
+    numbers = range(1, len(joints) + 1)
+    filled = ["0"] * (spec.MAX_JOINTS - len(joints))
+    values: dict[str, list[str]] = {
+        "protocol": [str(spec.PROTOCOL_VERSION)],
+        "driver": re.findall(r"\d+", __version__)[:3],
+        "build_id": [f'"{build_id}"'],
+        "mapping": [
+            '"'
+            + mapping_hash(
+                ((j.name, j.axis, j.kind, j.sign, j.offset) for j in joints), group.coupling
+            )
+            + '"'
+        ],
+        "features": [str(int(features(config, group)))],
+        "capacity": ["ROS_CAPACITY"],
+        "joint_count": [str(len(joints))],
+        "prismatic": [str(sum(1 << i for i, j in enumerate(joints) if j.kind == "prismatic"))],
+        "state_period": [literal(config.state_period)],
+        "min_segment": [literal(policy.min_segment)],
+        "start_tolerance": [literal(policy.start_tolerance)],
+        "start_tolerance_linear": [literal(policy.start_tolerance_linear)],
+        "lower": [*(f"ROS_lower_{n}" for n in numbers), *filled],
+        "upper": [*(f"ROS_upper_{n}" for n in numbers), *filled],
+        "speed": [*(literal(j.speed) for j in joints), *filled],
+        "control_port": [str(group.ports.control)],
+        # One place of the ring stays free.
+        "ring": [str(policy.ring - 1)],
+        "preload": [literal(policy.preload)],
+        "batch": [str(spec.batch_points(len(joints)))],
+        "signals": [str(len(config.signals) if group.ports.control else 0)],
+    }
+    forms = {Wire.INT32: "\\IntX:=DINT", Wire.FLOAT32: "\\Float4", Wire.CHAR: "\\ASCII"}
+    reply = next(r for r in spec.HELLO.replies if r.code is ReplyCode.SUCCESS)
+    items = []
+    offset = spec.PREFIX_BYTES + spec.HEADER_BYTES + 1
+    for field in reply.fields:
+        given = values[field.name]
+        step = field.size if field.type is Wire.CHAR else field.type.size
+        for value in given:
+            items.append({"value": value, "offset": offset, "form": forms[field.type]})
+            offset += step
+    return {"length": offset - 1 - spec.PREFIX_BYTES, "parts": items}
