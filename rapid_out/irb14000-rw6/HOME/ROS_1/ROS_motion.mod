@@ -6,11 +6,10 @@ MODULE ROS_motion
     ! builds take no trajectory.
     !
     ! It takes points out of the ring and gives them to the path planner, nothing else: every
-    ! check was made before a point was put in. A point with a successor is passed through its
-    ! zone; without one, or as the last, it is a stop point, so the planner never runs dry in
-    ! a corner.
+    ! check was made before a point was put in. A point whose successor is there is passed
+    ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "737d39f85037";
+    CONST string ROS_BUILD_MOTION := "c01907bce60c";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1500,500,1500,1000];
@@ -19,11 +18,16 @@ MODULE ROS_motion
     TASK PERS tooldata left_hand := [TRUE,[[0,0,114],[1,0,0,0]],[0.23,[0,0,45],[1,0,0,0],0,0,0]];
 
     LOCAL VAR intnum bell;
+    LOCAL VAR intnum speed_bell;
+    ! Percent of the programmed speed, as it was set last.
+    LOCAL VAR num percent := 0;
     LOCAL VAR num bells := 0;
     LOCAL VAR ROS_point point;
     ! Trajectory under way here, and the point of it that comes next.
-    LOCAL VAR num session := 0;
+    LOCAL VAR num session := -1;
     LOCAL VAR num expected := 1;
+    ! The newest trajectory that gets no more points, as main saw it last.
+    LOCAL VAR num closed := 0;
     ! Why a move failed.
     LOCAL VAR num fault := 0;
 
@@ -33,22 +37,32 @@ MODULE ROS_motion
 
     ! Serve the ring for ever.
     PROC ROS_run()
-        ROS_start_task ROS_shown_motion_1, ROS_BUILD_MOTION;
+        ROS_start_task ROS_shown_motion_1,
+            ROS_BUILD_MOTION = ROS_BUILD_ID;
         answer ROS_REASON_PROGRAM_STOPPED;
+        ROS_starved_1 := -1;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
         IPers ROS_bell_1, bell;
+        IDelete speed_bell;
+        CONNECT speed_bell WITH on_bell;
+        IPers ROS_speed_asked_1, speed_bell;
+        percent := 0;
+        set_speed;
         WHILE TRUE DO
+            ! Read before the head: no point comes after this has changed.
+            closed := ROS_closed_1;
             IF ROS_abort_1 <> ROS_abort_done_1 THEN
                 answer ROS_halt_reason_1;
             ELSEIF fault <> ROS_REASON_NONE THEN
                 give_up;
             ELSEIF ROS_head_1 <> ROS_tail_1 THEN
                 next_point;
+            ELSEIF closed = ROS_session_1 AND ROS_active() THEN
+                finish;
             ELSE
-                WaitUntil ROS_head_1 <> ROS_tail_1 OR ROS_abort_1 <> ROS_abort_done_1
-                    \PollRate:=0.04;
+                wait_for_points;
             ENDIF
         ENDWHILE
     ENDPROC
@@ -67,9 +81,9 @@ MODULE ROS_motion
         interrupted ROS_REASON_POWER_FAILURE;
     ENDPROC
 
-    ! Nothing of what was ordered so far will move the robot; `reason` tells why.
-    LOCAL PROC drop_path(num reason)
-        clear_path;
+    ! Nothing of what was ordered so far will move the robot, whose path is gone; `reason` tells
+    ! why.
+    LOCAL PROC drop_points(num reason)
         IF ROS_active() THEN
             IF ROS_halted_1 = ROS_session_1 reason := ROS_halt_reason_1;
             ROS_dead_reason_1 := reason;
@@ -85,7 +99,9 @@ MODULE ROS_motion
         IF NOT ROS_active() RETURN;
         ROS_interrupts_1 := ROS_next(ROS_interrupts_1);
         stop_robot;
-        drop_path ROS_cause(reason);
+        clear_path;
+        ! Asked for only now: signals may come later than the stop that they belong to.
+        drop_points ROS_cause(reason);
     ENDPROC
 
     ! Do what the supervisor asks for. Only main does: it is in no move then.
@@ -94,7 +110,8 @@ MODULE ROS_motion
 
         ! Read first: a request that comes meanwhile is not answered by this.
         asked := ROS_abort_1;
-        drop_path reason;
+        clear_path;
+        drop_points reason;
         start_robot;
         bells := 0;
         ! A fault of the trajectory that ends here must not end the next one.
@@ -102,9 +119,30 @@ MODULE ROS_motion
         ROS_abort_done_1 := asked;
     ENDPROC
 
+    ! The ring is empty. In the middle of a trajectory the robot stands at the last point that
+    ! came, since that had no successor.
+    LOCAL PROC wait_for_points()
+        IF ROS_active() AND session = ROS_session_1 ROS_starved_1 := session;
+        WaitUntil ROS_head_1 <> ROS_tail_1 OR ROS_abort_1 <> ROS_abort_done_1
+            OR ROS_closed_1 <> closed \PollRate:=0.04;
+    ENDPROC
+
+    ! All points of the trajectory were executed: it is done, or it was cut behind them.
+    LOCAL PROC finish()
+        ROS_starved_1 := -1;
+        IF ROS_closed_code_1 = ROS_REASON_NONE THEN
+            ROS_done_1 := closed;
+        ELSE
+            ROS_dead_reason_1 := ROS_closed_code_1;
+            ROS_dead_1 := closed;
+        ENDIF
+    ENDPROC
+
     LOCAL PROC next_point()
         VAR num next;
         VAR num arrived;
+        VAR num passed;
+        VAR bool first;
         VAR bool waited := FALSE;
 
         point := ROS_ring_1{ROS_tail_1 MOD ROS_RING_SIZE + 1};
@@ -114,49 +152,82 @@ MODULE ROS_motion
             ROS_tail_1 := next;
             RETURN;
         ENDIF
-        IF point.session <> session THEN
-            session := point.session;
-            expected := 1;
-            ROS_planned_1 := 0;
-            ROS_reached_1 := 0;
-            ROS_started_1 := session;
-        ENDIF
+        first := (point.session <> session);
+        IF first begin_session;
         IF point.index <> expected THEN
             fault := ROS_REASON_INTERNAL;
             RETURN;
         ENDIF
-        expected := expected + 1;
-        arrived := point.index;
+        passed := ROS_planned_1;
+        arrived := expected;
+        expected := (expected + 1) MOD ROS_INDEX_WRAP;
+        ROS_starved_1 := -1;
         ROS_tail_1 := next;
-        ROS_planned_1 := point.index;
+        ROS_planned_1 := arrived;
         IF point.dwell THEN
             WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=waited
                 \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
-        ELSEIF point.stop OR next = ROS_head_1 THEN
+        ELSEIF first OR stops_before(next) THEN
             MoveAbsJ point.target, SPEED \T:=point.duration, fine, left_hand \WObj:=wobj0;
         ELSE
             MoveAbsJ point.target, SPEED \T:=point.duration, CORNER, left_hand \WObj:=wobj0;
             ! The robot is now somewhere before this point, and has passed the one before.
-            arrived := point.index - 1;
+            arrived := passed;
         ENDIF
         ! A move also returns because its path was cleared: then nothing was reached.
         IF ROS_abort_1 <> ROS_abort_done_1 RETURN;
         ROS_reached_1 := arrived;
-        IF point.last ROS_done_1 := session;
     ERROR
         fault := ROS_REASON_MOTION_ERROR;
         IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
         RETURN;
     ENDPROC
 
+    LOCAL PROC begin_session()
+        session := point.session;
+        expected := 1;
+        ROS_planned_1 := 0;
+        ROS_reached_1 := 0;
+        ROS_started_1 := session;
+        IDisable;
+        set_speed;
+        IEnable;
+    ENDPROC
+
+    ! TRUE if the robot has to stop at a point: its successor is not here yet, or is a dwell.
+    LOCAL FUNC bool stops_before(num next)
+        IF next = ROS_head_1 RETURN TRUE;
+        RETURN ROS_ring_1{next MOD ROS_RING_SIZE + 1}.dwell;
+    ENDFUNC
+
+    ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client
+    ! has asked for less.
+    LOCAL PROC set_speed()
+        VAR num asked;
+        VAR num wanted := 100;
+
+        asked := ROS_speed_asked_1;
+        IF ROS_speed_of_1 = ROS_session_1 AND ROS_active() wanted := ROS_speed_wanted_1;
+        IF wanted <> percent THEN
+            SpeedRefresh wanted;
+            percent := wanted;
+        ENDIF
+        ROS_speed_done_1 := asked;
+    ERROR
+        ! Not answered: whoever asked is told that it was not done.
+        SkipWarn;
+        RETURN;
+    ENDPROC
+
     ! This task itself ends the trajectory.
     LOCAL PROC give_up()
         ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
-            \RL2:="At point " + ValToStr(point.index - 1) + ".";
+            \RL2:="At point " + ValToStr(ROS_planned_1 - 1) + ".";
         stop_robot;
-        drop_path fault;
+        clear_path;
+        drop_points fault;
         start_robot;
         fault := ROS_REASON_NONE;
     ENDPROC
@@ -191,6 +262,7 @@ MODULE ROS_motion
     ! between main's last test and its move, the move begins after this and waits in its turn
     ! for a robot that may not move; so the supervisor rings again until it has an answer.
     LOCAL TRAP on_bell
+        IF ROS_speed_asked_1 <> ROS_speed_done_1 set_speed;
         IF ROS_abort_1 = ROS_abort_done_1 RETURN;
         clear_path;
         bells := bells + 1;

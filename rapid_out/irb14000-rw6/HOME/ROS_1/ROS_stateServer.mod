@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE := "737d39f85037";
+    CONST string ROS_BUILD_STATE_SERVER := "c01907bce60c";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;
@@ -78,8 +78,11 @@ MODULE ROS_stateServer
     LOCAL VAR num events_lost := 0;
 
     PROC main()
-        ROS_start_task ROS_shown_state_1, ROS_BUILD_STATE \third:=ROS_BUILD_MESSAGES
-            \fourth:=ROS_BUILD_SOCKET \fifth:=ROS_BUILD_LIMITS;
+        ROS_start_task ROS_shown_state_1,
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
+            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
+            ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_form_state state;
         ROS_form_progress progress;
