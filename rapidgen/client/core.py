@@ -140,7 +140,7 @@ class Core:
         else:
             self.talks[port] = Conversation(is_open=True)
         if port is Port.CONTROL:
-            self.heartbeat.restart()
+            self.heartbeat.forget()
             self._outbox.clear()
 
     def received(self, port: Port, data: bytes) -> bool:
@@ -197,9 +197,11 @@ class Core:
         else:
             self.talks[port].is_open = False
         self.fault = error
-        # A lost control connection takes nothing from a motion under way; the controller stops
-        # it by itself where it awaited a heartbeat there.
-        if self.run is not None and port is not Port.CONTROL:
+        if port is Port.CONTROL:
+            # Takes nothing from a motion under way; the controller stops it by itself where it
+            # awaited a heartbeat there.
+            self.heartbeat.forget()
+        elif self.run is not None:
             self.run.failed(error)
 
     def closed(self) -> None:
@@ -255,9 +257,10 @@ class Core:
         return None
 
     def _beat(self) -> bytes | None:
-        if self.heartbeat.refused:
+        if self.heartbeat.is_refused:
             self.tracker.note("the controller takes no heartbeat")
             self.heartbeat.timeout = 0.0
+            self.heartbeat.forget()
         now = self.clock()
         moves = self.run is not None and not self.run.is_over
         timeout = self.heartbeat.due(now, moves=moves)
@@ -282,6 +285,8 @@ class Core:
         if run is None or run is self._stopped_blindly or not isinstance(run.error, blind):
             return []
         self._stopped_blindly = run
+        # Should no STOP get through, the controller misses the heartbeat.
+        self.heartbeat.forget()
         ports = [port for port, talk in self.talks.items() if talk.is_open]
         for port in ports:
             self.request_stop(port)

@@ -20,8 +20,11 @@ class Heartbeat:
         self._in_force = False
         self._pending: Pending | None = None
 
-    def restart(self) -> None:
-        """The connection is new: nothing is awaited on it yet."""
+    def forget(self) -> None:
+        """Nothing more is awaited on this connection, or it is a new one.
+
+        Where the controller still awaits one it stops the robot, which is then wanted.
+        """
         self._in_force = False
         self._pending = None
 
@@ -51,7 +54,7 @@ class Heartbeat:
         return self._is_waiting and now - self._sent > self.timeout
 
     @property
-    def refused(self) -> bool:
+    def is_refused(self) -> bool:
         """Whether the controller did not take the last one."""
         reply = self._pending.reply if self._pending is not None else None
         return reply is not None and not isinstance(reply, messages.HeartbeatReply)

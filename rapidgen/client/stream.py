@@ -25,7 +25,7 @@ from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
 from rapidgen.protocol import messages
 from rapidgen.protocol.bulk import Words, pack_points, points_frame
-from rapidgen.protocol.spec import INDEX_WRAP, StreamFlag, TrajectoryState
+from rapidgen.protocol.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
 
 
 @dataclass(slots=True)
@@ -77,6 +77,8 @@ class StreamRun(Motion):
         self._looked_at = 0
         """PROGRESS messages when one was looked at last."""
         self._is_flushing = False
+        self._is_filled = False
+        """Whether the controller was told to start with a full ring, and it has not yet."""
         self._end_is_sent = False
         self._state = TrajectoryState.RECEIVING
         self._seconds = 0.0
@@ -148,7 +150,14 @@ class StreamRun(Motion):
         if not backlog:
             return self._sent > 0 and (self.is_ended or self._is_flushing)
         # Room comes back point by point: small batches would cost the controller more.
-        return self._room_until - self._sent >= min(backlog, self._least)
+        return self._room_until - self._sent >= min(backlog, self._least) or self._is_stuck
+
+    @property
+    def _is_stuck(self) -> bool:
+        """Whether the robot stands with a ring as full as it gets: it shall start with that,
+        though the driver likes to have more seconds."""
+        moves = self._tracker.status.in_motion is TriState.TRUE
+        return not (self._flights or moves or self._is_filled or self.is_paused)
 
     def next_frame(self, pending: Pending) -> bytes:
         """The batch that is due, whose reply is `pending`."""
@@ -162,6 +171,9 @@ class StreamRun(Motion):
             if self._is_flushing:
                 flags |= StreamFlag.FLUSH
                 self._is_flushing = False
+        elif size < self._least:
+            flags |= StreamFlag.FLUSH
+            self._is_filled = True
         frame = points_frame(self.stream, self._sent, words, flags=flags)
         self._sent += size
         self._flights.append(_Flight(pending, self._sent, self._tracker.clock()))
@@ -210,7 +222,7 @@ class StreamRun(Motion):
                 if self.number is None:
                     self.accepted(reply.trajectory)
                 self._accepted = end
-                self._room_until = max(self._room_until, end + max(0, reply.room))
+                self._has_room(end + max(0, reply.room))
                 self._counts(reply.planned, reply.reached)
                 self._now(reply.state)
             case messages.PointsRefused() if reply.stream == self.stream:
@@ -263,9 +275,14 @@ class StreamRun(Motion):
             self._looked_at = self._tracker.progresses
             self._counts(told.planned, told.reached)
             # A point that was given to the planner has made room for another one.
-            self._room_until = max(self._room_until, self._planned + self._ring)
+            self._has_room(self._planned + self._ring)
             self._now(told.state)
         super()._by_progress(told)
+
+    def _has_room(self, until: int) -> None:
+        if until > self._room_until:
+            self._room_until = until
+            self._is_filled = False
 
     def _counts(self, planned: int, reached: int) -> None:
         """Take what was told, unless it is older than what is known, or cannot be."""

@@ -43,11 +43,9 @@ def append(core: Core, feed: Feed, times: npt.ArrayLike, positions: npt.ArrayLik
         return
     if feed.way is None:
         yield from flows.ready(core)
-        if not core.can_stream and feed.may_download:
-            core.tracker.note("the driver does not stream: points are kept until the end")
-        else:
+        if not feed.may_download:
             _can_stream(core)
-    if not core.can_stream and feed.run is None:
+    if feed.way == "download" or (feed.way is None and not core.can_stream):
         _keep(core, feed, points)
         return
     run = feed.run
@@ -104,6 +102,8 @@ def _keep(core: Core, feed: Feed, points: Trajectory) -> None:
                 "build and deploy a driver that streams",
             )
         )
+    if feed.last is None:
+        core.tracker.note("the driver does not stream: points are kept until the end")
     start = core.start if feed.last is None else None
     feed.last = piece(points, core.known_group, before=feed.last, start=start).last
     feed.way = "download"
@@ -162,11 +162,11 @@ def end(core: Core, feed: Feed) -> Flow[None]:
         )
     if feed.is_ended:
         return
-    feed.is_ended = True
     if isinstance(feed.run, StreamRun):
         feed.run.end()
     else:
         feed.run = yield from flows.execute(core, feed.whole())
+    feed.is_ended = True
 
 
 def finish(core: Core, feed: Feed, timeout: float | None) -> Flow[Result]:

@@ -5,6 +5,7 @@ there is room for, and none behind a stop or an end; a STOP is due when nobody s
 """
 
 import struct
+from collections import deque
 
 import numpy as np
 from hypothesis import HealthCheck, settings
@@ -19,7 +20,14 @@ from rapidgen.client.group import Group
 from rapidgen.client.motion import Phase
 from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol import FrameSplitter, encode, encode_reply, messages
+from rapidgen.protocol import (
+    ContentError,
+    FrameSplitter,
+    decode,
+    encode,
+    encode_reply,
+    messages,
+)
 from rapidgen.protocol.bulk import decode_batches
 from rapidgen.protocol.spec import Comm, Feature, Port, StreamFlag, TrajectoryState
 
@@ -43,6 +51,16 @@ def any_frame(draw):
     return struct.pack("<i", 12 + len(data)) + head + data
 
 
+def decodes(frame):
+    splitter = FrameSplitter()
+    splitter.feed(frame)
+    try:
+        decode(splitter.next())
+    except ContentError:
+        return False
+    return True
+
+
 class CoreMachine(RuleBasedStateMachine):
     """A core with three open connections."""
 
@@ -58,7 +76,8 @@ class CoreMachine(RuleBasedStateMachine):
         self.sent = 0
         self.room = RING
         self.ended = self.cut = False
-        self.unanswered = 0
+        self.waiting = deque()
+        """(stream, points sent) of each batch that has no reply yet."""
         self.stops = 0
 
     @property
@@ -86,7 +105,7 @@ class CoreMachine(RuleBasedStateMachine):
         assert batch.first == self.sent
         assert len(batch.durations) <= 30
         self.sent += len(batch.durations)
-        self.unanswered += 1
+        self.waiting.append((batch.stream, self.sent))
         self.ended = bool(batch.flags & StreamFlag.END)
         assert self.sent <= self.room
         if self.ended:
@@ -103,7 +122,6 @@ class CoreMachine(RuleBasedStateMachine):
             checked = piece(points, self.core.known_group, before=None, start=(0.0,) * 10)
             self.core.begin_stream()
             self.sent, self.room, self.ended, self.cut = 0, RING, False, False
-            self.unanswered = 0
         elif self.run.is_ended:
             return
         else:
@@ -118,21 +136,21 @@ class CoreMachine(RuleBasedStateMachine):
         self.run.end() if end else self.run.flush()
         self.owner()
 
-    @precondition(lambda self: self.run is not None and self.unanswered > 0)
+    @precondition(lambda self: self.waiting)
     @rule(room=st.integers(0, 64), state=st.sampled_from([1, 2, 7, 8]))
     def acknowledged(self, room, state):
-        self.unanswered -= 1
-        ends = self.run._flights[0].end if self.run._flights else self.sent
-        told = messages.PointsAccepted(self.run.stream, 1, ends, room, 0, 0, state)
-        self.room = max(self.room, ends + room)
+        stream, end = self.waiting.popleft()
+        told = messages.PointsAccepted(stream, 1, end, room, 0, 0, state)
+        if stream == self.run.stream:
+            self.room = max(self.room, end + room)
         self.take(Port.MOTION, encode_reply(1302, told))
 
-    @precondition(lambda self: self.run is not None and self.unanswered > 0)
+    @precondition(lambda self: self.waiting)
     @rule(reason=NUMBER, point=NUMBER, joint=NUMBER, accepted=NUMBER)
     def refused(self, reason, point, joint, accepted):
-        self.unanswered -= 1
-        told = messages.PointsRefused(self.run.stream, 1, accepted, reason, point, joint)
-        self.cut = self.core.talks[Port.MOTION].is_open
+        stream, _ = self.waiting.popleft()
+        told = messages.PointsRefused(stream, 1, accepted, reason, point, joint)
+        self.cut |= self.core.talks[Port.MOTION].is_open and stream == self.run.stream
         self.take(Port.MOTION, encode_reply(1302, told))
 
     @precondition(lambda self: self.run is not None)
@@ -168,7 +186,8 @@ class CoreMachine(RuleBasedStateMachine):
     def strange(self, port, frame):
         _, number, comm, _ = struct.unpack_from("<4i", frame)
         if port is Port.MOTION and number == 1302:
-            self.unanswered = max(0, self.unanswered - 1)
+            if comm == Comm.REPLY and self.waiting and decodes(frame):
+                self.waiting.popleft()
             if comm == Comm.REPLY and len(frame) == 44:
                 self.room = 10**12
         if port is Port.STATE and number == 1301:
@@ -205,6 +224,8 @@ class CoreMachine(RuleBasedStateMachine):
             is_open = self.core.state_open if port is Port.STATE else self.core.talks[port].is_open
             if not is_open:
                 self.core.opened(port)
+                if port is Port.MOTION:
+                    self.waiting.clear()
                 if port is Port.STATE:
                     self.core.received(port, encode_reply(1300, HELLO) + STATE)
                 self.owner()

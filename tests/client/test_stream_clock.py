@@ -172,6 +172,64 @@ def test_it_starves_stands_and_goes_on():
     assert len(driver.model.executed) == 40
 
 
+def test_a_ring_that_holds_less_than_the_driver_likes_to_have():
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.extend(itertools.islice(wave(), 1000))
+        return await stream.result()
+
+    result, _ = streamed(main, preload=60.0, ring=100)
+    assert (result.points, result.starved) == (1000, 0)
+
+
+def test_a_lost_control_connection_is_missed_by_the_controller():
+    async def main(robot, driver):
+        filling = asyncio.ensure_future(robot.stream().extend(wave()))
+        await asyncio.sleep(5)
+        control = next(link for port, link in robot._links.items() if port.name == "CONTROL")
+        control.transport.close()
+        with pytest.raises(MotionFailed, match="client") as error:
+            await filling
+        assert error.value.reason is Reason.CLIENT_LOST
+
+    streamed(main)
+
+
+def test_a_controller_that_takes_no_heartbeat():
+    async def main(robot, driver):
+        driver.model.refuse_control = int(Reason.NOT_ALLOWED)
+        async with robot.stream() as stream:
+            await stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
+        return [number for _, port, number in driver.log if number == 1306]
+
+    asked, _ = streamed(main)
+    assert len(asked) == 1
+
+
+def test_who_sees_nothing_sends_no_heartbeat_either():
+    async def main(robot, driver):
+        stream = robot.stream()
+        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        await asyncio.sleep(2)
+        # No STOP gets through, and no state comes.
+        driver.model.control, hear = (
+            lambda number, data: b"" if number == 11 else hear(number, data),
+            driver.model.control,
+        )
+        driver.model.halt, halt = lambda *_: None, driver.model.halt
+        state = next(link for port, link in robot._links.items() if port.name == "STATE")
+        state.transport.close()
+        await asyncio.sleep(0.2)
+        assert driver.model.state == TrajectoryState.MOVING
+        driver.model.halt = halt
+        await asyncio.sleep(2.5)
+        driver.model.advance(driver.loop.time())
+        assert driver.model.reason == Reason.CLIENT_LOST
+        driver.model.control = hear
+
+    streamed(main)
+
+
 def test_a_fault_in_a_point_ends_it_in_order_and_says_which():
     async def main(robot, driver):
         stream = robot.stream()
