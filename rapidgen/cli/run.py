@@ -14,6 +14,8 @@ if TYPE_CHECKING:
     from rapidgen.virtual.errors import FatalError
 
 
+_LONGEST = 1e9
+"""Simulated seconds; 31 years."""
 _CALLERS = 10
 """Calls of a fault's stack that are shown."""
 
@@ -87,6 +89,9 @@ def run(
     from rapidgen.virtual.operator import read_answers
     from rapidgen.virtual.tracing import Coverage, Profile, Trace
 
+    _limits(max_time, max_statements)
+    for target in filter(None, (coverage, Path(profile) if profile not in ("", "-") else None)):
+        _writable(target)
     system = _system(files, task, entry)
     if check:
         _check(system)
@@ -153,6 +158,26 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
     if len(files) == 1 and files[0].is_dir() and (is_generated(files[0]) or is_backup(files[0])):
         return read_system(files[0])
     return read_files(files, entry=entry, name=files[0].stem)
+
+
+def _limits(max_time: float, max_statements: int) -> None:
+    """Refuse limits that are none."""
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    if not 0 < max_time <= _LONGEST or max_statements < 1:
+        message = f"--max-time is above 0 and at most {_LONGEST:g} s, --max-statements at least 1"
+        raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, message))
+
+
+def _writable(path: Path) -> None:
+    """Refuse, before anything runs, a file that cannot be written behind it."""
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    try:
+        path.open("a", encoding="utf-8").close()
+    except OSError as error:
+        message = f"cannot write {path}: {error.strerror}"
+        raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, message)) from error
 
 
 def _check(system: "System") -> None:

@@ -192,3 +192,22 @@ def test_what_no_controller_loads_is_refused_whole(tmp_path, capsys) -> None:
     assert main(["run", str(path)]) == 0
     out, err = capsys.readouterr()
     assert (out, "RG404" in err) == ("x\n", True)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        ("--max-time", "nan"),
+        ("--max-time", "inf"),
+        ("--max-time", "-1"),
+        ("--max-time", "0"),
+        ("--max-statements", "0"),
+        ("--coverage", "/nonexistent/x.lcov"),
+        ("--profile=/nonexistent/x.json",),
+    ],
+)
+def test_nothing_runs_with_options_that_make_no_sense(program, capsys, options) -> None:
+    assert main(["run", str(program), *options]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "RG901" in err
