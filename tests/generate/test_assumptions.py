@@ -6,7 +6,7 @@ import pytest
 
 from rapidgen.virtual.dialect import Dialect
 from tests.generate.bench import STOP, close_to, trajectory
-from tests.generate.test_driver import (
+from tests.generate.driving import (
     FIVE,
     LONG,
     SECONDS,

@@ -10,7 +10,7 @@ from rapidgen.generate import layout
 from rapidgen.virtual.configuration import arm_name
 from rapidgen.virtual.dialect import Dialect
 from tests.generate.bench import Bench, close_to, trajectory
-from tests.generate.test_driver import LIMIT, move_well, reply_of, send_all
+from tests.generate.driving import LIMIT, move_well, reply_of, send_all
 
 HELLO = 1300
 

@@ -124,7 +124,7 @@ def test_two_arms_move_at_once_and_stop_apart(bench):
 def test_commissioning_makes_the_background_tasks_normal(bench):
     b = bench(commissioning=True)
     assert {t.type for t in b.system.tasks} == {"NORMAL"}
-    from tests.generate.test_driver import move_well
+    from tests.generate.driving import move_well
 
     move_well(b)
 

@@ -1,0 +1,81 @@
+"""Modules of different builds, and a controller without the signals."""
+
+import math
+import struct
+from dataclasses import replace
+
+import pytest
+
+from rapidgen.virtual.controller import VirtualController
+from tests.generate.bench import STOP, point, trajectory
+from tests.generate.driving import (
+    FIVE,
+    MIXED,
+    SECONDS,
+    assert_refused,
+    mix,
+    move_well,
+    reply_of,
+    send_all,
+    with_old_file,
+)
+
+
+@pytest.mark.parametrize("role", ["motion", "motion_server", "supervisor", "control", "state"])
+def test_tasks_of_different_builds_take_no_trajectory(bench, role):
+    b = bench()
+    mix(b, role)
+    b.vc.run_for(3)
+    client = b.client()
+    for _ in range(2):
+        send_all(client, trajectory(FIVE, SECONDS))
+        assert_refused(b, client, MIXED, -1)
+    # STATUS said why; the event log does, once.
+    assert b.status(b.state_client())[6] == 0
+    assert len([e for e in b.vc.log if "ROS: tasks of different builds" in str(e)]) == 1
+    mix(b, role, b.output.build_id)
+    b.vc.run_for(0.3)
+    move_well(b, client)
+
+
+def test_another_build_is_refused_at_the_first_point(bench):
+    b = bench()
+    mix(b, "supervisor")
+    client = b.client()
+    client.send(point(-1, FIVE[0], 10.0, comm=2))
+    assert reply_of(client) == (2, (MIXED, -1, 0))
+    # What else is wrong with it does not hide that.
+    send_all(client, trajectory([[9.0] * 6, [math.nan] * 6], [10, 1]))
+    assert reply_of(client) == (2, (MIXED, -1, 0))
+    client.send(STOP)
+    assert client.wait_frame() == struct.pack("<4i", 12, 11, 3, 1)
+
+
+@pytest.mark.parametrize("name", ["ROS_messages.sys", "ROS_socket.sys", "ROS_motionServer.mod"])
+def test_a_task_with_modules_of_two_builds(bench, name):
+    b = bench()
+    b.vc.close()
+    b.vc = VirtualController(with_old_file(b, name), b.config.groups)
+    b.vc.run_for(0.5)
+    events = [str(e) for e in b.vc.log if "ROS: modules of different builds" in str(e)]
+    assert events
+    assert any("T_ROS_RECV" in e for e in events)
+    client, state = b.client(), b.state_client()
+    send_all(client, trajectory(FIVE, SECONDS))
+    assert reply_of(client) == (2, (MIXED, -1, 0))
+    # The state port serves, so that the reason can be read.
+    assert b.status(state)[2:] == (MIXED, 1, 0, 2, 0)
+    b.vc.run_for(2)
+    assert b.joints() == (0.0,) * 6
+    assert b.healthy()
+
+
+def test_missing_signals_are_not_fatal(bench):
+    """R15: abb_driver's module does not even load."""
+    b = bench()
+    b.vc.close()
+    b.vc = VirtualController(replace(b.system, signals=(), outputs=()), b.config.groups)
+    b.vc.run_for(0.5)
+    state = b.state_client()
+    assert b.status(state) == (-1, -1, 0, 0, 0, 2, 1)
+    move_well(b)
