@@ -9,17 +9,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, floor, hypot, pi
+from typing import Literal, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose, Quaternion, Vector
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
-from rapidgen.axes.wrist import BRANCHES, Angles, WristArm
+from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles, WristArm
 from rapidgen.config.model import Link, MotionGroup
 
 Posture = tuple[float, ...]
 Configuration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
+ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
+"""How far axes 1, 4 and 6 may be from their quarters, see `Kinematics.room`."""
 _NEAR = 1e-6
 _TURN = 2 * pi
 
@@ -249,27 +252,59 @@ class Kinematics:
             place = self._axes.get(axis)
             quarters.append(0 if place is None else quarter(posture[place], self._linear[place]))
         x = 0
-        if self._arm is not None and not self.group.coupling:
+        if self._arm is not None and self._tells_branches:
             angles = self._robot_angles(self.map.to_urdf(posture))
             back, behind, _ = self._arm[0].branch(angles)
             x = 4 * back + 2 * behind + (posture[self._axes["rax_5"]] < 0)
         return quarters[0], quarters[1], quarters[2], x
 
-    def matches(self, posture: Posture, wanted: Configuration, slack: float = pi / 4) -> bool:
-        """Whether a posture has a configuration, axes up to `slack` outside their quarter.
+    def misfit(self, posture: Posture, wanted: Configuration) -> float | None:
+        """Quarters (m) by which the worst of axes 1, 4 and 6 is outside its own; 0: none is.
 
-        45 degrees on both sides are accepted (S4 datasys 1-confdata).
+        None: another cfx. With axis 5 at zero both its signs fit.
         """
+        if self._tells_branches:
+            other = self.configuration(posture)[3] ^ wanted[3]
+            if other and not (other == 1 and abs(posture[self._axes["rax_5"]]) <= SINGULAR):
+                return None
+        worst = 0.0
         for axis, cf in zip(("rax_1", "rax_4", "rax_6"), wanted, strict=False):
             place = self._axes.get(axis)
-            if place is None:
-                continue
-            size = 1.0 if self._linear[place] else pi / 2
-            room = slack / (pi / 2) * size
-            if not cf * size - room <= posture[place] <= (cf + 1) * size + room:
-                return False
-        loose = bool(self.group.coupling) or not self.is_closed_form
-        return loose or self.configuration(posture)[3] == wanted[3]
+            if place is not None:
+                at = posture[place] / (1.0 if self._linear[place] else pi / 2)
+                worst = max(worst, cf - at, at - cf - 1)
+        return worst
+
+    def room(self, check: ConfigurationCheck) -> float:
+        """The largest misfit of a posture that has a configuration.
+
+        0.5 quarters is just what tells a turned wrist from one that is not (S4 overview 5-33);
+        where cfx does that, "turn" leaves 1.5, which tells one turn of an axis from the next.
+        """
+        return 1.5 if check == "turn" and self._tells_branches else 0.5
+
+    def matches(
+        self, posture: Posture, wanted: Configuration, check: ConfigurationCheck = "turn"
+    ) -> bool:
+        """Whether a posture has a configuration."""
+        misfit = self.misfit(posture, wanted)
+        return misfit is not None and misfit <= self.room(check) + _NEAR
+
+    def fitting(
+        self, postures: Sequence[Posture], wanted: Configuration, check: ConfigurationCheck
+    ) -> Posture | None:
+        """Of the postures that have a configuration the best one, the first of equal ones."""
+        best, least = None, self.room(check) + _NEAR
+        for posture in postures:
+            misfit = self.misfit(posture, wanted)
+            if misfit is not None and misfit < least:
+                best, least = posture, misfit - _NEAR
+        return best
+
+    @property
+    def _tells_branches(self) -> bool:
+        """Whether cfx says on which of the eight branches a posture lies."""
+        return self.is_closed_form and not self.group.coupling
 
     @cached_property
     def _axes(self) -> dict[str, int]:

@@ -3,6 +3,7 @@
 import math
 import random
 from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import py_opw_kinematics as opw
@@ -21,6 +22,8 @@ WRIST_ARMS = [
     for name, g in GROUPS
     if g.chain and Kinematics.of(g).is_closed_form
 ]
+
+IRB140 = Path(__file__).parent.parent / "foreign" / "irb140.yaml"
 
 
 def kinematics(name):
@@ -217,9 +220,68 @@ def test_cfx_tells_the_eight_branches_apart():
     assert own.configuration((0.1, -1.5, -1.5, 0.7, 0.5, 0.4))[3] & 4
 
 
-def test_45_degrees_beside_the_quarter_are_accepted():
-    # S4 datasys 1-confdata: cf4 = 0 accepts -45 to 135 degrees
-    own = kinematics("irb120")
+def with_axis_4(degrees):
+    return (0.1, 0.0, 0.0, math.radians(degrees), 0.5, 0.1)
+
+
+@pytest.mark.parametrize(("robot", "check"), [("irb120", "quarter"), ("irb2400", "turn")])
+def test_45_degrees_beside_the_quarter_are_accepted(robot, check):
+    # S4 overview 5-33: cf4 = 0 accepts -45 to 135 degrees; always so without cfx
+    own = kinematics(robot)
     for angle, accepted in ((-44, True), (-46, False), (134, True), (136, False)):
-        posture = (0.1, 0.0, 0.0, math.radians(angle), 0.5, 0.1)
-        assert own.matches(posture, (0, 0, 0, 0)) is accepted
+        assert own.matches(with_axis_4(angle), (0, 0, 0, 0), check) is accepted
+
+
+def test_cfx_and_the_turn_make_a_configuration():
+    # Public programs for the IRB 140 reach targets whose axes 4 and 6 are up to 100 degrees
+    # outside their quarters; none has another cfx, none is a turn off (docs/motion-model.md).
+    own = kinematics("irb120")
+    for angle, accepted in ((-134, True), (-136, False), (100, True)):
+        assert own.matches(with_axis_4(angle), (0, 0, 0, 0)) is accepted
+    assert not own.matches(with_axis_4(45), (0, 0, 0, 1))
+    assert not own.matches((0.1, 0.0, 0.0, 0.1, 0.5, 0.1 + 2 * math.pi), (0, 0, 0, 0))
+
+
+@pytest.mark.parametrize(("cf6", "turn"), [(0, 0), (-1, 0), (1, 0), (2, 1), (4, 1), (-4, -1)])
+def test_the_programmed_turn_is_the_one_closest_to_its_quarter(cf6, turn):
+    own = kinematics("irb120")
+    posture = (0.1, 0.2, 0.3, 0.7, 0.5, math.radians(20))
+    found = own.solutions(own.forward(posture), posture)
+    chosen = own.fitting(found, (0, 0, cf6, 0), "turn")
+    assert math.degrees(chosen[5]) == pytest.approx(20 + 360 * turn)
+    assert chosen[3] == pytest.approx(0.7)
+
+
+def as_written(pose, digits=None):
+    """A pose whose quaternion went through a file of so many decimals, or single precision."""
+    q = np.round(pose[1], digits) if digits else np.array(pose[1], np.float32).astype(float)
+    return pose[0], tuple((q / np.linalg.norm(q)).tolist())
+
+
+@pytest.mark.parametrize("digits", [6, 9, None])
+def test_rounding_does_not_turn_a_straight_wrist(digits):
+    own = kinematics("irb120")
+    for posture in postures(own.group, 50):
+        a1, a2, a3, a4, _, a6 = posture
+        straight = (a1, a2 / 3, a3 / 3, a4, 0.0, a6)  # away from the other singularities
+        pose = as_written(own.forward(straight), digits)
+        assert own.solutions(pose, straight)[0] == pytest.approx(straight, abs=5e-5)
+
+
+def test_a_straight_wrist_has_both_signs_of_axis_5():
+    own = kinematics("irb120")
+    straight = (0.1, 0.2, 0.3, 0.4, 0.0, 0.5)
+    assert [own.matches(straight, (0, 0, 0, x)) for x in range(4)] == [True, True, False, False]
+    assert not own.matches((*straight[:4], 1e-3, 0.5), (0, 0, 0, 1))
+
+
+def test_home_of_an_irb_140():
+    """RobotStudio's API documentation (RsRobTarget) places it at 506.29, 0, 679.5 mm, turned
+    by 180, 60, 180 degrees; its stations begin with axis 5 at 30 degrees."""
+    own = kinematics(str(IRB140))
+    home = (0.0, 0.0, 0.0, 0.0, math.radians(30), 0.0)
+    place, q = own.forward(home)
+    assert place == pytest.approx((0.50629, 0.0, 0.6795), abs=5e-6)
+    turned = frames.from_rpy(*map(math.radians, (180, 60, 180)))
+    assert frames.angle_between(q, turned) < 1e-9
+    assert own.matches(home, (0, 0, 0, 0), "quarter")

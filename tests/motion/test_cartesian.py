@@ -326,7 +326,7 @@ def test_with_sing_area_wrist_the_line_goes_through_the_singularity(make_cell, z
 def test_a_line_that_ends_in_another_configuration(robot, linear):
     def program(task):
         with pytest.raises(FatalError) as error:
-            robot.group.move(task, linear(0, 0.1, 0, wanted=(1, 0, 0, 0)))
+            robot.group.move(task, linear(0, 0.1, 0, wanted=(0, 0, 0, 1)))
         assert error.value.event == NOT_COMPATIBLE
         robot.group.move(task, linear(0, 0.1, 0, wanted=(0, 0, 0, 0)))
 

@@ -95,6 +95,29 @@ def test_an_impossible_configuration_stops_the_program(rapid):
     assert any(event.code == 50080 for event in program.controller.log)
 
 
+@pytest.mark.parametrize(("check", "said"), [("turn", ["60", "60"]), ("quarter", [])])
+@pytest.mark.parametrize("move", ["MoveJ", "MoveL"])
+def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, said, move):
+    """S4 overview 5-33: 45 degrees; public programs with cfx are further off, see the switch.
+
+    Axis 4 is at 60 degrees where cf4 says -90 to 0; so is it where the program goes next.
+    """
+    program = rapid(
+        "MoveAbsJ start, v1000, fine, tool0; q := CRobT(); q.robconf.cf4 := -1;"
+        f'{move} q, v500, fine, tool0; j := CJointT(); TPWrite "" \\Num:=j.robax.rax_4;'
+        f"q.trans.z := q.trans.z + 1; {move} q, v500, fine, tool0; j := CJointT();"
+        'TPWrite "" \\Num:=Round(j.robax.rax_4);',
+        DATA + "CONST jointtarget start := [[0,0,0,60,30,10],[9E9,9E9,9E9,9E9,9E9,9E9]];\n",
+    )
+    program.controller.motion.settings = MotionSettings(configuration_check=check)
+    out = [str(round(float(v))) for v in program.run()]
+    if move == "MoveL" and not said:
+        assert out == ["60"]  # no way to go: nothing is checked
+    else:
+        assert out == said
+    assert any(event.code == 50080 for event in program.controller.log) is not bool(said)
+
+
 def test_displacement_moves_targets_but_not_move_abs_j(rapid):
     out = rapid(
         HOME

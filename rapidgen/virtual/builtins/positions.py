@@ -111,7 +111,8 @@ def calc_joint_t(
     placed = _carrier(group, tool, work_object).at(here if current else near)
     flange = placed.flange(frame(target))
     try:
-        posture = joints_for(group.geometry(), flange, near, wanted)
+        check = group.settings.configuration_check
+        posture = joints_for(group.geometry(), flange, near, wanted, check)
     except RapidError as error:
         if number is None:
             raise

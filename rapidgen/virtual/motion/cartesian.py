@@ -6,7 +6,7 @@ from math import ceil
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
 from rapidgen.axes.limits import outside
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
@@ -60,6 +60,7 @@ class CartesianWay:
         limits: AxisLimits,
         *,
         from_rest: bool,
+        check: ConfigurationCheck,
     ) -> None:
         self._kinematics = kinematics
         self.carrier = move.carrier
@@ -72,7 +73,7 @@ class CartesianWay:
         )
         self._wrist: tuple[Posture, Posture] | None = None
         if move.singularities is not Singularities.OFF:
-            self._wrist = origin, wrist_end(kinematics, move, origin)
+            self._wrist = origin, wrist_end(kinematics, move, origin, check)
         self._turns = self.measure.angle > NO_TURN
         self._shares, self._nodes = self._sample(origin)
         self.target = self._nodes[-1]

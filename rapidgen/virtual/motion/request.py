@@ -51,7 +51,8 @@ def joint_move(
     near = external_posture(group, target.extax)
     flange = common["carrier"].at(near).flange(frame(target))
     wanted = configuration_of(target.robconf) if group.modal.check_joint else None
-    posture = joints_for(kinematics, flange, near, wanted)
+    check = group.settings.configuration_check
+    posture = joints_for(kinematics, flange, near, wanted, check)
     return group, JointMove(target=posture, events=events, **common)
 
 

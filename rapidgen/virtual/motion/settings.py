@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from rapidgen.axes.kinematics import ConfigurationCheck
+
 
 @dataclass(frozen=True, slots=True)
 class MotionSettings:
@@ -36,6 +38,12 @@ class MotionSettings:
 
     range_error: Literal["recoverable", "fatal"] = "recoverable"
     """A target outside the axis ranges: ERR_ROBLIMIT (RobotWare 6), or event 50027 and stop."""
+
+    configuration_check: ConfigurationCheck = "turn"
+    """What ConfJ and ConfL accept where cfx tells the postures apart: "turn", every axis within
+    half a turn of the middle of its quarter, as public programs need that run on controllers;
+    "quarter", within 45 degrees of it (S4 overview 5-33, of robots without cfx; these are always
+    checked so)."""
 
     zero_length: Literal["skip", "wait"] = "skip"
     """A move to where the path already ends: no time at all, or its \\T."""

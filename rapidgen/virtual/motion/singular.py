@@ -7,7 +7,7 @@ from math import pi
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.motion.moves import Carrier, CartesianMove, Posture, Singularities
 
@@ -26,7 +26,9 @@ def _places(kinematics: Kinematics, wanted: tuple[str, ...]) -> tuple[int, ...]:
     return tuple(axes.index(axis) for axis in wanted if axis in axes)
 
 
-def wrist_end(kinematics: Kinematics, move: CartesianMove, origin: Posture) -> Posture:
+def wrist_end(
+    kinematics: Kinematics, move: CartesianMove, origin: Posture, check: ConfigurationCheck
+) -> Posture:
     """The posture at the end: in the programmed configuration, or the closest one.
 
     With \\Wrist a linear move goes to the programmed wrist configuration (S4 datasys 2-ConfL);
@@ -46,9 +48,7 @@ def wrist_end(kinematics: Kinematics, move: CartesianMove, origin: Posture) -> P
     if move.singularities is Singularities.LOCK_AXIS_4:
         return _locked(kinematics, move, near, found)
     if move.wanted is not None:
-        for posture in found:
-            if kinematics.matches(posture, move.wanted):
-                return posture
+        return kinematics.fitting(found, move.wanted, check) or found[0]
     return found[0]
 
 

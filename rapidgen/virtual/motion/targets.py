@@ -4,7 +4,7 @@ from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.axes.kinematics import Configuration, Kinematics, MovingFrame
+from rapidgen.axes.kinematics import Configuration, ConfigurationCheck, Kinematics, MovingFrame
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.arguments import external_target, external_values, frame
@@ -80,8 +80,9 @@ def joints_for(
     flange: Pose,
     near: Posture,
     wanted: Configuration | None,
+    check: ConfigurationCheck,
 ) -> Posture:
-    """The posture for a flange pose: with the wanted configuration, else the closest one.
+    """The posture for a flange pose: that of the wanted configuration, or the closest one.
 
     External axes are those of `near`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis outside its
     range in every posture); FatalError 50080: not with this configuration.
@@ -93,10 +94,9 @@ def joints_for(
         raise RapidError("ERR_OUTSIDE_REACH")
     if wanted is None:
         return found[0]
-    for slack in (1e-6, 0.7853981633974483):
-        for posture in found:
-            if kinematics.matches(posture, wanted, slack):
-                return posture
+    posture = kinematics.fitting(found, wanted, check)
+    if posture is not None:
+        return posture
     others = ", ".join(str(list(kinematics.configuration(p))) for p in found[:4])
     raise FatalError(
         events.NOT_COMPATIBLE,

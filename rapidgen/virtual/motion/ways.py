@@ -2,7 +2,7 @@
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
 from rapidgen.axes.limits import outside
 from rapidgen.config.model import MotionGroup
 from rapidgen.virtual.errors import FatalError, RapidError
@@ -90,8 +90,9 @@ def make(
     def way(origin: Posture, move: Move, from_rest: bool) -> Geometry:
         if isinstance(move, CartesianMove):
             own = require(config, kinematics)
-            found = CartesianWay(origin, move, own, limits, from_rest=from_rest)
-            _check_configuration(own, move, found.target)
+            check = settings.configuration_check
+            found = CartesianWay(origin, move, own, limits, from_rest=from_rest, check=check)
+            _check_configuration(own, move, found.target, check)
             return found
         assert isinstance(move, JointMove)
         if kinematics is None:
@@ -103,8 +104,10 @@ def make(
     return way
 
 
-def _check_configuration(kinematics: Kinematics, move: CartesianMove, target: Posture) -> None:
-    if move.wanted is None or kinematics.matches(target, move.wanted):
+def _check_configuration(
+    kinematics: Kinematics, move: CartesianMove, target: Posture, check: ConfigurationCheck
+) -> None:
+    if move.wanted is None or kinematics.matches(target, move.wanted, check):
         return
     reached = kinematics.configuration(target)
     raise FatalError(
