@@ -24,6 +24,7 @@ from rapidgen.client.motion import Result
 from rapidgen.client.state import Driver, Event, Feedback, Progress, State, Status
 from rapidgen.client.sync import Execution, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
+from rapidgen.protocol.spec import EventType, Reason, TrajectoryState
 
 __all__ = [
     "AsyncCell",
@@ -35,6 +36,7 @@ __all__ = [
     "ConnectionLost",
     "Driver",
     "Event",
+    "EventType",
     "Execution",
     "Feedback",
     "IncompatibleDriver",
@@ -46,6 +48,7 @@ __all__ = [
     "NotSupported",
     "Progress",
     "ProtocolError",
+    "Reason",
     "RequestRefused",
     "Result",
     "Robot",
@@ -58,4 +61,5 @@ __all__ = [
     "Timeouts",
     "Trajectory",
     "TrajectoryRefused",
+    "TrajectoryState",
 ]

@@ -4,7 +4,9 @@ from rapidgen.client.talk import Pending
 from rapidgen.protocol import messages
 
 _OFTEN = 4
-"""Heartbeats in the time within which the controller awaits one."""
+"""Heartbeats in the time within which the controller awaits one, ..."""
+_PERIOD = 0.5
+"""... and s between two, at most: a simulation's clock may run faster than this one."""
 
 
 class Heartbeat:
@@ -39,7 +41,7 @@ class Heartbeat:
             return None
         if not moves:
             return 0.0 if self._in_force else None
-        if self._in_force and now - self._sent < self.timeout / _OFTEN:
+        if self._in_force and now - self._sent < min(self.timeout / _OFTEN, _PERIOD):
             return None
         return self.timeout
 

@@ -53,6 +53,7 @@ def append(core: Core, feed: Feed, times: npt.ArrayLike, positions: npt.ArrayLik
         feed.run, checked = _begin(core, points)
         feed.way, feed.last = "stream", checked.last
         yield from _taken(core, feed.run)
+        yield from _going_on(core, feed.run)
         return
     assert isinstance(run, StreamRun)
     yield from _going_on(core, run)

@@ -16,14 +16,16 @@ from rapidgen.client import (
     AsyncRobot,
     ConnectionLost,
     InvalidTrajectory,
+    MotionFailed,
     MotionStopped,
     NotReady,
+    RequestRefused,
     Trajectory,
 )
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.protocol.spec import Reason
+from rapidgen.protocol.spec import Port, Reason
 from rapidgen.virtual.asyncio_clock import VirtualLoop
 from rapidgen.virtual.controller import VirtualController
 
@@ -47,6 +49,7 @@ class ClientAndController(RuleBasedStateMachine):
         self.robot = AsyncRobot(CONFIG, address=address, reconnect=5)
         self.do(self.robot.connect())
         self.execution = None
+        self.held = 0.0
         self.asked = []
         """Where the robot may be: the ends of what was asked, from where it then stood."""
 
@@ -76,7 +79,62 @@ class ClientAndController(RuleBasedStateMachine):
                 self.do(self.robot.execute(path))
             return
         self.execution = self.do(self.robot.execute(path))
+        self.held = 0.0
         self.asked = [path.positions.min(axis=0) - 2e-3, path.positions.max(axis=0) + 2e-3]
+
+    def points(self, start, steps, count):
+        goal = np.clip(start + np.array(steps), -0.5, 0.5)
+        return np.linspace(start, goal, count)
+
+    @rule(steps=STEPS, count=st.sampled_from([2, 5, 40, 200]))
+    def stream(self, steps, count):
+        points = self.points(np.array(self.robot.state.joints), steps, count)
+        stream = self.robot.stream()
+        begin = stream.append(np.arange(count) * 0.2, points)
+        if self.under_way:
+            with pytest.raises(NotReady):
+                self.do(begin)
+            return
+        self.do(begin)
+        self.execution = stream
+        self.asked = [points.min(axis=0) - 2e-3, points.max(axis=0) + 2e-3]
+        self.last = points[-1]
+
+    @precondition(lambda self: self.is_streaming)
+    @rule(steps=STEPS, count=st.sampled_from([1, 5, 40]), flush=st.booleans())
+    def append(self, steps, count, flush):
+        points = self.points(self.last, steps, count + 1)[1:]
+        self.last = points[-1]
+        self.asked[0] = np.minimum(self.asked[0], points.min(axis=0) - 2e-3)
+        self.asked[1] = np.maximum(self.asked[1], points.max(axis=0) + 2e-3)
+        times = self.execution.time + 0.2 * np.arange(1, count + 1)
+        self.do(self.execution.append(times, points))
+        if flush:
+            self.do(self.execution.flush())
+
+    @property
+    def is_streaming(self):
+        feed = getattr(self.execution, "_feed", None)
+        return feed is not None and self.under_way and not feed.is_ended
+
+    @precondition(lambda self: self.under_way and self.has_control)
+    @rule(seconds=st.floats(0.1, 3), percent=st.sampled_from([10, 50, 100]))
+    def hold(self, seconds, percent):
+        try:
+            self.held += 2 * seconds + 2
+            self.do(self.robot.pause())
+            self.do(asyncio.sleep(1 + seconds))
+            joints = self.robot.state.joints
+            self.do(asyncio.sleep(seconds))
+            assert self.robot.state.joints == pytest.approx(joints, abs=2e-3)
+            self.do(self.robot.resume())
+            self.do(self.robot.set_speed(percent))
+        except RequestRefused as error:
+            assert error.reason is Reason.IDLE  # noqa: PT017 - it may have ended meanwhile
+
+    @property
+    def has_control(self):
+        return self.robot._core.talks[Port.CONTROL].is_open
 
     @rule(column=st.integers(0, 5), value=st.sampled_from([9.0, -9.0, float("nan")]))
     def execute_what_is_wrong(self, column, value):
@@ -103,11 +161,12 @@ class ClientAndController(RuleBasedStateMachine):
         was_over = self.execution.is_over
         try:
             result = self.do(self.execution.result())
-        except (MotionStopped, ConnectionLost):
+        except (MotionStopped, MotionFailed, ConnectionLost):
             assert was_over, "nothing ended it since the last step"
             return
         assert result.deviation < 1e-3
-        assert result.seconds < 4 * result.planned_seconds + 2
+        if result.way == "download" and self.robot._core.override == 1:
+            assert result.seconds < 4 * result.planned_seconds + 2 + self.held
 
     @precondition(lambda self: self.under_way)
     @rule()
@@ -120,16 +179,19 @@ class ClientAndController(RuleBasedStateMachine):
             assert error.reason is Reason.STOPPED  # noqa: PT017 - either way is right
         assert self.execution.stopped_position is not None
 
-    @rule(ports=st.sampled_from(["all", "state", "motion"]))
+    @rule(ports=st.sampled_from(["all", "state", "motion", "control"]))
     def lose_connections(self, ports):
+        if ports == "control" and not self.has_control:
+            return
         was = self.under_way
         for port, link in list(self.robot._links.items()):
             if ports in ("all", port.name.lower()):
                 link.transport.abort()
         self.do(asyncio.sleep(1.5))
         if was:
-            # Blind or cut off: failed, and nothing moves any more.
-            with pytest.raises((ConnectionLost, MotionStopped)):
+            # Blind, cut off or missed: failed, and nothing moves any more.
+            kind = MotionFailed if ports == "control" else (ConnectionLost, MotionStopped)
+            with pytest.raises(kind):
                 self.do(self.execution.result())
             self.do(asyncio.sleep(1.0))
         first = self.do(self.robot.next_state())
