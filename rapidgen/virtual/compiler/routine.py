@@ -161,12 +161,15 @@ class RoutineCompiler(Loops):
         mark = len(w.lines)
         self.handler = handler
         guarded, self.guarded = self.guarded, self.guarded and not handler
+        listed = self.node.error is not None and self.node.error.numbers is not None
+        leave, w.leave = w.leave, "return R.ret" if self.guarded and listed else ""
         self.nesting, states = [], self.label_states
         self.label_states = {}
         self.statements(body)
         w.close()
         self.label_states = states
         self.guarded = guarded
+        w.leave = leave
         self.handler = ""
         lines = w.lines[mark:]
         del w.lines[mark:]

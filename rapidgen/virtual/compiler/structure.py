@@ -165,8 +165,10 @@ class Structure(Calls):
         depth, w.depth = w.depth, len(self.apart) + 1
         base, self.depth_at = self.depth_at, w.depth
         self.apart.append([])
+        leave, w.leave = w.leave, "return 2" if w.leave else ""
         self.one(node)
         w.close()
+        w.leave = leave
         body = w.lines[mark:]
         del w.lines[mark:]
         inner = self.apart.pop()

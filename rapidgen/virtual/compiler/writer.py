@@ -35,6 +35,8 @@ class Line:
     """This is where the block is paid."""
     synced: bool = False
     """The budget was written back before; whoever raised knows better what is left."""
+    leave: str = ""
+    """Of a charge: how RETURN of an ERROR (list) leaves, where a long jump may end here."""
 
 
 class Writer:
@@ -45,6 +47,8 @@ class Writer:
         self.depth = 0
         self.token = 0
         self.synced = False
+        self.leave = ""
+        """RETURN of the routine's ERROR (list); empty: it has none, or this is a handler."""
         self._accounting = accounting
         self._block: Block | None = None
 
@@ -62,7 +66,8 @@ class Writer:
             return
         if self._block is None or self._accounting == "statement":
             self._block = Block()
-            self.lines.append(Line(self.depth, "", self.token, self._block, charge=True))
+            line = Line(self.depth, "", self.token, self._block, charge=True, leave=self.leave)
+            self.lines.append(line)
         self._block.costs.append(amount)
 
     def close(self) -> None:
@@ -85,11 +90,18 @@ class Writer:
             if line.charge and block is not None:
                 costs = block.costs
                 total = sum(costs)
+                poll = f"R.polls(b, {tuple(costs)})" if len(costs) > 1 else "R.poll(b)"
                 add(line.depth, f"b -= {total}", line.token)
-                if len(costs) == 1:
-                    add(line.depth, "if b < 0: b = R.poll(b)", line.token)
-                else:
-                    add(line.depth, f"if b < 0: b = R.polls(b, {tuple(costs)})", line.token)
+                if not line.leave:
+                    add(line.depth, f"if b < 0: b = {poll}", line.token)
+                    continue
+                # A trap is served here: its long jump may end in this routine [K §7.2].
+                add(line.depth, "if b < 0:", line.token)
+                add(line.depth + 1, f"try: b = {poll}", line.token)
+                add(line.depth + 1, "except ERRS as _e:", line.token)
+                add(line.depth + 2, "_k = R.handle(_h, _e, None, 0, _l)", line.token)
+                add(line.depth + 2, "b = R.b", line.token)
+                add(line.depth + 2, f"if _k == 2: {line.leave}", line.token)
                 continue
             code = line.text
             rest = tuple(block.costs[line.paid :]) if block is not None else ()
