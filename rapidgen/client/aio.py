@@ -109,6 +109,8 @@ class AsyncRobot:
             plain=plain,
             reconnect=reconnect,
             feedback=feedback,
+            # No robot is at this machine's own address.
+            simulated=self.address.is_loopback,
         )
         self._links: dict[Port, _Link] = {}
         self._waiters: set[asyncio.Future[None]] = set()

@@ -93,12 +93,15 @@ class Core:
         plain: bool = False,
         reconnect: float = 0.0,
         feedback: bool = False,
+        simulated: bool = False,
     ) -> None:
         """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
 
         `reconnect`: for how many s a lost connection is tried again; 0: not. `feedback`: ask
-        for joints with the controller's own time and velocities.
+        for joints with the controller's own time and velocities. `simulated`: the controller's
+        clock may run faster than this one.
         """
+        self.simulated = simulated
         self.watch = watch
         self.subscribe = Feature.PROGRESS | Feature.EVENTS
         if feedback:
@@ -267,7 +270,8 @@ class Core:
         if timeout is None:
             return None
         self.heartbeat.sent(now, timeout, self.talks[Port.CONTROL].request(HEARTBEAT.number))
-        return encode(messages.Heartbeat(timeout), Comm.REQUEST)
+        pace = max(1.0, self.tracker.pace) if self.simulated else 1.0
+        return encode(messages.Heartbeat(timeout * pace), Comm.REQUEST)
 
     def post(self, content: messages.Content) -> Pending:
         """A request for the control port; it goes out next."""

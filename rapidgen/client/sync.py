@@ -74,6 +74,8 @@ class Robot:
             plain=plain,
             reconnect=reconnect,
             feedback=feedback,
+            # No robot is at this machine's own address.
+            simulated=self.address.is_loopback,
         )
         self._changed = threading.Condition()
         self._channels: dict[Port, Channel] = {}

@@ -48,6 +48,7 @@ class Tracker:
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
         self.progresses = 0
+        self._first = 0.0
         self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
         """The last entries of the controller's log, oldest first."""
         self.event_count = 0
@@ -108,6 +109,8 @@ class Tracker:
             case messages.JointPosition():
                 sample = Sample(now, content.joints)
                 self.samples += 1
+                if self.samples == 1:
+                    self._first = now
                 self._recent.append(sample)
                 self._times.append(now)
                 for listener in self.listeners:
@@ -176,6 +179,16 @@ class Tracker:
         """Joint messages per second over the last ones; 0 before two have come."""
         span = self._times[-1] - self._times[0] if len(self._times) > 1 else 0.0
         return (len(self._times) - 1) / span if span > 0 else 0.0
+
+    @property
+    def pace(self) -> float:
+        """How much faster the driver's clock runs than this one, by the period of its states.
+
+        1 where nobody can say; a simulation may run faster, a controller does not.
+        """
+        period = self.driver.hello.state_period if self.driver.hello is not None else 0.0
+        span = self._times[-1] - self._first if self.samples > 1 else 0.0
+        return (self.samples - 1) * period / span if span > 0 and period > 0 else 1.0
 
     @property
     def state(self) -> State | None:

@@ -375,6 +375,31 @@ def test_the_limits_of_the_controller_count_where_they_are_narrower(fake, client
         assert robot.group.joints[1].upper < 3.0
 
 
+@pytest.mark.parametrize("pace", [1, 8])
+def test_a_simulation_that_runs_faster_misses_nobody_sooner(fake, client, pace):
+    # told 0.01 s, comes every 0.01 s of this clock or more often
+    controller = fake(**streams(speed=1), state_period=0.01)
+    hello = controller._hello
+    period = struct.pack("<f", 0.01 * pace)
+    at = 16 + 16 + 12 + 12 + 16
+
+    def told(foreign=False):
+        data = hello(foreign)
+        return data[:at] + period + data[at + 4 :]
+
+    controller._hello = told
+    with client(controller.address) as robot:
+        robot.wait_until(lambda s: s.number > 10, 2)
+        assert robot.driver.hello.state_period == pytest.approx(0.01 * pace)
+        stream = robot.stream()
+        stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
+        stream.cancel()
+    beats = [beat for beat in controller.script.stream.heartbeats if beat]
+    # a busy machine tells later, never sooner
+    assert pace / 4 < beats[-1] / 2 <= 1.1 * pace
+    assert beats[-1] >= 2
+
+
 def test_ctrl_c_in_an_append_stops_the_robot(fake, quick, monkeypatch):
     controller = fake(**streams(speed=1))
     with Robot(controller.address, timeouts=quick) as robot:
