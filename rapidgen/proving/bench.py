@@ -240,6 +240,12 @@ class Bench:
                     f"(near point {at + 1})"
                 )
 
+    def forget(self) -> None:
+        """Drop the record so far, for campaigns that would not end in the memory there is."""
+        del self.track[:-1]
+        self.commanded.clear()
+        self.orders.clear()
+
     # -- the program ----------------------------------------------------------------------------
 
     def task(self, module: str) -> str:
@@ -318,6 +324,10 @@ class Bench:
     def state(self, *, reading: bool = True) -> Link:
         """A new connection to the state server."""
         return self._link(self.group.ports.state, reading=reading)
+
+    def control(self) -> Link:
+        """A new connection to the control server, where the configuration has one."""
+        return self._link(self.group.ports.control)
 
     def _link(self, port: int, *, reading: bool = True, address: str = "") -> Link:
         network = self.controller.network

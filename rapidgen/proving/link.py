@@ -94,10 +94,10 @@ class Link:
         self._taken = len(self.frames)
         return found
 
-    @property
-    def unread(self) -> int:
-        """Index into `frames` of the first one that was not read yet."""
-        return self._taken
+    def forget(self) -> None:
+        """Drop the frames so far."""
+        self.frames.clear()
+        self._taken = 0
 
     def _receive(self) -> None:
         while not self.lost:
@@ -135,6 +135,28 @@ class Link:
 
         self._bench.until(arrived, seconds, what)
         return found[0]
+
+    def ask(self, content: messages.Content, seconds: float = 2) -> messages.Content:
+        """Send a request; the reply to it."""
+        data = encode(content, spec.Comm.REQUEST)
+        self.send(data)
+        number = int.from_bytes(data[4:8], "little")
+        return self.reply(number, seconds)
+
+    def reply(self, number: int, seconds: float = 2) -> messages.Content:
+        """The next reply of a type; what comes before it is passed over."""
+        found: list[Frame] = []
+
+        def arrived() -> bool:
+            while not found and len(self.frames) > self._taken:
+                self._taken += 1
+                frame = self.frames[self._taken - 1][1]
+                if (frame.number, frame.comm) == (number, spec.Comm.REPLY):
+                    found.append(frame)
+            return bool(found)
+
+        self._bench.until(arrived, seconds, f"a reply of type {number} arrives")
+        return decode(found[0])
 
     def close(self, *, abort: bool = False) -> None:
         """End the connection (FIN), or reset it (RST)."""

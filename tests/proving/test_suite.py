@@ -1,5 +1,7 @@
 """The suite holds for every kind of robot, and sees defects when there are some."""
 
+import re
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -158,3 +160,21 @@ def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
     assert "<svg" in html.read_text(encoding="utf-8")
     assert main(["test", "irb120", "--case", "whole-trajectry"]) == 2
     assert "whole-trajectory" in capsys.readouterr().err
+
+
+def test_the_table_of_faults_names_cases_that_exist():
+    text = (Path(__file__).parents[2] / "docs" / "testing.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (\d+) \| .+? \| (.+?) \|$", text, re.MULTILINE)
+    assert [int(number) for number, _ in rows] == list(range(1, 26))
+    for number, cases in rows:
+        named = re.findall(r"(?<![`\w-])[a-z0-9]+(?:-[a-z0-9]+)*", cases.split(" (")[0])
+        known = [name for name in named if name in BY_NAME]
+        assert (known and known == named) or "every case" in cases, f"fault {number}: {cases}"
+
+
+def test_every_case_has_a_name_of_its_own():
+    assert len(BY_NAME) == len(CASES)
+
+
+def test_every_robot_has_settings_for_its_groups():
+    assert "rob_r" in settings(load_config("irb14000"))

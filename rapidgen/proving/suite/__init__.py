@@ -4,6 +4,7 @@ from rapidgen.proving.model import Case
 from rapidgen.proving.suite import (
     compatible,
     controller,
+    controlling,
     edges,
     failing,
     faults,
@@ -12,6 +13,7 @@ from rapidgen.proving.suite import (
     paired,
     refusals,
     stopping,
+    streaming,
     telling,
     watching,
 )
@@ -23,6 +25,8 @@ CASES: tuple[Case, ...] = (
     *edges.CASES,
     *framing.CASES,
     *stopping.CASES,
+    *streaming.CASES,
+    *controlling.CASES,
     *telling.CASES,
     *watching.CASES,
     *links.CASES,

@@ -17,6 +17,9 @@ _COUNTERS = (
     ("trajectory", "phase_of", "session", "done", "started"),
     ("stop_asked", "stop_done"),
     ("look_asked", "look_done"),
+    ("control_asked", "control_done"),
+    ("pause_asked", "pause_done"),
+    ("speed_asked", "speed_done"),
     ("abort", "abort_done"),
     ("bell",),
     ("interrupts", "interrupts_seen"),
@@ -185,8 +188,9 @@ def _set_counters(bench: Bench, value: int) -> None:
     declared = task.rapid.program.modules["ros_common"].declarations
     for name in [name for row in _COUNTERS for name in row]:
         # With several groups the names end in the group's number.
-        full = next(key for key in declared if re.fullmatch(rf"ros_{name}(_\d+)?", key))
-        task[f"ROS_common:{full}"] = value
+        full = [key for key in declared if re.fullmatch(rf"ros_{name}(_\d+)?", key)]
+        for one in full:
+            task[f"ROS_common:{one}"] = value
 
 
 def _serves_stop(bench: Bench) -> None:

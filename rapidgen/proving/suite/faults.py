@@ -192,7 +192,7 @@ def _fill(cell: Cell, bench: Bench, chance: random.Random) -> None:
     if "ring" in cell.name.lower() and cell.dims:
         for point in cell.v.values():
             point.session, point.index = chance.randrange(0, 300), chance.randrange(1, 9)
-            point.duration, point.last = 1.0, chance.random() < 0.2
+            point.duration = 1.0
             for n, axis in enumerate(("rax_1", "rax_2", "rax_3")):
                 setattr(point.target.robax, axis, float(5 * n + chance.randrange(0, 5)))
     elif not cell.dims and cell.name.lower().startswith("ros_"):

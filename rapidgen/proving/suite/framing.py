@@ -80,29 +80,45 @@ def _half_header_and_end(bench: Bench) -> None:
 
 
 def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
-    """Random damage to a good trajectory; each time a good client is served afterwards."""
+    """Malformed frames in all ways; each time a good client is served afterwards."""
     chance = random.Random(bench.setting.seed)
     for _ in range(rounds):
-        data = bytearray(bench.download(bench.wave(4)))
-        # The end frame is always lost, so nothing may move whatever is left.
-        del data[-spec.JOINT_TRAJ_PT.length - 4 :]
-        for _ in range(chance.randrange(1, 5)):
-            at = chance.randrange(len(data))
-            match chance.randrange(3):
-                case 0:
-                    data[at] = chance.randrange(256)
-                case 1:
-                    del data[at : at + chance.randrange(1, 80)]
-                case _:
-                    data[at:at] = chance.randbytes(chance.randrange(1, 40))
-            if not data:
-                break
+        data = _malformed(bench, chance)
         link = bench.motion()
-        link.send(bytes(data))
-        bench.stays(0.3, f"a damaged download of {len(data)} bytes")
+        link.send(data)
+        bench.stays(0.3, f"malformed: {data.hex()}")
         link.close(abort=chance.random() < 0.3)
         bench.run(0.1)
         _good_client(bench)
+        bench.forget()
+
+
+def _malformed(bench: Bench, chance: random.Random) -> bytes:
+    """Damaged downloads without their end, headers with wrong fields, plain noise."""
+    kind = chance.randrange(4)
+    if kind == 0:
+        return chance.randbytes(chance.randrange(1, 300))
+    if kind == 1:
+        fields = [chance.choice((64, 12, 44, 63, 1020, 1021, chance.randrange(-9, 2000)))]
+        fields += [chance.choice((11, 1, 10, 14, chance.randrange(-5, 1400)))]
+        fields += [chance.choice((0, 1, 2, 3, 4, chance.randrange(-9, 99)))]
+        fields += [chance.choice((0, 1, 2, chance.randrange(-9, 99)))]
+        return b"".join(map(_word, fields)) + chance.randbytes(chance.randrange(0, 70))
+    data = bytearray(bench.download(bench.wave(4)))
+    # The end frame is always lost, so nothing may move whatever is left.
+    del data[-spec.JOINT_TRAJ_PT.length - 4 :]
+    for _ in range(chance.randrange(1, 5)):
+        at = chance.randrange(len(data))
+        match chance.randrange(3):
+            case 0:
+                data[at] ^= 1 << chance.randrange(8)
+            case 1:
+                del data[at : at + chance.randrange(1, 80)]
+            case _:
+                data[at:at] = chance.randbytes(chance.randrange(1, 40))
+        if not data:
+            break
+    return bytes(data)
 
 
 CASES = (

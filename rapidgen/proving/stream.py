@@ -1,0 +1,90 @@
+"""A raw client that streams: batches with credits, as bytes, and what it may do wrong."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from rapidgen.protocol import bulk, messages, spec
+from rapidgen.protocol.spec import StreamFlag
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import Link, Point
+from rapidgen.proving.model import Broken
+
+BEGIN, END, FLUSH = StreamFlag.BEGIN, StreamFlag.END, StreamFlag.FLUSH
+NONE = StreamFlag(0)
+
+
+class Streamer:
+    """One stream over one connection to the motion server."""
+
+    def __init__(self, bench: Bench, link: Link | None = None, number: int = 1) -> None:
+        self.bench = bench
+        self.link = link if link is not None else bench.motion()
+        self.number = number
+        self.sent = 0
+        """Points sent so far."""
+        self.room = bench.config.trajectory.ring - 1
+        self.last: messages.Content | None = None
+        self.points: list[Point] = []
+
+    def frame(self, points: Sequence[Point], flags: StreamFlag, first: int | None = None) -> bytes:
+        """One POINTS message."""
+        found = bulk.encode_points(
+            self.number,
+            self.sent if first is None else first,
+            [duration for _, duration in points],
+            np.reshape([joints for joints, _ in points], (-1, len(self.bench.position))),
+            flags=flags,
+        )
+        if len(found) != 1:
+            raise ValueError(f"{len(points)} points do not fit in one message")
+        return found[0]
+
+    def put(self, points: Sequence[Point], flags: StreamFlag = NONE) -> messages.Content:
+        """Send one batch, in several messages where it does not fit into one; the last reply."""
+        most = spec.batch_points(len(self.bench.position))
+        parts = [points[at : at + most] for at in range(0, len(points), most)] or [points]
+        for number, part in enumerate(parts):
+            own = flags & ~(END | FLUSH) if number + 1 < len(parts) else flags
+            self.link.send(self.frame(part, own & ~BEGIN if number else own))
+            self.sent += len(part)
+            self.points += part
+            told = self.reply()
+        return told
+
+    def reply(self) -> messages.Content:
+        """The next reply to a batch."""
+        self.last = self.link.reply(spec.POINTS.number, 5)
+        if isinstance(self.last, messages.PointsAccepted):
+            self.room = self.last.room
+        return self.last
+
+    def accepted(self, what: str) -> messages.PointsAccepted:
+        """The last reply; Broken unless it is a success."""
+        if not isinstance(self.last, messages.PointsAccepted):
+            raise Broken(f"{what}: the reply is {self.last}")
+        return self.last
+
+    def refused(self, reason: spec.Reason, what: str) -> messages.PointsRefused:
+        """The last reply; Broken unless it is a refusal for that reason."""
+        if not isinstance(self.last, messages.PointsRefused) or self.last.reason != reason:
+            raise Broken(f"{what}: wanted {reason.name}, the reply is {self.last}")
+        return self.last
+
+    def all(self, points: Sequence[Point], *, end: bool = True, size: int = 10) -> None:
+        """A whole stream, never more points than there is room for."""
+        at = 0
+        while at < len(points):
+            batch = points[at : at + max(1, min(size, self.room))]
+            if self.room < len(batch):
+                self.bench.run(0.05)
+                self.put(())
+                continue
+            at += len(batch)
+            flags = StreamFlag(0)
+            if not self.sent:
+                flags |= BEGIN
+            if end and at == len(points):
+                flags |= END
+            self.put(batch, flags)
+            self.accepted(f"points up to {at} of {len(points)}")
