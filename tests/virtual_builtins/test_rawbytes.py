@@ -180,6 +180,9 @@ def test_bits(bench):
     assert bench("BitCheck", 128, 8) is True
     assert bench("BitCheckDnum", 2**51, 52) is True
     assert bench("BitNegDnum", 0) == 2**52 - 1
+    assert bench("BitNegDnum", 5, Size=4) == 10  # \\Size: 3HAC050917 [manual]
+    assert bench("BitLShDnum", 12, 1, Size=4) == 8
+    assert bench("BitLShDnum", 12, 1) == 24
     value, large = bench.box(0), bench.dnum(0)
     bench("BitSet", value, 8)
     bench("BitSet", DnumData=large, BitData=None, BitPos=52)
@@ -189,6 +192,11 @@ def test_bits(bench):
     for name, args in (("BitCheck", (1, 9)), ("BitAnd", (256, 1)), ("BitNeg", (1.5,))):
         with pytest.raises(RapidError) as caught:
             bench(name, *args)
+        assert caught.value.name == "ERR_ARGVALERR"
+    for value_too_large in ("BitNegDnum", "BitLShDnum"):
+        steps = (1,) if value_too_large == "BitLShDnum" else ()
+        with pytest.raises(RapidError) as caught:
+            bench(value_too_large, 16, *steps, Size=4)
         assert caught.value.name == "ERR_ARGVALERR"
 
 

@@ -164,6 +164,11 @@ def _bits(value: float) -> int:
     return _steps(value, _MASK)
 
 
+def _lowest(size: float | None) -> int:
+    """The mask of \\Size bits, all 52 without it."""
+    return _MASK if size is None else (1 << _steps(size, DNUM_BITS, 1)) - 1
+
+
 def _two(name: str, function: Callable[[int, int], int]) -> None:
     @builtin(name, cost="string", pure=True)
     def of_bytes(_task: Task, one: float, two: float) -> int:
@@ -186,9 +191,10 @@ def bit_neg(_task: Task, data: float) -> int:
 
 
 @builtin("BitNegDnum", cost="string", pure=True)
-def bit_neg_dnum(_task: Task, data: float) -> int:
-    """Every one of 52 bits inverted."""
-    return _bits(data) ^ _MASK
+def bit_neg_dnum(_task: Task, data: float, size: float | None) -> int:
+    """Every one of 52 bits, or of the lowest \\Size, inverted."""
+    mask = _lowest(size)
+    return _steps(data, mask) ^ mask
 
 
 @builtin("BitLSh", cost="string", pure=True)
@@ -204,9 +210,10 @@ def bit_rsh(_task: Task, data: float, steps: float) -> int:
 
 
 @builtin("BitLShDnum", cost="string", pure=True)
-def bit_lsh_dnum(_task: Task, data: float, steps: float) -> int:
-    """52 bits shifted left."""
-    return _bits(data) << _steps(steps, DNUM_BITS, 1) & _MASK
+def bit_lsh_dnum(_task: Task, data: float, steps: float, size: float | None) -> int:
+    """52 bits, or the lowest \\Size, shifted left."""
+    mask = _lowest(size)
+    return _steps(data, mask) << _steps(steps, mask.bit_length(), 1) & mask
 
 
 @builtin("BitRShDnum", cost="string", pure=True)
