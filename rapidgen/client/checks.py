@@ -193,8 +193,8 @@ def _capacity(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
         _finding(
             "RG617",
             f"{count} points, the driver holds {capacity}",
-            "`Trajectory.resampled(period)` makes fewer; `trajectory.capacity` in the "
-            "configuration makes room for more (build and deploy again)",
+            "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
+            "`trajectory.capacity` in the configuration makes room for more (build and deploy again)",
         )
     ]
 
@@ -386,8 +386,9 @@ def _short(trajectory: Trajectory, group: Group, durations: Array, origin: int) 
     return [
         _finding(
             "RG618",
-            f"the segment to {_points(points, origin)} is shorter than the path planner follows",
-            f"{durations[points].min():.4f} s, at least {least:g} s: `resampled({least:g})`",
+            f"shorter than the path planner follows: the segment to {_points(points, origin)}",
+            f"{durations[points].min():.4f} s, at least {least:g} s: "
+            f"`Trajectory.resampled({least:g})`, or `rapidgen move --resample {least:g}`",
             at=(trajectory, int(points[0])),
             severity=Severity.ERROR if group.has_limits else Severity.WARNING,
         )
@@ -406,7 +407,8 @@ def _fits(
         _finding(
             "RG623",
             f"a value is too large for a stream at {_points(points, origin)}",
-            f"{PAIR_LIMIT:.2f} s, rad or m are the most: `resampled(10)` divides a long segment",
+            f"{PAIR_LIMIT:.2f} s, rad or m are the most: "
+            "`Trajectory.resampled(10)` divides a long segment",
             at=(trajectory, int(points[0])),
         )
     ]
