@@ -194,7 +194,8 @@ def _capacity(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
             "RG617",
             f"{count} points, the driver holds {capacity}",
             "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
-            "`trajectory.capacity` in the configuration makes room for more (build and deploy again)",
+            "`trajectory.capacity` in the configuration makes room for more (build and deploy "
+            "again)",
         )
     ]
 
