@@ -19,9 +19,11 @@ from itertools import pairwise
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
+from rapidgen.protocol import messages, spec
 from rapidgen.proving.bench import FAILURES, Bench, Setting, distance, off
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
+from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.system.model import System
 from rapidgen.virtual.faults import Direction, FaultPlan, NetworkRule
 from rapidgen.virtual.tracing import Trace
@@ -138,6 +140,7 @@ class _Walk:
         self.statements = statements
         self.trace = trace
         self.plan: list[str] = []
+        self.streams = 0
         self.link: Link | None = None
 
     def go(self) -> None:
@@ -147,8 +150,9 @@ class _Walk:
         rules = self.bench.setting.faults.network
         if rules:
             self._say(f"the network: {rules[0].do} {rules[0].direction}")
+        steps = [name for name in self.steps if name not in PAIRED or self._streams()]
         for _ in range(self.chance.randrange(2, 6)):
-            STEPS[self.chance.choice(self.steps)](self)
+            STEPS[self.chance.choice(steps)](self)
         self.good_client()
 
     def _say(self, text: str) -> None:
@@ -364,6 +368,91 @@ class _Walk:
         self.link = None
         self.bench.stays(self.chance.uniform(0, 1), f"its client is gone ({how})")
 
+    def streamed(self) -> None:
+        """A stream with pauses of any length, ended well, or by STOP on its control port."""
+        link = self._connect()
+        self.streams += 1
+        stream = Streamer(self.bench, link, number=self.streams)
+        points = [(p, max(d, 0.15)) for p, d in self._points(self.chance.randrange(10, 60))]
+        points[0] = (points[0][0], 0.2)
+        ending = self.chance.choice(("whole", "whole", "STOP", "pause", "hole", "leaves", "stop"))
+        self._say(f"stream {len(points)} points, {ending}")
+        start, since, accepted = self.bench.position, self.bench.now, 0
+        cut = len(points) if ending in ("whole", "pause") else self.chance.randrange(5, len(points))
+        while stream.sent < cut and not link.lost:
+            size = min(self.chance.randrange(1, 15), cut - stream.sent, max(1, stream.room))
+            flags = BEGIN if not stream.sent else NONE
+            flags |= END if stream.sent + size == len(points) else NONE
+            told = stream.put(points[stream.sent : stream.sent + size], flags)
+            if not isinstance(told, messages.PointsAccepted):
+                break
+            accepted = told.accepted
+            self.bench.run(self.chance.choice((0.0, 0.05, self.chance.uniform(0, 3))))
+        self._end_stream(ending, stream, points[cut : cut + 3])
+        self.bench.wait_until_standing(30)
+        self._on_the_way([start, *(p for p, _ in points[: stream.sent])], since)
+        end, last = self.bench.position, points[max(0, accepted - 1)][0]
+        if ending in ("whole", "pause", "hole") and accepted and distance(end, last) > 1e-3:
+            raise Broken(
+                f"{accepted} points of a stream were accepted, the robot ended "
+                f"{distance(end, last):.4f} rad off the last of them"
+            )
+        self.bench.stays(self.chance.uniform(0.3, 2), f"its stream is over: {ending}")
+
+    def _end_stream(self, ending: str, stream: Streamer, more: Sequence[Point]) -> None:
+        """What ends a stream, or disturbs it on its way to the end."""
+        control = self.bench.control()
+        if ending == "STOP":
+            control.send(STOP)
+            control.reply(spec.JOINT_TRAJ_PT.number, 5)
+        elif ending == "pause":
+            self.bench.run(self.chance.uniform(0, 1.5))
+            if isinstance(control.ask(messages.Pause(1), 5), messages.Acknowledged):
+                self.bench.wait_until_standing(5)
+                self.bench.stays(self.chance.uniform(0, 2), "it is paused")
+                control.ask(messages.Pause(0), 5)
+            self.bench.run(12)
+        elif ending == "hole" and more:
+            stream.link.send(stream.frame(more, NONE, first=stream.sent + 1))
+            stream.reply()
+            stream.refused(spec.Reason.SEQUENCE_GAP, "a batch behind a hole")
+            self.bench.run(12)
+        elif ending == "leaves":
+            stream.link.close(abort=self.chance.random() < 0.5)
+            self.link = None
+        elif ending == "stop":
+            self.bench.controller.perform("stop")
+            self.bench.wait_until_standing(10)
+            self.bench.run(self.chance.uniform(0, 1))
+            self.bench.controller.perform("start")
+            self.bench.stays(3, "the program was stopped in a stream and started again")
+        else:
+            self.bench.run(12)
+        control.close()
+
+    def controlled(self) -> None:
+        """A download, and STOP over the control port at any time or statement."""
+        link, control = self._connect(), self.bench.control()
+        points = self._points(self.chance.randrange(4, 15))
+        self._say(f"send {len(points)} points")
+        start, since = self.bench.position, self.bench.now
+        data = self.bench.download(points)
+        what = "STOP over the control port"
+        self._disturbed(link, data, lambda: control.at_once(STOP), what, behind=False)
+        self.bench.until(lambda: bool(control.frames) or control.lost, 5, "STOP is answered")
+        # What had not been received to its end by then is not stopped by that.
+        link.send(STOP)
+        link.reply(spec.JOINT_TRAJ_PT.number, 5)
+        self.bench.wait_until_standing(10)
+        self._on_the_way([start, *(p for p, _ in points)], since)
+        self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")
+        control.close()
+
+    def _streams(self) -> bool:
+        """Whether the driver has a control port."""
+        port = self.bench.group.ports.control
+        return bool(port) and port in self.bench.controller.network.listeners
+
     def good_client(self) -> None:
         """Whatever happened: a client that comes now is served, and moves the robot."""
         old, self.link = self.link, None
@@ -396,5 +485,9 @@ STEPS: dict[str, Callable[[_Walk], None]] = {
     "interrupted": _Walk.interrupted,
     "superseded": _Walk.superseded,
     "vanishes": _Walk.vanishes,
+    "streamed": _Walk.streamed,
+    "controlled": _Walk.controlled,
 }
 """What a history is made of."""
+PAIRED = ("streamed", "controlled")
+"""Steps of a paired client, for drivers that stream."""
