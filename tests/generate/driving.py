@@ -14,10 +14,10 @@ SECONDS = [10.0, 1.0, 1.0, 1.0, 1.0]
 LONG = [[0.001 * n] * 6 for n in range(300)]
 NO_REPLY = 0.3
 CAPACITY, GAP, NOT_FINITE, LIMIT, START, TOO_FAST = 1, 2, 3, 4, 5, 6
-BAD_DURATION, SHORT, NO_START, INCOMPLETE, FRAMING = 8, 9, 10, 11, 12
+TCP_TOO_FAST, BAD_DURATION, SHORT, NO_START, INCOMPLETE, FRAMING = 7, 8, 9, 10, 11, 12
 PADDING, NOT_EXECUTING, MOTORS, E_STOP, MIXED = 14, 20, 21, 22, 24
 STOPPED, SUPERSEDED, CLIENT_LOST, PROGRAM, COLLISION, POWER, MODE = 40, 41, 42, 43, 45, 46, 47
-RECEIVING, MOVING, DONE, REFUSED, FAILED, STOPPED_STATE = 1, 2, 3, 4, 5, 6
+RECEIVING, MOVING, DONE, REFUSED, FAILED, STOPPED_STATE, STARVED, PAUSED = 1, 2, 3, 4, 5, 6, 7, 8
 
 
 def reply_of(client):
@@ -129,12 +129,17 @@ def ask_progress(b):
     return state
 
 
-def progress_of(state):
-    return {
+def all_progress(state):
+    """Every PROGRESS since the last call, oldest first."""
+    return [
         struct.unpack_from("<8i", f, 16)
         for f in state.frames()
         if struct.unpack_from("<i", f, 4)[0] == 1301
-    }
+    ]
+
+
+def progress_of(state):
+    return set(all_progress(state))
 
 
 def hold(b, task, seconds):

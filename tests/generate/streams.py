@@ -97,6 +97,37 @@ def seconds(rows):
     return sum(duration for duration, _ in rows[1:])
 
 
-def stops(track):
-    """Times at which a recorded robot came to rest."""
-    return [a[0] for a, b in pairwise(track) if a[1] == b[1]]
+def send_stream(client, rows, *, stream=7, size=30, end=True):
+    """Send a stream with credits: a batch when the reply to the one before has told room for it."""
+    room, first = 127, 0
+    while first < len(rows):
+        count = min(size, room, len(rows) - first)
+        last = end and first + count == len(rows)
+        flags = (BEGIN if first == 0 else 0) | (END if last else 0)
+        if count or first == 0:
+            client.send(batch(stream, first, rows[first : first + count], flags))
+            first += count
+        else:
+            client.bench.vc.run_for(0.1)
+            client.send(batch(stream, first, []))
+        room = accepted(client)[3]
+
+
+def positions(bench, seconds, *, step=0.004):
+    """Joint values each `step` s from now on."""
+    found = [bench.joints()]
+    while len(found) * step < seconds:
+        bench.vc.run_for(step)
+        found.append(bench.joints())
+    return found
+
+
+def longest_rest(track, *, step=0.004):
+    """s of the longest rest inside of a movement."""
+    moves = [one != other for one, other in pairwise(track)]
+    inside = moves[moves.index(True) : len(moves) - moves[::-1].index(True)]
+    longest = current = 0
+    for moving in inside:
+        current = 0 if moving else current + 1
+        longest = max(longest, current)
+    return longest * step

@@ -1,9 +1,11 @@
 """The driver when the controller answers an open question the other way (motion and language)."""
 
+import struct
 from dataclasses import replace
 
 import pytest
 
+from rapidgen.virtual.costs import Costs
 from rapidgen.virtual.dialect import Dialect
 from tests.generate.bench import STOP, close_to, trajectory
 from tests.generate.driving import (
@@ -15,7 +17,19 @@ from tests.generate.driving import (
     reply_of,
     send_all,
 )
+from tests.generate.streams import (
+    BEGIN,
+    PAUSE,
+    accepted,
+    batch,
+    batches,
+    line,
+    refused,
+    reply,
+    request,
+)
 
+SINGLE = {"unpack_ulint": "single"}
 INVERTED = [
     {"stop_waits": True},
     {"cleared_move": "hang"},
@@ -50,7 +64,7 @@ DIALECTS = [
     {"error_reach": "own"},
     {"find_behind": "error"},
     {"byte_to_str": "code"},
-    {"unpack_ulint": "single"},
+    SINGLE,
 ]
 # The first message breaks the link, or a task stops at its start: nothing moves.
 REFUSED = [
@@ -102,6 +116,81 @@ def the_round(b):
     assert b.healthy()
 
 
+def the_stream_round(b):
+    """Stream, starve, go on, pause, go on, stop over the control connection, a program stop."""
+    client, own = b.client(), b.client(b.config.groups[0].ports.control)
+    rows = line([0.0] * 6, 100)
+    client.send(batch(7, 0, rows[:20], BEGIN))
+    accepted(client)
+    b.vc.run_for(4)
+    assert close_to(b.joints(), rows[19][1], 1e-5)
+    for first in (20, 50):
+        client.send(batch(7, first, rows[first : first + 30]))
+        accepted(client)
+    b.vc.run_for(1)
+    own.send(request(PAUSE, struct.pack("<i", 1)))
+    assert reply(own, PAUSE) == (1, b"")
+    b.vc.run_for(1)
+    here = b.joints()
+    b.vc.run_for(1)
+    assert b.joints() == here
+    own.send(request(PAUSE, struct.pack("<i", 0)))
+    assert reply(own, PAUSE) == (1, b"")
+    b.vc.run_for(1)
+    assert rows[25][1][0] < b.joints()[0] < rows[60][1][0]
+    own.send(STOP)
+    assert reply(own, 11) == (1, b"")
+    b.vc.run_for(2)
+    here = b.joints()
+    assert rows[25][1][0] < here[0] < rows[60][1][0]
+    client.send(batch(7, 80, rows[80:]))
+    assert refused(client)[3] == 40
+    rows = line(list(here), 60)
+    for data in batches(8, rows, end=False):
+        client.send(data)
+        accepted(client)
+    b.vc.run_for(1)
+    b.vc.perform("stop")
+    b.vc.run_for(1)
+    here = b.joints()
+    b.vc.perform("start")
+    b.vc.run_for(3)
+    assert close_to(b.joints(), here, 1e-6)
+    rows = line(list(here), 40, step=-0.002)
+    for data in batches(9, rows):
+        client.send(data)
+        accepted(client)
+    b.vc.run_for(7)
+    assert close_to(b.joints(), rows[-1][1], 1e-5)
+    assert b.healthy()
+
+
+@pytest.mark.parametrize("switch", INVERTED, ids=str)
+def test_motion_the_other_way_with_streams(bench, switch):
+    b = bench()
+    b.group.settings = replace(b.group.settings, **switch)
+    the_stream_round(b)
+
+
+@pytest.mark.parametrize("switch", [s for s in DIALECTS if s != SINGLE], ids=str)
+def test_language_the_other_way_with_streams(bench, switch):
+    the_stream_round(bench(options={"dialect": Dialect(**switch)}))
+
+
+def test_words_that_are_not_read_exactly_refuse_a_stream(bench):
+    b = bench(options={"dialect": Dialect(**SINGLE)})
+    client = b.client()
+    client.send(batch(7, 0, line([0.0] * 6, 20), BEGIN))
+    assert refused(client)[3] in (10, 16)
+    b.vc.run_for(2)
+    assert b.joints() == (0.0,) * 6
+
+
+@pytest.mark.parametrize("scale", [0.25, 4.0])
+def test_faster_and_slower_controllers_with_streams(bench, scale):
+    the_stream_round(bench(options={"costs": replace(Costs(), builtin_scale=scale)}))
+
+
 @pytest.mark.parametrize("switch", INVERTED, ids=str)
 def test_motion_the_other_way(bench, switch):
     b = bench()
@@ -121,8 +210,6 @@ def test_other_schedules(bench, seed):
 
 @pytest.mark.parametrize("scale", [0.25, 4.0])
 def test_faster_and_slower_controllers(bench, scale):
-    from rapidgen.virtual.costs import Costs
-
     the_round(bench(options={"costs": replace(Costs(), builtin_scale=scale)}))
 
 

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "7bf76421f89d";
+    CONST string ROS_BUILD_ACCEPTANCE := "f709a2308f5b";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -195,13 +195,14 @@ MODULE ROS_acceptance
         RETURN ROS_REASON_NOT_EXECUTING;
     ENDFUNC
 
-    ! TRUE when the supervisor has answered all that it was asked, FALSE if it does not.
+    ! TRUE when the supervisor has answered all that it was asked, FALSE if it does not within a
+    ! second.
     FUNC bool ROS_answered()
-        VAR bool late := FALSE;
-
-        WaitUntil ROS_stop_done = ROS_stop_asked AND ROS_look_done = ROS_look_asked
-            \MaxTime:=1 \TimeFlag:=late \PollRate:=0.04;
-        RETURN NOT late;
+        FOR try FROM 1 TO 250 DO
+            IF ROS_stop_done = ROS_stop_asked AND ROS_look_done = ROS_look_asked RETURN TRUE;
+            WaitTime 0.004;
+        ENDFOR
+        RETURN FALSE;
     ENDFUNC
 
     ! Ask for a halt if a trajectory is under way.

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "c01907bce60c";
+    CONST string ROS_BUILD_CONTROL := "933d2cbfa38f";
 
     LOCAL CONST num PORT := 12001;
     ! s between two looks at what the robot does, and for new clients.
@@ -208,7 +208,7 @@ MODULE ROS_control
         linked := (sequence = ROS_SEQ_STOP);
         IF NOT linked RETURN;
         ask_stop ROS_REASON_STOPPED;
-        IF answered() THEN
+        IF answered(ROS_control_asked_2, ROS_control_done_2) THEN
             confirm client;
         ELSE
             ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
@@ -243,13 +243,13 @@ MODULE ROS_control
         TRYNEXT;
     ENDPROC
 
-    ! TRUE when the supervisor has answered all that it was asked, FALSE if it does not.
-    LOCAL FUNC bool answered()
-        VAR bool late := FALSE;
-
-        WaitUntil ROS_control_done_2 = ROS_control_asked_2 AND ROS_pause_done_2 = ROS_pause_asked_2
-            \MaxTime:=1 \TimeFlag:=late \PollRate:=0.01;
-        RETURN NOT late;
+    ! TRUE when all that was `asked` is `done`, FALSE if it is not within a second.
+    LOCAL FUNC bool answered(PERS num asked, PERS num done)
+        FOR try FROM 1 TO 250 DO
+            IF done = asked RETURN TRUE;
+            WaitTime 0.004;
+        ENDFOR
+        RETURN FALSE;
     ENDFUNC
 
     LOCAL PROC take_pause(VAR socketdev client)
@@ -262,7 +262,7 @@ MODULE ROS_control
         ENDIF
         ROS_pause_wanted_2 := (paused = 1);
         ROS_pause_asked_2 := ROS_next(ROS_pause_asked_2);
-        IF answered() THEN
+        IF answered(ROS_pause_asked_2, ROS_pause_done_2) THEN
             report client, ROS_pause_refused_2;
         ELSE
             report client, ROS_REASON_INTERNAL;
@@ -272,7 +272,6 @@ MODULE ROS_control
     ! The motion task is asked directly: it is the only one that can.
     LOCAL PROC take_speed(VAR socketdev client)
         VAR num percent := 0;
-        VAR bool late := FALSE;
 
         UnpackRawBytes request, 17, percent \Float4;
         IF NOT (1 <= percent AND percent <= 100) THEN
@@ -283,11 +282,10 @@ MODULE ROS_control
             ROS_speed_wanted_2 := percent;
             ROS_speed_of_2 := ROS_session_2;
             ROS_speed_asked_2 := ROS_next(ROS_speed_asked_2);
-            WaitUntil ROS_speed_done_2 = ROS_speed_asked_2 \MaxTime:=1 \TimeFlag:=late \PollRate:=0.01;
-            IF late THEN
-                report client, ROS_REASON_INTERNAL;
-            ELSE
+            IF answered(ROS_speed_asked_2, ROS_speed_done_2) THEN
                 confirm client;
+            ELSE
+                report client, ROS_REASON_INTERNAL;
             ENDIF
         ENDIF
     ENDPROC

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "c01907bce60c";
+    CONST string ROS_BUILD_STREAM := "933d2cbfa38f";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -22,10 +22,12 @@ MODULE ROS_stream
     LOCAL CONST num STEPS := 1000000;
     LOCAL CONST num DEG := 5.729578E-5;
 
-    ! The client's number of the newest stream (0: none), its trajectory, why nothing of it is
-    ! taken any more (reason + 100 x joint), and the point at fault from 0 (-1: none).
+    ! The client's number of the newest stream (0: none), its trajectory, its points that were
+    ! accepted, why nothing of it is taken any more (reason + 100 x joint), and the point at
+    ! fault from 0 (-1: none).
     LOCAL VAR num stream := 0;
     LOCAL VAR num trajectory := 0;
+    LOCAL VAR num accepted := 0;
     LOCAL VAR num code := 0;
     LOCAL VAR num place := -1;
     ! It was handed to the motion task; no point of it follows.
@@ -57,8 +59,8 @@ MODULE ROS_stream
             reject ROS_REASON_CHECKSUM;
         ELSEIF POINT_BYTES * points + ROS_LEN_POINTS <> ROS_frame_length THEN
             reject ROS_REASON_FRAMING;
-        ELSEIF has(ROS_STREAM_BEGIN) AND (NOT is_intact(data, at)) THEN
-            ! Not even that it begins something is sure.
+        ELSEIF has(ROS_STREAM_BEGIN) AND ROS_active() AND (NOT is_intact(data, at)) THEN
+            ! Not even that it begins something is sure: what is under way must not end for it.
             reject ROS_REASON_CHECKSUM;
         ELSEIF has(ROS_STREAM_BEGIN) AND number > 0 THEN
             begin_stream;
@@ -78,14 +80,14 @@ MODULE ROS_stream
         ENDIF
         see_end;
         IF code <> ROS_REASON_NONE THEN
-            pack_refused data, stream, trajectory, ROS_count, code, place;
+            pack_refused data, stream, trajectory, accepted, code, place;
             RETURN;
         ENDIF
         ROS_look told;
         ROS_pack_header data, 40, ROS_MSG_POINTS, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
         PackRawBytes stream, data, 17 \IntX:=DINT;
         PackRawBytes trajectory, data, 21 \IntX:=DINT;
-        PackRawBytes ROS_count, data, 25 \IntX:=DINT;
+        PackRawBytes accepted, data, 25 \IntX:=DINT;
         PackRawBytes room(), data, 29 \IntX:=DINT;
         PackRawBytes told.planned, data, 33 \IntX:=DINT;
         PackRawBytes told.reached, data, 37 \IntX:=DINT;
@@ -96,14 +98,14 @@ MODULE ROS_stream
     PROC ROS_lose_stream()
         IF stream = 0 OR handed_over RETURN;
         see_end;
-        IF code = ROS_REASON_NONE refuse ROS_REASON_INCOMPLETE, ROS_count;
+        IF code = ROS_REASON_NONE refuse ROS_REASON_INCOMPLETE, accepted;
     ENDPROC
 
-    LOCAL PROC pack_refused(VAR rawbytes data, num whose, num its, num accepted, num why, num point)
+    LOCAL PROC pack_refused(VAR rawbytes data, num whose, num its, num points, num why, num point)
         ROS_pack_header data, 36, ROS_MSG_POINTS, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
         PackRawBytes whose, data, 17 \IntX:=DINT;
         PackRawBytes its, data, 21 \IntX:=DINT;
-        PackRawBytes accepted, data, 25 \IntX:=DINT;
+        PackRawBytes points, data, 25 \IntX:=DINT;
         PackRawBytes why MOD 100, data, 29 \IntX:=DINT;
         PackRawBytes point, data, 33 \IntX:=DINT;
         PackRawBytes why DIV 100, data, 37 \IntX:=DINT;
@@ -115,6 +117,7 @@ MODULE ROS_stream
         UnpackRawBytes data, at + 16, word_a \IntX:=ULINT;
         UnpackRawBytes data, at + 24, word_b \IntX:=ULINT;
         number := DnumToNum(word_a MOD UPPER);
+        IF number >= ROS_INDEX_WRAP number := 0;
         flags := DnumToNum(word_a DIV UPPER);
         first := DnumToNum(word_b MOD UPPER);
         points := DnumToNum(word_b DIV UPPER);
@@ -166,6 +169,7 @@ MODULE ROS_stream
         stream := number;
         code := ROS_REASON_NONE;
         place := -1;
+        accepted := 0;
         handed_over := FALSE;
         ended := FALSE;
         ROS_forget_download;
@@ -210,11 +214,11 @@ MODULE ROS_stream
     ! Nothing behind the points that were accepted is executed.
     LOCAL PROC cut(num reason)
         IF NOT handed_over THEN
-            refuse reason, ROS_count;
+            refuse reason, accepted;
             RETURN;
         ENDIF
         code := reason;
-        place := ROS_count;
+        place := accepted;
         ROS_report reason, place;
         IF NOT ended close reason;
     ENDPROC
@@ -237,10 +241,10 @@ MODULE ROS_stream
 
         see_end;
         IF code <> ROS_REASON_NONE RETURN;
-        IF first <> ROS_count OR points > room() OR (ended AND points > 0) THEN
+        IF first <> accepted OR points > room() OR (ended AND points > 0) THEN
             IF NOT is_intact(data, at) THEN
                 cut ROS_REASON_CHECKSUM;
-            ELSEIF first <> ROS_count OR ended THEN
+            ELSEIF first <> accepted OR ended THEN
                 cut ROS_REASON_SEQUENCE_GAP;
             ELSE
                 cut ROS_REASON_OVERRUN;
@@ -257,7 +261,7 @@ MODULE ROS_stream
         take_points data, at;
         IF code <> ROS_REASON_NONE RETURN;
         IF has(ROS_STREAM_END) AND (NOT ended) THEN
-            IF ROS_count = 0 AND (NOT handed_over) THEN
+            IF NOT handed_over THEN
                 ! An end without a beginning.
                 refuse ROS_REASON_SEQUENCE_GAP, 0;
                 RETURN;
@@ -274,7 +278,6 @@ MODULE ROS_stream
         VAR num left;
         VAR dnum sum := 0;
         VAR num head;
-        VAR num count;
 
         IF written = ROS_head_2 THEN
             ! Nothing waits in the ring: the robot stands, or will.
@@ -284,7 +287,6 @@ MODULE ROS_stream
         damaged := FALSE;
         check := checksum_of_head();
         head := written;
-        count := ROS_count;
         here := at + HEAD_BYTES;
         left := points;
         WHILE left > 0 DO
@@ -295,12 +297,12 @@ MODULE ROS_stream
         UnpackRawBytes data, here, sum \IntX:=ULINT;
         IF damaged OR sum <> check THEN
             written := head;
-            ROS_count := count;
             cut ROS_REASON_CHECKSUM;
             RETURN;
         ENDIF
-        ROS_received_2 := ROS_count;
-        IF ROS_count <> count AND (NOT handed_over) THEN
+        accepted := ROS_count;
+        ROS_received_2 := accepted;
+        IF accepted > 0 AND (NOT handed_over) THEN
             handed_over := TRUE;
             ROS_hand_over;
         ENDIF

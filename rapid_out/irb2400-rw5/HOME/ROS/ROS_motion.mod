@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "ea849a35f866";
+    CONST string ROS_BUILD_MOTION := "2872fe1702e2";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -52,7 +52,7 @@ MODULE ROS_motion
         percent := 0;
         set_speed;
         WHILE TRUE DO
-            ! Read before the head: no point comes after this has changed.
+            ! Read before the head of the ring: no point comes after this.
             closed := ROS_closed;
             IF ROS_abort <> ROS_abort_done THEN
                 answer ROS_halt_reason;
@@ -124,8 +124,13 @@ MODULE ROS_motion
     ! came, since that had no successor.
     LOCAL PROC wait_for_points()
         IF ROS_active() AND session = ROS_session ROS_starved := session;
-        WaitUntil ROS_head <> ROS_tail OR ROS_abort <> ROS_abort_done
-            OR ROS_closed <> closed \PollRate:=0.04;
+        IF ROS_active() OR ROS_phase = ROS_TRAJ_RECEIVING THEN
+            ! Points will be here soon.
+            WaitTime 0.008;
+        ELSE
+            WaitUntil ROS_phase = ROS_TRAJ_RECEIVING OR ROS_head <> ROS_tail
+                OR ROS_abort <> ROS_abort_done \PollRate:=0.04;
+        ENDIF
     ENDPROC
 
     ! All points of the trajectory were executed: it is done, or it was cut behind them.
