@@ -76,7 +76,8 @@ class _Pipe(asyncio.Transport):
     def write(self, data):
         if not self.closed:
             self.there.append(bytes(data))
-            self.loop.call_later(self.latency, self._arrive)
+            latency = self.loop.driver.latencies.get(self.port, self.latency)
+            self.loop.call_later(latency, self._arrive)
 
     def _arrive(self):
         self.loop.driver.received(self, self.there.popleft())
@@ -110,6 +111,8 @@ class SimulatedDriver:
     def __init__(self, model, *, state_period=0.1, control=True):
         self.model, self.period, self.control = model, state_period, control
         self.loop = None
+        self.latencies = {}
+        """s that bytes to a port need, where that is not the usual."""
         self.log = []
         """(time, port, message number)"""
 

@@ -178,8 +178,51 @@ def test_a_ring_that_holds_less_than_the_driver_likes_to_have():
             await stream.extend(itertools.islice(wave(), 1000))
         return await stream.result()
 
-    result, _ = streamed(main, preload=60.0, ring=100)
+    result, driver = streamed(main, preload=60.0, ring=100)
     assert (result.points, result.starved) == (1000, 0)
+    # the end and the order to start, and no other question
+    assert driver.model.sizes.count(0) <= 2
+
+
+def test_times_are_put_on_the_grid_and_not_durations():
+    step = 0.1000004
+
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.extend(itertools.islice(wave(step), 1000))
+
+    _, driver = streamed(main)
+    durations = [d for d, _ in driver.model.executed]
+    # the first is that of the way to where the robot stands
+    assert sum(round(d * 1e6) for d in durations[1:]) == round(999 * step * 1e6)
+    assert {round(d * 1e6) for d in durations[1:]} == {100_000, 100_001}
+
+
+def test_no_segment_gets_shorter_than_the_driver_takes_by_rounding():
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.append([0.0, 0.1000006, 0.2000004], [[0.0] * 6] * 3)
+
+    _, driver = streamed(main)
+    assert [round(d * 1e6) for d, _ in driver.model.executed] == [100_000, 100_001, 100_000]
+
+
+def test_points_that_are_read_after_the_stop_do_not_move_it():
+    async def main(robot, driver):
+        # The control server is quick, the motion server has not read the first points yet.
+        driver.latencies[driver.MOTION] = 0.3
+        stream = robot.stream()
+        first = asyncio.ensure_future(stream.append([0, 1], [[0.0] * 6, [0.1] * 6]))
+        await asyncio.sleep(0.01)
+        await robot.stop()
+        await asyncio.gather(first, return_exceptions=True)
+        await asyncio.sleep(5)
+        ports = [port for _, port, number in driver.log if number == 11]
+        assert ports == [driver.CONTROL, driver.MOTION]
+
+    _, driver = streamed(main)
+    assert driver.model.state == TrajectoryState.STOPPED
+    assert driver.model.executed == []
 
 
 def test_a_lost_control_connection_is_missed_by_the_controller():
@@ -284,6 +327,31 @@ def test_the_first_point_is_where_the_robot_stands(far):
 
     _, driver = streamed(main)
     assert driver.model.trajectory == 1
+
+
+def test_one_message_with_the_state_of_before_is_not_believed():
+    async def main(robot, driver):
+        stream = robot.stream()
+        progress, told = driver.model.progress, []
+
+        def stale():
+            # put together of two tasks' data: this trajectory's number, the state of another
+            data = progress()
+            if driver.model.reached == 0 and not told:
+                told.append(data)
+                return data[:20] + DONE.to_bytes(4, "little") + data[24:]
+            return data
+
+        driver.model.progress = stale
+        await stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
+        await asyncio.sleep(0.5)
+        assert told
+        assert not stream.is_over
+        return await stream.result()
+
+    # it does not move before the end has come
+    result, _ = streamed(main, preload=60.0)
+    assert result.seconds > 9
 
 
 def test_pause_resume_and_speed():
