@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "2872fe1702e2";
+    CONST string ROS_BUILD_STREAM := "3d69489c670b";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -101,11 +101,11 @@ MODULE ROS_stream
         IF code = ROS_REASON_NONE refuse ROS_REASON_INCOMPLETE, accepted;
     ENDPROC
 
-    LOCAL PROC pack_refused(VAR rawbytes data, num whose, num its, num points, num why, num point)
+    LOCAL PROC pack_refused(VAR rawbytes data, num whose, num its, num taken, num why, num point)
         ROS_pack_header data, 36, ROS_MSG_POINTS, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
         PackRawBytes whose, data, 17 \IntX:=DINT;
         PackRawBytes its, data, 21 \IntX:=DINT;
-        PackRawBytes points, data, 25 \IntX:=DINT;
+        PackRawBytes taken, data, 25 \IntX:=DINT;
         PackRawBytes why MOD 100, data, 29 \IntX:=DINT;
         PackRawBytes point, data, 33 \IntX:=DINT;
         PackRawBytes why DIV 100, data, 37 \IntX:=DINT;
