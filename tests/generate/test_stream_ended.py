@@ -196,9 +196,28 @@ def test_a_silent_link_gives_way_to_the_newest_client(bench):
     client, _, _ = under_way(b)
     b.vc.network.silence(client.endpoint)
     new = b.client()
-    b.vc.run_for(3)
+    b.vc.run_for(6)
     assert b.group.is_standing
     move_well(b, new)
+
+
+def test_a_stream_whose_batches_come_seconds_apart_is_not_given_away(bench):
+    """Another client waits meanwhile; it is served when the stream has ended and all is quiet."""
+    b = bench()
+    client = b.client()
+    rows = line(HOME, 90)
+    client.send(batch(7, 0, rows[:30], BEGIN))
+    accepted(client)
+    other = b.client()
+    b.vc.run_for(2.5)
+    client.send(batch(7, 30, rows[30:60]))
+    accepted(client)
+    b.vc.run_for(2.5)
+    client.send(batch(7, 60, rows[60:], END))
+    accepted(client)
+    b.vc.run_for(8)
+    assert close_to(b.joints(), rows[-1][1], 1e-6)
+    move_well(b, other)
 
 
 @pytest.mark.parametrize(

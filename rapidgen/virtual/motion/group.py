@@ -542,9 +542,10 @@ class MotionGroup:
         changed = False
         tail = self._path.tail
         if tail is not None and not (tail.stops or tail.finished or self._stops):
-            if not tail.released and now >= self._release:
+            # In ns, as these times were asked for: now in s may lie a bit before them.
+            if not tail.released and self._kernel.now >= ceil(self._release * S):
                 tail.released = changed = True
-            if now >= self._commit:
+            if self._kernel.now >= ceil(self._commit * S):
                 tail.committed = tail.released = changed = True
                 events.corner_failure(self._log, self.name, tail.move)
         self._events.fire(self.motion, now)

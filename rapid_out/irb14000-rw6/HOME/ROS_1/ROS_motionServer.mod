@@ -9,11 +9,15 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "7d71a1584632";
+    CONST string ROS_BUILD_MOTION_SERVER := "3fc0671fe635";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
     LOCAL CONST num LOOK_PERIOD := 0.008;
+    ! s of silence after which a newer client is served, and while a stream is under way, whose
+    ! batches may come far apart
+    LOCAL CONST num PATIENCE := 1;
+    LOCAL CONST num STREAM_PATIENCE := 5;
     LOCAL CONST dnum KIND_TOPIC := 1;
     LOCAL CONST dnum KIND_REQUEST := 2;
 
@@ -58,6 +62,7 @@ MODULE ROS_motionServer
     LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
         VAR num received;
         VAR num quiet := 0;
+        VAR num silence := PATIENCE;
 
         IF NOT taken_over THEN
             WHILE NOT welcome(client, WAIT_MAX) DO
@@ -73,15 +78,17 @@ MODULE ROS_motionServer
                 received := short_look(client);
                 quiet := quiet + LOOK_PERIOD;
             ELSE
-                received := ROS_receive(client, ROS_chunk, 1);
-                quiet := 1;
+                silence := PATIENCE;
+                IF ROS_is_streaming() silence := STREAM_PATIENCE;
+                received := ROS_receive(client, ROS_chunk, silence);
+                quiet := silence;
             ENDIF
             IF received <> 0 THEN
                 quiet := 0;
-            ELSEIF quiet >= 1 THEN
+            ELSEIF quiet >= PATIENCE THEN
                 quiet := 0;
-                ! Silent for a second: a newer client, if there is one, is served instead. It
-                ! may be the same one, whose old link is dead without a word.
+                ! Silent: a newer client, if there is one, is served instead. It may be the same
+                ! one, whose old link is dead without a word.
                 taken_over := welcome(newcomer, 0.001);
             ENDIF
             IF received > 0 THEN
@@ -98,8 +105,8 @@ MODULE ROS_motionServer
         RETURN;
     ENDPROC
 
-    LOCAL FUNC bool welcome(VAR socketdev client, num patience)
-        TEST ROS_accept(server, client, patience)
+    LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
+        TEST ROS_accept(server, client, seconds)
         CASE ROS_ACCEPT_CLIENT:
             RETURN TRUE;
         CASE ROS_ACCEPT_BROKEN:
@@ -122,7 +129,7 @@ MODULE ROS_motionServer
         VAR num waiting;
 
         waiting := ROS_peek(client);
-        IF waiting > 0 RETURN ROS_receive(client, ROS_chunk, 1);
+        IF waiting > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
         IF waiting = 0 WaitTime LOOK_PERIOD;
         RETURN waiting;
     ENDFUNC
