@@ -145,10 +145,10 @@ def _show(report: "Report", uncovered: bool) -> None:
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
-    groups = dict.fromkeys(o.case.group for o in report.outcomes)
+    groups = dict.fromkeys(o.group for o in report.outcomes)
     for group in groups:
-        own = [o for o in report.outcomes if o.case.group == group]
-        answers = sorted({a.strip() for o in own for a in o.case.answers.split(",") if a})
+        own = [o for o in report.outcomes if o.group == group]
+        answers = sorted({a.strip() for o in own for a in o.answers.split(",") if a})
         table.add_row(group, str(sum(o.passed for o in own)), str(len(own)), " ".join(answers))
     if report.schedules:
         held = report.schedules - len(report.findings)
@@ -163,7 +163,7 @@ def _show(report: "Report", uncovered: bool) -> None:
     for outcome in report.outcomes:
         if not outcome.passed:
             setting = f" [{outcome.setting}]" if outcome.setting else ""
-            console.print(f"failed: {outcome.case.name}{setting}: {outcome.detail}", markup=False)
+            console.print(f"failed: {outcome.case}{setting}: {outcome.detail}", markup=False)
     for finding in report.findings:
         console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
     verdict = "everything held" if report.passed else "something did not hold"

@@ -6,6 +6,7 @@ client. Positions are the controller's axes, rad and m, in wire order.
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
@@ -15,6 +16,7 @@ from rapidgen.protocol import WireError, encode, messages, spec
 from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Series
 from rapidgen.system.model import System
+from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.controller import Deadlock, VirtualController
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
@@ -255,6 +257,16 @@ class Bench:
             if task.mechanical_unit_group == self.mechanical_unit and module.casefold() in names:
                 return task.name
         raise KeyError(module)
+
+    def compile(self) -> None:
+        """Compile all RAPID now, not on first call: copies of this bench then need not."""
+        for task in self.controller.rapid_tasks.values():
+            for module in task.program.modules.values():
+                for symbol in module.symbols.values():
+                    if isinstance(symbol, Routine) and symbol.node is not None:
+                        # What cannot be linked ends its task when it is called, not here.
+                        with suppress(FatalError):
+                            task.program.function(symbol)
 
     def fails(
         self, module: str, instruction: str, error: str, times: int = 1

@@ -4,16 +4,18 @@ The cases run once on the driver as it is, with coverage; a mutant is then judge
 that execute its statement, those that have noticed most for their time first.
 """
 
+import os
 import signal
-import time
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from types import FrameType
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.proving.bench import Setting, with_module
+from rapidgen.proving.bench import FAILURES, Bench, Setting, with_module
+from rapidgen.proving.forking import in_a_fork
 from rapidgen.proving.model import Case
 from rapidgen.proving.mutation import Mutant
 from rapidgen.proving.run import attempt
@@ -76,30 +78,47 @@ class Judge:
 
     def judge(self, mutant: Mutant) -> Verdict:
         """Try one case after another until one notices the mutant."""
-        started = time.process_time()
+        started = _spent()
         system = with_module(self._system, mutant.path, mutant.text)
-        tried = 0
-        for case in self.concerned(mutant):
-            tried += 1
-            by = self._noticed_by(case, system)
-            if by:
-                self._noticed[case.name] += 1
-                return Verdict(by, time.process_time() - started, tried)
-        return Verdict("", time.process_time() - started, tried)
+        try:
+            bench = Bench(self._config, system, self._setting)
+        except DiagnosticError:
+            return Verdict("(not loaded)", _seconds(started), 0)
+        bench.compile()
+        tried, by = 0, ""
+        try:
+            for case in self.concerned(mutant):
+                tried += 1
+                by = in_a_fork(partial(self._noticed_by, case, bench))
+                if by:
+                    self._noticed[case.name] += 1
+                    break
+        finally:
+            bench.close()
+        return Verdict(by, _seconds(started), tried)
 
-    def _noticed_by(self, case: Case, system: System) -> str:
+    def _noticed_by(self, case: Case, bench: Bench) -> str:
         least, times = PATIENCE
         signal.signal(signal.SIGPROF, _hang)
         signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
         try:
-            outcome = attempt(case, self._config, system, self._setting)
+            case.prove(bench)
+            bench.healthy()
+        except (*FAILURES, DiagnosticError):
+            return case.name
         except _Hung:
             return f"{case.name} (hangs)"
-        except DiagnosticError:
-            return "(not loaded)"
-        finally:
-            signal.setitimer(signal.ITIMER_PROF, 0)
-        return "" if outcome.passed else case.name
+        return ""
+
+
+def _spent() -> float:
+    """s of CPU of this process and of those that it has waited for."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system
+
+
+def _seconds(started: float) -> float:
+    return _spent() - started
 
 
 def _hang(_signal: int, _frame: FrameType | None) -> None:

@@ -14,13 +14,17 @@ class Broken(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """One behaviour of the driver. `answers` names what upstream gets wrong here, if anything."""
+    """One behaviour of the driver. `answers` names what upstream gets wrong here, if anything.
+
+    `once`: it takes too long for every setting, and runs under the default ones alone.
+    """
 
     name: str
     title: str
     group: str
     prove: "Callable[[Bench], None]"
     answers: str = ""
+    once: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,9 +38,12 @@ class Series:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came out of one case under one setting of the assumptions."""
+    """What came out of one case, by name, under one setting of the assumptions."""
 
-    case: Case
+    case: str
+    group: str
+    title: str
+    answers: str
     passed: bool
     detail: str = ""
     setting: str = ""

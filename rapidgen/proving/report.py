@@ -33,7 +33,7 @@ def write_junit(report: Report, path: Path) -> None:
         case = ElementTree.SubElement(
             suite,
             "testcase",
-            classname=f"{report.name}.{outcome.case.group}",
+            classname=f"{report.name}.{outcome.group}",
             name=_name(outcome),
             time=f"{outcome.elapsed:.3f}",
         )
@@ -119,7 +119,7 @@ def missed(report: Report) -> list[tuple[str, str]]:
 
 
 def _name(outcome: Outcome) -> str:
-    return outcome.case.name + (f" [{outcome.setting}]" if outcome.setting else "")
+    return outcome.case + (f" [{outcome.setting}]" if outcome.setting else "")
 
 
 def _xml(text: str) -> str:
@@ -129,8 +129,8 @@ def _xml(text: str) -> str:
 def _row(outcome: Outcome) -> str:
     verdict = '<td class="ok">ok' if outcome.passed else '<td class="bad">failed'
     return (
-        f"<tr><td>{html.escape(_name(outcome))}<td>{html.escape(outcome.case.title)}"
-        f"<td>{html.escape(outcome.case.answers)}<td>{outcome.simulated:.2f} s{verdict}</tr>\n"
+        f"<tr><td>{html.escape(_name(outcome))}<td>{html.escape(outcome.title)}"
+        f"<td>{html.escape(outcome.answers)}<td>{outcome.simulated:.2f} s{verdict}</tr>\n"
     )
 
 

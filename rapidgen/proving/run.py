@@ -12,6 +12,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import FAILURES, Bench, Setting, add_lines
 from rapidgen.proving.explore import Explored, explore
+from rapidgen.proving.forking import in_a_fork
 from rapidgen.proving.model import Case, Outcome, Report
 from rapidgen.proving.suite import CASES
 from rapidgen.system.model import System
@@ -29,6 +30,7 @@ class _Job:
 
 # What a worker needs, inherited by fork: the configuration and its generated system.
 _shared: tuple[RobotConfig, System] | None = None
+_ready: "dict[str, Starter]" = {}
 
 
 def settings(config: RobotConfig) -> dict[str, Setting]:
@@ -92,7 +94,7 @@ def prove(
         _Job(number, name, setting)
         for name, setting in chosen.items()
         for number, case in enumerate(CASES)
-        if cases and (not only or case.name in only)
+        if cases and (case.name in only or (not only and (setting.coverage or not case.once)))
     ]
     report.outcomes = _each(work, _attempt, jobs, "cases", progress)
     if not only:
@@ -102,6 +104,9 @@ def prove(
         report.schedules = len(explored)
         report.findings = [e.finding for e in explored if e.finding is not None]
     report.elapsed = time.monotonic() - started
+    for starter in _ready.values():
+        starter.close()
+    _ready.clear()
     return report
 
 
@@ -130,33 +135,62 @@ def _each(
 
 def _attempt(job: _Job) -> Outcome:
     assert _shared is not None
-    outcome = attempt(CASES[job.case], *_shared, job.setting)
-    return replace(outcome, setting=job.name)
+    # Jobs come setting by setting, so one controller is kept.
+    if job.name not in _ready:
+        for starter in _ready.values():
+            starter.close()
+        _ready.clear()
+        _ready[job.name] = Starter(*_shared, job.setting)
+    return replace(_ready[job.name].attempt(CASES[job.case]), setting=job.name)
+
+
+class Starter:
+    """A booted controller from which each case starts anew, in a process of its own."""
+
+    def __init__(self, config: RobotConfig, system: System, setting: Setting) -> None:
+        self._bench = Bench(config, system, setting)
+        self._bench.compile()
+
+    def attempt(self, case: Case) -> Outcome:
+        """One case; faults of the driver are outcomes, faults of ours fly."""
+        return in_a_fork(lambda: _outcome(case, self._bench))
+
+    def close(self) -> None:
+        """Give the controller back."""
+        self._bench.close()
 
 
 def attempt(case: Case, config: RobotConfig, system: System, setting: Setting) -> Outcome:
     """One case under one setting; faults of the driver are outcomes, faults of ours fly."""
-    started = time.process_time()
     bench = Bench(config, system, setting)
+    try:
+        return _outcome(case, bench)
+    finally:
+        bench.close()
+
+
+def _outcome(case: Case, bench: Bench) -> Outcome:
+    started = time.process_time()
     detail = ""
     try:
         case.prove(bench)
         bench.healthy()
     except FAILURES as error:
         detail = str(error) or type(error).__name__
-    try:
-        return Outcome(
-            case=case,
-            passed=not detail,
-            detail=detail,
-            simulated=bench.now,
-            elapsed=time.process_time() - started,
-            log=bench.log() if detail else (),
-            series=bench.series() if detail or setting.coverage else (),
-            lines=bench.lines(),
-        )
-    finally:
-        bench.close()
+    # The case's function may be none that can be sent from process to process.
+    return Outcome(
+        case=case.name,
+        group=case.group,
+        title=case.title,
+        answers=case.answers,
+        passed=not detail,
+        detail=detail,
+        simulated=bench.now,
+        elapsed=time.process_time() - started,
+        log=bench.log() if detail else (),
+        series=bench.series() if detail or bench.setting.coverage else (),
+        lines=bench.lines(),
+    )
 
 
 def _explore(seed: int) -> Explored:

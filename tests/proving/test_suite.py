@@ -9,11 +9,11 @@ import pytest
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench, with_module
+from rapidgen.proving.bench import Bench, Setting, with_module
 from rapidgen.proving.explore import explore
 from rapidgen.proving.model import Broken
 from rapidgen.proving.mutation import mutants
-from rapidgen.proving.run import prove, settings
+from rapidgen.proving.run import Starter, prove, settings
 from rapidgen.proving.suite import CASES
 from rapidgen.rapid import parse
 
@@ -48,17 +48,10 @@ OF_THE_CONTROLLER = (
 
 def broken(config, names, setting=None):
     """What did not hold, of the named cases."""
-    system = make_system(config, build(config))
-    found = {}
-    for name in names:
-        bench = Bench(config, system, setting)
-        try:
-            BY_NAME[name].prove(bench)
-        except Broken as error:
-            found[name] = str(error)
-        finally:
-            bench.close()
-    return found
+    starter = Starter(config, make_system(config, build(config)), setting or Setting())
+    outcomes = [starter.attempt(BY_NAME[name]) for name in names]
+    starter.close()
+    return {outcome.case: outcome.detail for outcome in outcomes if not outcome.passed}
 
 
 @pytest.mark.parametrize("group", dict.fromkeys(case.group for case in CASES))

@@ -1,5 +1,7 @@
 """The behaviours that a generated driver must have: one file a theme."""
 
+from dataclasses import replace
+
 from rapidgen.proving.model import Case
 from rapidgen.proving.suite import (
     compatible,
@@ -18,7 +20,7 @@ from rapidgen.proving.suite import (
     watching,
 )
 
-CASES: tuple[Case, ...] = (
+_ALL: tuple[Case, ...] = (
     *compatible.CASES,
     *paired.CASES,
     *refusals.CASES,
@@ -34,3 +36,18 @@ CASES: tuple[Case, ...] = (
     *failing.CASES,
     *faults.CASES,
 )
+
+# They boot many controllers, or let hours pass.
+_ONCE = {
+    "counters-wrap",
+    "does-not-read",
+    "full-capacity",
+    "half-files",
+    "mixed-builds",
+    "stale-data",
+    "state-for-hours",
+    "stop-every-statement",
+    "stream",
+}
+
+CASES = tuple(replace(case, once=case.name in _ONCE) for case in _ALL)

@@ -1,0 +1,79 @@
+"""Mutants are judged by the cases that reach them, in copies of a booted controller."""
+
+import os
+import signal
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import with_module
+from rapidgen.proving.forking import ForkFailed, in_a_fork
+from rapidgen.proving.judging import Judge
+from rapidgen.proving.mutation import Mutant, mutants
+from rapidgen.proving.suite import CASES
+
+SIX_AXES = load_config("irb120")
+SYSTEM = make_system(SIX_AXES, build(SIX_AXES))
+FEW = [case for case in CASES if case.name in ("ping", "stop-answered", "whole-trajectory")]
+
+
+@pytest.fixture(scope="module")
+def judge():
+    return Judge(SIX_AXES, SYSTEM, FEW)
+
+
+def file_of(name):
+    return next(m for t in SYSTEM.tasks for m in t.modules if m.name == name)
+
+
+def changed(name, old, new):
+    file = file_of(name)
+    at = file.data.index(old)
+    line = file.data.count(b"\n", 0, at) + 1
+    return Mutant(file.path, line, line, "", file.data.replace(old, new, 1))
+
+
+def test_a_mutant_is_noticed_by_a_case_that_reaches_it(judge):
+    mutant = changed(
+        "ROS_motion", b"MoveAbsJ point.target, SPEED \\T:=point.duration, fine", b"WaitTime 0;!"
+    )
+    assert [case.name for case in judge.concerned(mutant)] == ["whole-trajectory"]
+    verdict = judge.judge(mutant)
+    assert verdict.by == "whole-trajectory"
+    assert verdict.tried == 1
+
+
+def test_a_mutant_that_no_case_reaches_survives(judge):
+    mutant = changed("ROS_motion", b"fault := ROS_REASON_INTERNAL;", b"fault := 1;")
+    assert judge.concerned(mutant) == []
+    assert judge.judge(mutant).by == ""
+
+
+def test_a_mutant_that_cannot_be_loaded_is_noticed(judge):
+    mutant = changed("ROS_motion", b"ENDMODULE", b"")
+    assert judge.judge(mutant).by == "(not loaded)"
+
+
+def test_a_case_that_does_not_hold_at_all_judges_nothing():
+    file = file_of("ROS_motion")
+    text = file.data.replace(b"MoveAbsJ point.target", b"MoveAbsJ ROS_none.target")
+    with pytest.raises(ValueError, match="does not hold"):
+        Judge(SIX_AXES, with_module(SYSTEM, file.path, text), FEW)
+
+
+def test_the_statement_around_a_mutant_is_where_the_suite_must_get_to():
+    file = file_of("ROS_motion")
+    lines = file.data.decode().splitlines()
+    for mutant in mutants(file.data, file.path):
+        assert mutant.statement <= mutant.line
+        if mutant.statement:
+            assert not lines[mutant.statement - 1].lstrip().startswith(("ELSE", "!", "PROC"))
+
+
+def test_a_fork_answers_raises_or_fails():
+    assert in_a_fork(lambda: [1, "two"]) == [1, "two"]
+    with pytest.raises(KeyError, match="lost"):
+        in_a_fork(lambda: {}["lost"])
+    with pytest.raises(ForkFailed):
+        in_a_fork(lambda: os.kill(os.getpid(), signal.SIGKILL))
