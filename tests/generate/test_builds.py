@@ -11,6 +11,7 @@ from tests.generate.bench import STOP, point, trajectory
 from tests.generate.driving import (
     FIVE,
     MIXED,
+    NOT_EXECUTING,
     SECONDS,
     assert_refused,
     mix,
@@ -19,6 +20,7 @@ from tests.generate.driving import (
     send_all,
     with_old_file,
 )
+from tests.generate.streams import BEGIN, batch, line, refused
 
 
 @pytest.mark.parametrize("role", ["motion", "motion_server", "supervisor", "control", "state"])
@@ -79,3 +81,38 @@ def test_missing_signals_are_not_fatal(bench):
     state = b.state_client()
     assert b.status(state) == (-1, -1, 0, 0, 0, 2, 1)
     move_well(b)
+
+
+@pytest.mark.parametrize("shown", ["", "0123456789ab"])
+@pytest.mark.parametrize("how", ["download", "stream"])
+def test_a_program_that_has_not_run_yet_is_not_of_another_build(bench, shown, how):
+    """After loading, before the first Start, the motion task shows nothing, or its last build."""
+    b = bench()
+    b.vc.perform("stop")
+    mix(b, "motion", shown)
+    b.vc.run_for(3)
+    client, state = b.client(), b.state_client()
+    if how == "download":
+        send_all(client, trajectory(FIVE, SECONDS))
+        assert reply_of(client) == (2, (NOT_EXECUTING, -1, 0))
+    else:
+        client.send(batch(7, 0, line([0.0] * 6, 5), BEGIN))
+        assert refused(client) == (7, 1, 0, NOT_EXECUTING, -1, 0)
+    assert b.status(state)[2:4] == (NOT_EXECUTING, 1)
+    assert not [e for e in b.vc.log if "ROS: tasks of different builds" in str(e)]
+    b.vc.perform("pp-to-main")
+    b.vc.perform("start")
+    b.vc.run_for(0.5)
+    move_well(b, client)
+
+
+def test_without_the_signal_a_program_that_never_ran_is_told_by_what_it_shows(bench):
+    b = bench()
+    b.vc.close()
+    b.vc = VirtualController(replace(b.system, signals=(), outputs=()), b.config.groups)
+    b.vc.perform("stop")
+    b.vc.run_for(0.5)
+    mix(b, "motion", "")
+    client = b.client()
+    send_all(client, trajectory(FIVE, SECONDS))
+    assert reply_of(client) == (2, (NOT_EXECUTING, -1, 0))
