@@ -27,6 +27,8 @@ KEPT_STATES = 16
 _RATE_WINDOW = 16
 _NOISE = 1e-4
 """rad or m"""
+_PACED = 6
+"""States that tell the pace of a driver's clock."""
 _NAMES = {message.number: message.name for message in spec.MESSAGES}
 
 
@@ -181,14 +183,19 @@ class Tracker:
         return (len(self._times) - 1) / span if span > 0 else 0.0
 
     @property
-    def pace(self) -> float:
+    def pace(self) -> float | None:
         """How much faster the driver's clock runs than this one, by the period of its states.
 
-        1 where nobody can say; a simulation may run faster, a controller does not.
+        None before enough of them have come; 1 where nobody will ever say. A simulation may run
+        faster, a controller does not.
         """
         period = self.driver.hello.state_period if self.driver.hello is not None else 0.0
-        span = self._times[-1] - self._first if self.samples > 1 else 0.0
-        return (self.samples - 1) * period / span if span > 0 and period > 0 else 1.0
+        if period <= 0:
+            return 1.0
+        if self.samples < _PACED:
+            return None
+        span = self._times[-1] - self._first
+        return (self.samples - 1) * period / span if span > 0 else None
 
     @property
     def state(self) -> State | None:

@@ -108,8 +108,9 @@ class SimulatedDriver:
 
     MOTION, CONTROL, STATE = 11000, 11001, 11002
 
-    def __init__(self, model, *, state_period=0.1, control=True):
-        self.model, self.period, self.control = model, state_period, control
+    def __init__(self, model, *, state_period=0.1, control=True, pace=1):
+        """`pace`: how much faster its clock runs than it says."""
+        self.model, self.period, self.control, self.pace = model, state_period, control, pace
         self.loop = None
         self.latencies = {}
         """s that bytes to a port need, where that is not the usual."""
@@ -155,7 +156,7 @@ class SimulatedDriver:
         limits = [3.0] * model.joints + [0.0] * (10 - model.joints)
         features = 1 | 4 | (2 if self.control else 0)
         head = (2, 0, 1, 0, b"0123456789ab", b"", features, 1000, model.joints, 0)
-        data = struct.pack("<4i12s12s4i4f", *head, self.period, 0.1, 0.00873, 0.005)
+        data = struct.pack("<4i12s12s4i4f", *head, self.period * self.pace, 0.1, 0.00873, 0.005)
         data += struct.pack("<30f", *[-v for v in limits], *limits, *[4.0] * 10)
         port = self.CONTROL if self.control else 0
         data += struct.pack("<iifii", port, model.ring, model.preload, model.batch, 2)

@@ -375,8 +375,8 @@ def test_the_limits_of_the_controller_count_where_they_are_narrower(fake, client
         assert robot.group.joints[1].upper < 3.0
 
 
-@pytest.mark.parametrize("pace", [1, 8])
-def test_a_simulation_that_runs_faster_misses_nobody_sooner(fake, client, pace):
+@pytest.mark.parametrize(("pace", "slack"), [(1, 1), (8, 3)])
+def test_a_simulation_that_runs_faster_misses_nobody_sooner(fake, client, pace, slack):
     # told 0.01 s, comes every 0.01 s of this clock or more often
     controller = fake(**streams(speed=1), state_period=0.01)
     hello = controller._hello
@@ -396,7 +396,7 @@ def test_a_simulation_that_runs_faster_misses_nobody_sooner(fake, client, pace):
         stream.cancel()
     beats = [beat for beat in controller.script.stream.heartbeats if beat]
     # a busy machine tells later, never sooner
-    assert pace / 4 < beats[-1] / 2 <= 1.1 * pace
+    assert pace / 4 < beats[-1] / 2 <= 1.1 * pace * slack
     assert beats[-1] >= 2
 
 

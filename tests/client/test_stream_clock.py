@@ -36,8 +36,9 @@ def streamed(main, **options):
     control = options.pop("control", True)
     timeouts = options.pop("timeouts", Timeouts())
     period = options.pop("state_period", 0.1)
+    pace = options.pop("pace", 1)
     model = StreamModel(**options)
-    driver = SimulatedDriver(model, control=control, state_period=period)
+    driver = SimulatedDriver(model, control=control, state_period=period, pace=pace)
 
     async def with_robot():
         async with AsyncRobot("127.0.0.1", timeouts=timeouts) as robot:
@@ -439,6 +440,21 @@ def test_heartbeats_come_while_it_moves_and_end_with_it():
     assert set(beats[:-1]) == {2}
     # every half second, on a clock of 0.1 s
     assert 15 <= len(beats) <= 25
+
+
+def test_no_heartbeat_is_asked_for_before_the_pace_of_a_simulation_is_known():
+    """As long as a controller would wait is a moment on a clock that runs ten times as fast."""
+
+    async def main(robot, driver):
+        async with robot.stream() as stream:
+            await stream.append([0, 2], [[0.0] * 6, [0.1] * 6])
+        await stream.result()
+        first = next(time for time, _, number in driver.log if number == 1306)
+        return first, driver.model.heartbeats
+
+    (first, beats), _ = streamed(main, timeouts=Timeouts(heartbeat=2), pace=10)
+    assert first > 0.4
+    assert min(beats) >= 2 * 10
 
 
 def test_heartbeats_come_with_a_download_too_and_not_without_a_motion():
