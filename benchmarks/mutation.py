@@ -1,10 +1,12 @@
 """Which share of all mutants of the generated modules does the suite notice?
 
-    python benchmarks/mutation.py [--every N] [--jobs N] [--output FILE] [ROBOT]
+    python benchmarks/mutation.py [--every N] [--offset N] [--jobs N] [--budget S] [--output FILE]
+        [--again] [ROBOT]
 
 One fixed operator list (rapidgen/proving/mutation.py); every place in a routine where an operator
-fits is a mutant, equivalent ones included. `--every N` takes each N-th. A mutant is judged by the
-cases of `rapidgen test` that execute its statement, until one notices it.
+fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. A
+mutant is judged by the cases of `rapidgen test` that execute its statement, until one notices it
+or `--budget` s of CPU are spent: what no case has noticed by then counts as a survivor.
 
 Verdicts go to FILE (JSON lines) as they come; a run that was broken off goes on there. Survivors
 are listed: each is a missing case, or the same program in other words. `--again` judges the
@@ -14,6 +16,7 @@ survivors of FILE once more, for cases that have been added since.
 import argparse
 import hashlib
 import json
+import math
 import sys
 import time
 from collections import Counter
@@ -25,7 +28,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.judging import Judge
+from rapidgen.proving.judging import HANGS, Judge
 from rapidgen.proving.mutation import mutants
 from rapidgen.proving.suite import CASES
 
@@ -38,21 +41,23 @@ def key_of(mutant):
 
 def judged(number):
     mutant = FOUND[number]
-    return number, JUDGE.judge(mutant)
+    return number, JUDGE.judge(mutant, ARGUMENTS.budget)
 
 
 def known():
     """Verdicts of an earlier run, by key."""
     if ARGUMENTS.output is None or not ARGUMENTS.output.exists():
         return {}
-    rows = map(json.loads, ARGUMENTS.output.read_text(encoding="utf-8").splitlines())
+    rows = [json.loads(r) for r in ARGUMENTS.output.read_text(encoding="utf-8").splitlines()]
+    for row in rows:
+        JUDGE.learn(row["path"], row["line"], row["by"])
     return {r["key"]: r for r in rows if r["by"] or not ARGUMENTS.again}
 
 
 def main():
     verdicts = known()
     keys = {number: key_of(mutant) for number, mutant in enumerate(FOUND)}
-    chosen = list(range(0, len(FOUND), ARGUMENTS.every))
+    chosen = list(range(ARGUMENTS.offset, len(FOUND), ARGUMENTS.every))
     left = [number for number in chosen if keys[number] not in verdicts]
     print(f"{len(chosen)} of {len(FOUND)} mutants, {len(left)} to be judged", flush=True)
     started = time.monotonic()
@@ -68,6 +73,7 @@ def main():
                 "by": verdict.by,
                 "seconds": round(verdict.seconds, 3),
                 "tried": verdict.tried,
+                "left": verdict.left,
             }
             verdicts[row["key"]] = row
             if ARGUMENTS.output is not None:
@@ -80,6 +86,8 @@ def show(rows, seconds):
     for row in rows:
         if not row["by"]:
             reached = "" if row["tried"] else " (no case gets there)"
+            if row["left"]:
+                reached = f" ({row['left']} cases not tried)"
             print(f"  survives: {row['path']}:{row['line']} {row['change'][:100]}{reached}")
     for path in dict.fromkeys(row["path"] for row in rows):
         own = [row for row in rows if row["path"] == path]
@@ -87,7 +95,7 @@ def show(rows, seconds):
     dead = sum(bool(row["by"]) for row in rows)
     print(f"{'all':36} {dead:4} of {len(rows):4} = {dead / len(rows):.1%}")
     spent = sum(row["seconds"] for row in rows)
-    hung = sum(row["by"].endswith("(hangs)") for row in rows)
+    hung = sum(row["by"].endswith(HANGS) for row in rows)
     print(f"{spent:.0f} s of CPU, {spent / len(rows):.2f} a mutant; {hung} hang; {seconds:.0f} s")
     killers = Counter(row["by"] for row in rows if row["by"])
     print("noticed by", ", ".join(f"{name} {count}" for name, count in killers.most_common(12)))
@@ -97,6 +105,8 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("robot", nargs="?", default="irb120")
     parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--offset", type=int, default=0)
+    parser.add_argument("--budget", type=float, default=math.inf)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path)
     parser.add_argument("--again", action="store_true")
@@ -105,5 +115,5 @@ if __name__ == "__main__":
     SYSTEM = make_system(CONFIG, build(CONFIG))
     FILES = {m.path: m.data for t in SYSTEM.tasks for m in t.modules}
     FOUND = [mutant for path, data in sorted(FILES.items()) for mutant in mutants(data, path)]
-    JUDGE = Judge(CONFIG, SYSTEM, CASES)
+    JUDGE = Judge(CONFIG, SYSTEM, CASES, jobs=ARGUMENTS.jobs)
     main()

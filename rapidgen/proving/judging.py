@@ -1,12 +1,12 @@
 """Which mutants does the suite notice?
 
 The cases run once on the driver as it is, with coverage; a mutant is then judged only by the cases
-that execute its statement, those that have noticed most for their time first.
+that execute its statement, those that have noticed most around it for their time first.
 """
 
+import math
 import os
 import signal
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -16,14 +16,21 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.bench import FAILURES, Bench, Setting, with_module
 from rapidgen.proving.forking import in_a_fork
-from rapidgen.proving.model import Case
+from rapidgen.proving.model import Case, Outcome
 from rapidgen.proving.mutation import Mutant
-from rapidgen.proving.run import attempt
+from rapidgen.proving.run import Starter, each
 from rapidgen.system.model import System
 
 PATIENCE = (5.0, 20.0)
 """A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
 is more. A mutant that takes longer hangs the driver: whoever runs the suite sees that."""
+HANGS = " (hangs)"
+NEAR = 12
+"""Lines: what a case has noticed this near to a mutant counts more than what it has elsewhere."""
+
+
+# What the runs without a mutation need, inherited by fork.
+_baseline: tuple[Starter, Sequence[Case]] | None = None
 
 
 class _Hung(Exception):
@@ -32,11 +39,15 @@ class _Hung(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What became of a mutant: `by` names the case that noticed it, empty: none did."""
+    """What became of a mutant: `by` names the case that noticed it, empty: none did.
+
+    `left`: cases that execute it and were not tried any more.
+    """
 
     by: str
     seconds: float
     tried: int
+    left: int = 0
 
 
 class Judge:
@@ -48,36 +59,48 @@ class Judge:
         system: System,
         cases: Sequence[Case],
         setting: Setting | None = None,
+        jobs: int = 1,
     ) -> None:
         """Run all cases once. Raises ValueError when one does not hold without a mutation."""
+        global _baseline  # noqa: PLW0603 - workers inherit it by fork
         self._config = config
         self._system = system
         self._setting = setting if setting is not None else Setting()
-        self._usual: dict[str, float] = {}
-        self._lines: dict[str, set[tuple[str, int]]] = {}
-        self._noticed: Counter[str] = Counter()
+        self._noticed: list[tuple[str, int, str]] = []
         self._cases = {case.name: case for case in cases}
-        for case in cases:
-            outcome = attempt(case, config, system, replace(self._setting, coverage=True))
+        starter = Starter(config, system, replace(self._setting, coverage=True))
+        _baseline = (starter, cases)
+        outcomes = each(range(len(cases)), _as_it_is, jobs)
+        starter.close()
+        for outcome in outcomes:
             if not outcome.passed:
-                raise ValueError(f"{case.name} does not hold: {outcome.detail}")
-            self._usual[case.name] = outcome.elapsed
-            self._lines[case.name] = {
-                (path, line)
-                for path, lines in outcome.lines.items()
-                for line, hits in lines.items()
-                if hits
-            }
+                raise ValueError(f"{outcome.case} does not hold: {outcome.detail}")
+        self._usual = {o.case: o.elapsed for o in outcomes}
+        self._lines = {
+            o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
+            for o in outcomes
+        }
+
+    def learn(self, path: str, line: int, case: str) -> None:
+        """A mutant there was noticed by this case: it may well notice the next one, too."""
+        name = case.removesuffix(HANGS)
+        if name in self._cases:
+            self._noticed.append((path, line, name))
 
     def concerned(self, mutant: Mutant) -> list[Case]:
         """The cases that execute the mutant's statement, in the order to be tried."""
         place = (mutant.path, mutant.statement)
         names = [n for n in self._cases if not mutant.statement or place in self._lines[n]]
-        names.sort(key=lambda n: -(self._noticed[n] + 1) / self._usual[n])
+        worth = dict.fromkeys(names, 1.0)
+        for path, line, name in self._noticed:
+            if name in worth:
+                near = path == mutant.path and abs(line - mutant.line) <= NEAR
+                worth[name] += 5 if near else 0.05
+        names.sort(key=lambda n: -worth[n] / self._usual[n])
         return [self._cases[name] for name in names]
 
-    def judge(self, mutant: Mutant) -> Verdict:
-        """Try one case after another until one notices the mutant."""
+    def judge(self, mutant: Mutant, budget: float = math.inf) -> Verdict:
+        """Try one case after another until one notices it, or `budget` s of CPU are spent."""
         started = _spent()
         system = with_module(self._system, mutant.path, mutant.text)
         try:
@@ -85,17 +108,20 @@ class Judge:
         except DiagnosticError:
             return Verdict("(not loaded)", _seconds(started), 0)
         bench.compile()
+        concerned = self.concerned(mutant)
         tried, by = 0, ""
         try:
-            for case in self.concerned(mutant):
+            for case in concerned:
+                if _seconds(started) > budget:
+                    break
                 tried += 1
                 by = in_a_fork(partial(self._noticed_by, case, bench))
                 if by:
-                    self._noticed[case.name] += 1
+                    self.learn(mutant.path, mutant.line, case.name)
                     break
         finally:
             bench.close()
-        return Verdict(by, _seconds(started), tried)
+        return Verdict(by, _seconds(started), tried, 0 if by else len(concerned) - tried)
 
     def _noticed_by(self, case: Case, bench: Bench) -> str:
         least, times = PATIENCE
@@ -107,8 +133,15 @@ class Judge:
         except (*FAILURES, DiagnosticError):
             return case.name
         except _Hung:
-            return f"{case.name} (hangs)"
+            return case.name + HANGS
         return ""
+
+
+def _as_it_is(number: int) -> Outcome:
+    assert _baseline is not None
+    starter, cases = _baseline
+    # Plots and the log are of no use here.
+    return replace(starter.attempt(cases[number]), series=(), log=())
 
 
 def _spent() -> float:

@@ -16,6 +16,7 @@ from rapidgen.proving.forking import in_a_fork
 from rapidgen.proving.model import Case, Outcome, Report
 from rapidgen.proving.suite import CASES
 from rapidgen.system.model import System
+from rapidgen.virtual.cell import in_its_cell
 from rapidgen.virtual.dialect import Dialect
 
 R = TypeVar("R")
@@ -83,7 +84,7 @@ def prove(
     """
     global _shared  # noqa: PLW0603 - workers inherit it by fork
     output = build(config)
-    system = make_system(config, output)
+    system = in_its_cell(make_system(config, output), config)
     _shared = (config, system)
     started = time.monotonic()
     report = Report(config.name, output.build_id)
@@ -96,11 +97,11 @@ def prove(
         for number, case in enumerate(CASES)
         if cases and (case.name in only or (not only and (setting.coverage or not case.once)))
     ]
-    report.outcomes = _each(work, _attempt, jobs, "cases", progress)
+    report.outcomes = each(work, _attempt, jobs, "cases", progress)
     if not only:
         for outcome in report.outcomes:
             add_lines(report.lines, outcome.lines)
-        explored = _each(list(range(seeds)), _explore, jobs, "schedules", progress)
+        explored = each(list(range(seeds)), _explore, jobs, "schedules", progress)
         report.schedules = len(explored)
         report.findings = [e.finding for e in explored if e.finding is not None]
     report.elapsed = time.monotonic() - started
@@ -110,13 +111,14 @@ def prove(
     return report
 
 
-def _each(
+def each(
     work: Sequence[object],
     function: Callable[..., R],
     jobs: int | None,
-    what: str,
-    progress: Callable[[str, int, int], None] | None,
+    what: str = "",
+    progress: Callable[[str, int, int], None] | None = None,
 ) -> list[R]:
+    """Results of a module's function for each piece of work, in order, on several processes."""
     count = jobs or os.cpu_count() or 1
     results = []
     if count == 1:
@@ -201,5 +203,5 @@ def _explore(seed: int) -> Explored:
 
 def replay(config: RobotConfig, seed: int, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
-    system = make_system(config, build(config))
+    system = in_its_cell(make_system(config, build(config)), config)
     return explore(config, system, seed, trace=trace)

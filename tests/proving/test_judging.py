@@ -2,6 +2,7 @@
 
 import os
 import signal
+from dataclasses import replace
 
 import pytest
 
@@ -77,3 +78,17 @@ def test_a_fork_answers_raises_or_fails():
         in_a_fork(lambda: {}["lost"])
     with pytest.raises(ForkFailed):
         in_a_fork(lambda: os.kill(os.getpid(), signal.SIGKILL))
+
+
+def test_a_case_that_noticed_a_neighbour_is_tried_first(judge):
+    mutant = changed("ROS_socket", b"RETURN part_bytes > 0;", b"RETURN part_bytes >= 0;")
+    last = judge.concerned(replace(mutant, statement=0))[-1].name
+    judge.learn(mutant.path, mutant.line + 2, last)
+    assert judge.concerned(replace(mutant, statement=0))[0].name == last
+    judge.learn(mutant.path, mutant.line, "(not loaded)")
+
+
+def test_what_was_not_tried_for_want_of_time_is_counted(judge):
+    mutant = changed("ROS_socket", b"part_bytes := 0;\n        RETURN", b"RETURN")
+    every = replace(mutant, statement=0)
+    assert judge.judge(every, budget=0).left == len(FEW)
