@@ -81,6 +81,7 @@ def run(
     line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
     stopped with an error, on a deadlock, and at the limits of time and statements.
     """
+    from rapidgen.cli.loadable import refuse_unloadable
     from rapidgen.config import load_config
     from rapidgen.diagnostics import DiagnosticError, Severity, render
     from rapidgen.system import is_generated, read_manifest
@@ -94,13 +95,17 @@ def run(
         _writable(target)
     system = _system(files, task, entry)
     if check:
-        _check(system)
-    if not robot and len(files) == 1 and files[0].is_dir() and is_generated(files[0]):
+        refuse_unloadable(system)
+    robots = None
+    if len(files) == 1 and files[0].is_dir() and is_generated(files[0]):
         from rapidgen.config import from_manifest
+        from rapidgen.virtual.cell import in_its_cell
 
-        robots = tuple(from_manifest(read_manifest(files[0])["configuration"]).groups)
-    else:
-        robots = groups_for(system, load_config(robot or DEFAULT_ROBOT))
+        config = from_manifest(read_manifest(files[0])["configuration"])
+        system = in_its_cell(system, config)
+        robots = None if robot else config.groups
+    if robots is None:
+        robots = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
     tracing = trace or bool(profile) or coverage is not None
     with VirtualController(
         system,
@@ -178,19 +183,6 @@ def _writable(path: Path) -> None:
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}"
         raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, message)) from error
-
-
-def _check(system: "System") -> None:
-    """Refuse what no controller loads; names that nothing declares are found when reached.
-
-    Warnings are `rapidgen check`'s business.
-    """
-    from rapidgen.diagnostics import DiagnosticError, Severity
-    from rapidgen.rapid import check
-
-    errors = [d for d in check(system, gaps=True) if d.severity is Severity.ERROR]
-    if errors:
-        raise DiagnosticError(errors)
 
 
 def _dialect(text: str) -> "Dialect":

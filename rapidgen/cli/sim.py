@@ -56,13 +56,18 @@ def sim(
         list[str] | None,
         typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
     ] = None,
+    check: Annotated[
+        bool, typer.Option(help="Refuse programs that a controller would not load.")
+    ] = True,
 ) -> int:
     """Run a virtual controller in real time.
 
-    When its servers may be reached, stdout gets one line: `ready` and a JSON object with the
-    ports of each group, of the control socket, and of the file servers with their login. What
-    the operator and the event log would show goes to stderr. Ctrl-C ends it.
+    What a controller would not load is refused: all its errors are told, nothing runs. When
+    its servers may be reached, stdout gets one line: `ready` and a JSON object with the ports of
+    each group, of the control socket, and of the file servers with their login. What the
+    operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
+    from rapidgen.cli.loadable import refuse_unloadable
     from rapidgen.cli.targets import load_target
     from rapidgen.virtual.control_commands import commands, subscribe
     from rapidgen.virtual.control_socket import ControlSocket
@@ -77,6 +82,8 @@ def sim(
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
+    if check:
+        refuse_unloadable(chosen.system)
     if ports is None and chosen.driver:
         _check_ports(chosen, host, port_offset)
     with VirtualController(

@@ -34,9 +34,10 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
         raise _no_target(target)
     from rapidgen.config import load_config
     from rapidgen.generate import build, make_system
+    from rapidgen.virtual.cell import in_its_cell
 
     config = load_config(target, overrides=tuple(overrides))
-    system = make_system(config, build(config))
+    system = in_its_cell(make_system(config, build(config)), config)
     return Target(config.name, system, config.groups, True, tuple(config.diagnostics))
 
 
@@ -44,10 +45,12 @@ def _folder(path: Path, robot: str) -> Target:
     from rapidgen.config import from_manifest
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.system import is_generated, read_manifest, read_system
+    from rapidgen.virtual.cell import in_its_cell
 
     if is_generated(path):
         config = from_manifest(read_manifest(path)["configuration"])
-        return Target(config.name, read_system(path), config.groups, True)
+        system = in_its_cell(read_system(path), config)
+        return Target(config.name, system, config.groups, True)
     notes: list[Diagnostic] = []
     system = read_system(path, notes=notes)
     groups, more = _mechanics(system, robot)

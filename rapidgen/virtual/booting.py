@@ -5,12 +5,14 @@ from os import PathLike
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.system.model import System
+from rapidgen.virtual.cell import in_its_cell
 
 
 def generated_system(
     config: "RobotConfig | str | PathLike[str]", overrides: tuple[str, ...] = ()
 ) -> tuple[System, RobotConfig]:
-    """The system that `rapidgen build` makes of a configuration, a file of one, or a shipped name.
+    """The system that `rapidgen build` makes of a configuration, a file of one, or a shipped name,
+    in its cell.
 
     Raises DiagnosticError.
     """
@@ -18,4 +20,4 @@ def generated_system(
 
     if not isinstance(config, RobotConfig):
         config = load_config(str(config), overrides=overrides)
-    return make_system(config, build(config)), config
+    return in_its_cell(make_system(config, build(config)), config), config

@@ -13,6 +13,7 @@ from rapidgen.rapid import Dialect as TextDialect
 from rapidgen.rapid import nodes as n
 from rapidgen.rapid import parse
 from rapidgen.system.model import ModuleFile, System
+from rapidgen.virtual.cell import in_its_cell
 from rapidgen.virtual.compiler.base import Options
 from rapidgen.virtual.compiler.predefined import find_type
 from rapidgen.virtual.compiler.program import Shared
@@ -293,9 +294,10 @@ class VirtualController(ControllerState):
 
         folder = Path(path)
         system = read_system(folder)
-        if "robots" not in options and is_generated(folder):
+        if is_generated(folder):
             config = from_manifest(read_manifest(folder)["configuration"])
-            options["robots"] = tuple(config.groups)
+            system = in_its_cell(system, config)
+            options.setdefault("robots", tuple(config.groups))
         return cls(system, **options)
 
     @classmethod

@@ -9,6 +9,8 @@ import sys
 
 import pytest
 
+from rapidgen.cli.app import main
+
 JOINT, STATUS = 10, 13
 SIM = [sys.executable, "-m", "rapidgen.cli", "sim"]
 
@@ -157,14 +159,20 @@ CAB_TASKS:
 """
 
 
-def test_a_backup_of_somebody_elses_program(start, tmp_path):
-    """The address in it is the controller's own; here it is this machine, on any free port."""
-    backup = tmp_path / "cell_3"
+def a_backup(folder, text):
+    """A backup of one task with one module."""
+    backup = folder / "cell_3"
     (backup / "RAPID" / "TASK1" / "PROGMOD").mkdir(parents=True)
     (backup / "SYSPAR").mkdir()
     (backup / "HOME").mkdir()
-    (backup / "RAPID" / "TASK1" / "PROGMOD" / "echo.mod").write_text(SERVER)
+    (backup / "RAPID" / "TASK1" / "PROGMOD" / "echo.mod").write_text(text)
     (backup / "SYSPAR" / "SYS.cfg").write_text(SYS)
+    return backup
+
+
+def test_a_backup_of_somebody_elses_program(start, tmp_path):
+    """The address in it is the controller's own; here it is this machine, on any free port."""
+    backup = a_backup(tmp_path, SERVER)
     sim = start(str(backup), "--ports", "auto")
     assert sim.ready["ports"] == {}
     with sim.connect(sim.ready["listeners"]["5000"]) as sock:
@@ -191,6 +199,60 @@ def test_faults_reach_real_sockets(start, tmp_path):
             state.recv(1)
     assert len(data) == 60
     assert sim.control(do="status")["result"]["motors_on"] is False
+
+
+EXPOSED = (
+    *("--set", "signals.gripper={kind: DO, access: write}"),
+    *("--set", "signals.part={kind: DI}"),
+    *("--set", "signals.code={kind: GO, access: write}"),
+    *("--set", "signals.flow={kind: AI}"),
+)
+
+
+def of_signal(sock, index, value=None):
+    """Read or write a signal over a group's control connection; its value then."""
+    write = value is not None
+    sock.sendall(struct.pack("<4i2if", 24, 1307, 2, 0, index, write, value or 0.0))
+    kind, data = message_of_any(sock)
+    assert kind == 1307
+    assert struct.unpack_from("<i", data)[0] == index
+    return struct.unpack_from("<f", data, 4)[0]
+
+
+def message_of_any(sock):
+    """One message without a look at its kind of communication: (type, data)."""
+    length, kind, _, _ = struct.unpack("<4i", sock.recv(16, socket.MSG_WAITALL))
+    return kind, sock.recv(length - 12, socket.MSG_WAITALL)
+
+
+@pytest.mark.parametrize("built", [False, True])
+def test_signals_that_the_configuration_exposes_are_there(start, tmp_path, built):
+    """They are the customer's, so that no generated EIO.cfg has them; here they are made."""
+    target = ["irb120", *EXPOSED]
+    if built:
+        out = tmp_path / "out"
+        assert main(["build", *target, "-o", str(out)]) == 0
+        assert "gripper" not in (out / "EIO.cfg").read_text()
+        target = [str(out)]
+    sim = start(*target, "--ports", "auto")
+    with sim.connect(sim.ready["ports"]["rob1"]["control"]) as own:
+        assert of_signal(own, 0, 1) == 1
+        assert sim.control(do="signals")["result"]["gripper"] == 1
+        sim.control(do="set-signal", name="part", value=1)
+        assert of_signal(own, 1) == 1
+        assert of_signal(own, 2, 70_000) == 70_000
+        sim.control(do="set-signal", name="flow", value=1.5)
+        assert of_signal(own, 3) == 1.5
+
+
+def test_what_no_controller_loads_is_refused_whole(start, tmp_path):
+    """As `run` does it."""
+    backup = a_backup(tmp_path, SERVER.replace("SocketListen", "text := 1;\n        SocketListen"))
+    code, out, err = failing(str(backup), "--ports", "auto")
+    assert (code, out) == (2, "")
+    assert "RG307" in err
+    sim = start(str(backup), "--ports", "auto", "--no-check")
+    assert sim.end()[0] == 0
 
 
 def failing(*arguments):
