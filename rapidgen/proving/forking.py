@@ -10,6 +10,8 @@ import warnings
 from collections.abc import Callable
 from typing import TypeVar
 
+from rapidgen.virtual.files import remove_scratch_folders
+
 R = TypeVar("R")
 
 
@@ -49,4 +51,5 @@ def _answer(function: Callable[[], object], writing: int) -> None:
         with os.fdopen(writing, "wb") as stream:
             pickle.dump(answer, stream)
     finally:
+        remove_scratch_folders()
         os._exit(0)

@@ -59,32 +59,45 @@ register_type("iodev", IODevice)
 register_type("dir", Directory)
 
 
-def _remove(folder: Path, owner: int) -> None:
+_SCRATCH: dict[Path, int] = {}
+"""Scratch folders that are there, and the process that made each: a fork inherits them."""
+
+
+def _remove(folder: Path) -> None:
     """Remove a scratch folder, unless this is a forked copy of the process that made it."""
-    if os.getpid() == owner:
+    if _SCRATCH.pop(folder, None) == os.getpid():
         shutil.rmtree(folder, ignore_errors=True)
+
+
+def remove_scratch_folders() -> None:
+    """Remove what controllers of this process left, where it ends by `os._exit`."""
+    for folder in tuple(_SCRATCH):
+        _remove(folder)
 
 
 class FileSystem:
     """Disks of one controller in `folder`, or in a scratch folder that `close` removes.
 
-    A controller that nobody closed takes its scratch folder with it, too.
-
-    HOME: starts as a copy of `home`; links in it are left out.
+    A scratch folder is made when it is needed: few drivers touch a file. A controller that nobody
+    closed takes its own with it, too. HOME: starts as a copy of `home`; links in it are left out.
     """
 
     def __init__(self, folder: Path | None = None, *, home: Path | None = None) -> None:
-        self.folder = Path(tempfile.mkdtemp(prefix="rapidgen-")) if folder is None else folder
-        self._scratch = (
-            weakref.finalize(self, _remove, self.folder, os.getpid()) if folder is None else None
-        )
         self._room = CAPACITY
         self._open: dict[IODevice | Directory, str] = {}
-        for name in dict.fromkeys(_DEVICES.values()):
-            (self.folder / name).mkdir(parents=True, exist_ok=True)
-        self.folder = self.folder.resolve()
+        self._scratch: weakref.finalize[[Path], FileSystem] | None = None
+        self._folder = None if folder is None else _with_devices(folder)
         if home is not None:
             shutil.copytree(home, self.folder / "HOME", ignore=_links, dirs_exist_ok=True)
+
+    @property
+    def folder(self) -> Path:
+        """The folder that holds the devices."""
+        if self._folder is None:
+            self._folder = _with_devices(Path(tempfile.mkdtemp(prefix="rapidgen-")))
+            _SCRATCH[self._folder] = os.getpid()
+            self._scratch = weakref.finalize(self, _remove, self._folder)
+        return self._folder
 
     def close(self) -> None:
         """Close every file and remove a scratch folder."""
@@ -157,6 +170,12 @@ class FileSystem:
     def room(self) -> int:
         """Bytes that may still be written."""
         return self._room
+
+
+def _with_devices(folder: Path) -> Path:
+    for name in dict.fromkeys(_DEVICES.values()):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    return folder.resolve()
 
 
 def _split(text: str) -> tuple[str, str]:

@@ -2,10 +2,13 @@
 
 import gc
 import os
+import tempfile
 from multiprocessing import get_context
 
 import pytest
 
+from rapidgen.proving.forking import in_a_fork
+from rapidgen.virtual.controller import VirtualController
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.files import Directory, FileSystem, IODevice
@@ -334,6 +337,34 @@ def test_scratch_folder_goes_with_its_controller():
     del disks
     gc.collect()
     assert not folder.exists()
+
+
+def test_what_a_fork_made_goes_with_it(tmp_path, monkeypatch):
+    """A copy that ends by `os._exit`, with files open and nothing closed."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    disks = FileSystem()
+    disks.path("HOME:/parent").write_text("x")
+
+    def work():
+        left = FileSystem()
+        left.path("HOME:/a").write_text("x")
+        kept.append(left)
+        return len(os.listdir(tmp_path))
+
+    kept = []
+    assert in_a_fork(work) == 2
+    assert os.listdir(tmp_path) == [disks.folder.name]
+    assert disks.path("HOME:/parent").is_file()
+    disks.close()
+    assert os.listdir(tmp_path) == []
+
+
+def test_a_controller_that_touches_no_file_makes_no_folder(tmp_path, monkeypatch):
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    with VirtualController.from_config("irb120") as controller:
+        controller.run_for(1.0)
+        assert controller.tasks["T_ROB1"].state == "running"
+        assert os.listdir(tmp_path) == []
 
 
 @pytest.mark.filterwarnings("ignore:.*fork:DeprecationWarning")
