@@ -14,14 +14,14 @@ from types import FrameType
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.proving.bench import FAILURES, Bench, Setting, with_module
+from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.forking import in_a_fork
 from rapidgen.proving.model import Case, Outcome
 from rapidgen.proving.mutation import Mutant
 from rapidgen.proving.run import Starter, each
 from rapidgen.system.model import System
 
-PATIENCE = (5.0, 20.0)
+PATIENCE = (2.0, 12.0)
 """A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
 is more. A mutant that takes longer hangs the driver: whoever runs the suite sees that."""
 HANGS = " (hangs)"
@@ -63,12 +63,10 @@ class Judge:
     ) -> None:
         """Run all cases once. Raises ValueError when one does not hold without a mutation."""
         global _baseline  # noqa: PLW0603 - workers inherit it by fork
-        self._config = config
-        self._system = system
-        self._setting = setting if setting is not None else Setting()
+        chosen = setting if setting is not None else Setting()
         self._noticed: list[tuple[str, int, str]] = []
         self._cases = {case.name: case for case in cases}
-        starter = Starter(config, system, replace(self._setting, coverage=True))
+        starter = Starter(config, system, replace(chosen, coverage=True))
         _baseline = (starter, cases)
         outcomes = each(range(len(cases)), _as_it_is, jobs)
         starter.close()
@@ -80,6 +78,8 @@ class Judge:
             o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
             for o in outcomes
         }
+        self._bench = Bench(config, system, chosen)
+        self._bench.compile()
 
     def learn(self, path: str, line: int, case: str) -> None:
         """A mutant there was noticed by this case: it may well notice the next one, too."""
@@ -95,41 +95,44 @@ class Judge:
         for path, line, name in self._noticed:
             if name in worth:
                 near = path == mutant.path and abs(line - mutant.line) <= NEAR
-                worth[name] += 5 if near else 0.05
+                worth[name] += 50 if near else 0.05
         names.sort(key=lambda n: -worth[n] / self._usual[n])
         return [self._cases[name] for name in names]
 
     def judge(self, mutant: Mutant, budget: float = math.inf) -> Verdict:
         """Try one case after another until one notices it, or `budget` s of CPU are spent."""
         started = _spent()
-        system = with_module(self._system, mutant.path, mutant.text)
-        try:
-            bench = Bench(self._config, system, self._setting)
-        except DiagnosticError:
-            return Verdict("(not loaded)", _seconds(started), 0)
-        bench.compile()
-        concerned = self.concerned(mutant)
-        tried, by = 0, ""
-        try:
-            for case in concerned:
-                if _seconds(started) > budget:
-                    break
-                tried += 1
-                by = in_a_fork(partial(self._noticed_by, case, bench))
-                if by:
-                    self.learn(mutant.path, mutant.line, case.name)
-                    break
-        finally:
-            bench.close()
-        return Verdict(by, _seconds(started), tried, 0 if by else len(concerned) - tried)
+        by, tried, left = in_a_fork(partial(self._try, mutant, budget))
+        self.learn(mutant.path, mutant.line, by)
+        return Verdict(by, _spent() - started, tried, left)
 
-    def _noticed_by(self, case: Case, bench: Bench) -> str:
+    def close(self) -> None:
+        """Give the controller back."""
+        self._bench.close()
+
+    def _try(self, mutant: Mutant, budget: float) -> tuple[str, int, int]:
+        """Who notices the mutant, how many were tried, and how many were left out."""
+        started = _spent()
+        try:
+            self._bench.exchange(mutant.path, mutant.text)
+        except DiagnosticError:
+            return "(not loaded)", 0, 0
+        concerned = self.concerned(mutant)
+        for tried, case in enumerate(concerned):
+            if _spent() - started >= budget:
+                return "", tried, len(concerned) - tried
+            by = in_a_fork(partial(self._noticed_by, case))
+            if by:
+                return by, tried + 1, 0
+        return "", len(concerned), 0
+
+    def _noticed_by(self, case: Case) -> str:
         least, times = PATIENCE
         signal.signal(signal.SIGPROF, _hang)
         signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
         try:
-            case.prove(bench)
-            bench.healthy()
+            case.prove(self._bench)
+            self._bench.healthy()
         except (*FAILURES, DiagnosticError):
             return case.name
         except _Hung:
@@ -148,10 +151,6 @@ def _spent() -> float:
     """s of CPU of this process and of those that it has waited for."""
     times = os.times()
     return times.user + times.system + times.children_user + times.children_system
-
-
-def _seconds(started: float) -> float:
-    return _spent() - started
 
 
 def _hang(_signal: int, _frame: FrameType | None) -> None:

@@ -23,6 +23,7 @@ from rapidgen.rapid.nodes import (
     While,
 )
 from rapidgen.virtual.tracing import STATEMENTS
+from rapidgen.virtual.values import single
 
 _SWAPS = {
     "<": "<=",
@@ -81,8 +82,10 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
     for node in _inside_routines(module):
         start, end = of(node)
         if isinstance(node, NumberLiteral):
-            more = f"{node.value + 1:g}"
-            yield mutant(start, end, more, f"{node.text} -> {more}", node.first)
+            # A num that is too large to count one more would stay what it is.
+            if single(node.value + 1) != single(node.value):
+                more = f"{node.value + 1:.9g}"
+                yield mutant(start, end, more, f"{node.text} -> {more}", node.first)
         elif isinstance(node, Branch | While | CompactIf):
             first, last = of(node.condition)
             inner = source.text[first:last]

@@ -21,7 +21,9 @@ FEW = [case for case in CASES if case.name in ("ping", "stop-answered", "whole-t
 
 @pytest.fixture(scope="module")
 def judge():
-    return Judge(SIX_AXES, SYSTEM, FEW)
+    judge = Judge(SIX_AXES, SYSTEM, FEW)
+    yield judge
+    judge.close()
 
 
 def file_of(name):
