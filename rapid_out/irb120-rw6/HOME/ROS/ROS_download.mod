@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "6427becc6917";
+    CONST string ROS_BUILD_DOWNLOAD := "d969e9dc1396";
 
     LOCAL CONST dnum NO_BITS := 0;
 
@@ -38,13 +38,13 @@ MODULE ROS_download
 
     ! Check the point at byte `at` of `data` and add it; refuse the trajectory if it is wrong.
     PROC ROS_add_point(VAR rawbytes data, num at, num sequence)
-        VAR num joint_1 := 0;
-        VAR num joint_2 := 0;
-        VAR num joint_3 := 0;
-        VAR num joint_4 := 0;
-        VAR num joint_5 := 0;
-        VAR num joint_6 := 0;
-        VAR dnum zeros := 0;
+        VAR num joint_1;
+        VAR num joint_2;
+        VAR num joint_3;
+        VAR num joint_4;
+        VAR num joint_5;
+        VAR num joint_6;
+        VAR dnum zeros;
 
         IF ROS_count >= ROS_CAPACITY THEN
             ROS_refuse_download ROS_REASON_CAPACITY, ROS_count, sequence = ROS_SEQ_END;
@@ -183,7 +183,7 @@ MODULE ROS_download
     ENDPROC
 
     LOCAL PROC check_padding(VAR rawbytes data, num at)
-        VAR num padding := 0;
+        VAR num padding;
 
         FOR joint FROM 7 TO ROS_MAX_JOINTS DO
             UnpackRawBytes data, at + 16 + 4 * joint, padding \Float4;

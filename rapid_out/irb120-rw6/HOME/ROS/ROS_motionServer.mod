@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "6427becc6917";
+    CONST string ROS_BUILD_MOTION_SERVER := "d969e9dc1396";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -191,7 +191,7 @@ MODULE ROS_motionServer
 
     ! A message that brings no points.
     LOCAL PROC take_other(VAR socketdev client, VAR rawbytes data, num at)
-        VAR num comm := 0;
+        VAR num comm;
 
         UnpackRawBytes data, at + 8, comm \IntX:=DINT;
         IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT THEN

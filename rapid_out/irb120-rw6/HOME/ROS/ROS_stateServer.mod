@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "6427becc6917";
+    CONST string ROS_BUILD_STATE_SERVER := "d969e9dc1396";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -53,7 +53,7 @@ MODULE ROS_stateServer
     ! The time stamp of feedback counts CLOCK_LIMIT exactly: by what the clock had run over.
     LOCAL VAR num overrun := 0;
     LOCAL VAR num stamp := 0;
-    LOCAL VAR num told_stamp := -1;
+    LOCAL VAR num told_stamp := 0;
 
     LOCAL VAR ROS_progress newest;
     ! What was told last, so that a movement between two messages is told too.
@@ -85,7 +85,7 @@ MODULE ROS_stateServer
             ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_form_state state;
-        ROS_form_progress progress;
+        ROS_form progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
         ROS_form_feedback feedback;
         ROS_listen server, PORT;
         WHILE TRUE DO
@@ -105,7 +105,6 @@ MODULE ROS_stateServer
         ticks := 0;
         offset := 0;
         overrun := 0;
-        told_stamp := -1;
         ClkReset schedule;
         ClkStart schedule;
         ClkReset since_look;
@@ -219,18 +218,14 @@ MODULE ROS_stateServer
         message_bytes := message_bytes + bytes;
     ENDPROC
 
-    ! JOINT_FEEDBACK; without velocities the first time, since there is nothing to compare with.
+    ! JOINT_FEEDBACK: nobody can ask for it before there is something to compare with.
     LOCAL PROC measure(jointtarget joints)
         VAR num seconds;
 
-        ROS_pack_feedback feedback, state, stamp;
-        IF told_stamp < 0 THEN
-            ROS_pack_no_velocities feedback;
-            RETURN;
-        ENDIF
         seconds := stamp - told_stamp;
-        IF seconds < 0 seconds := seconds + CLOCK_LIMIT;
-        IF seconds > 0 ROS_pack_velocities feedback, joints, told_joints, seconds;
+        IF seconds <= 0 seconds := seconds + CLOCK_LIMIT;
+        ROS_pack_feedback feedback, state, stamp;
+        ROS_pack_velocities feedback, joints, told_joints, seconds;
     ENDPROC
 
     ! TRUE if a client has asked for a feature.
@@ -352,10 +347,10 @@ MODULE ROS_stateServer
 
     LOCAL TRAP on_event
         VAR trapdata found;
-        VAR errdomain domain := 0;
-        VAR num number := 0;
-        VAR errtype type := 0;
-        VAR string title := "";
+        VAR errdomain domain;
+        VAR num number;
+        VAR errtype type;
+        VAR string title;
         VAR num place;
 
         IF (events_put - events_taken + ROS_WRAP) MOD ROS_WRAP >= EVENTS THEN

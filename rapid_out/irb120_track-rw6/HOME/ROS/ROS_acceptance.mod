@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "783ab244d672";
+    CONST string ROS_BUILD_ACCEPTANCE := "feefa96ac009";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -142,43 +142,31 @@ MODULE ROS_acceptance
     ! Seconds `needed` to the first point, 0 if it stands there; `joint` is the
     ! first one that is too far from it, 0 if none is.
     PROC ROS_reach_start(jointtarget here, jointtarget start, INOUT num needed, INOUT num joint)
-        VAR num way;
-
         needed := 0;
         joint := 0;
-        way := Abs(start.robax.rax_1 - here.robax.rax_1);
-        IF way > THERE AND way / (ROS_SPEED_1 * APPROACH) > needed
-            needed := way / (ROS_SPEED_1 * APPROACH);
-        IF joint = 0 AND way > NEAR_1 joint := 1;
-        way := Abs(start.robax.rax_2 - here.robax.rax_2);
-        IF way > THERE AND way / (ROS_SPEED_2 * APPROACH) > needed
-            needed := way / (ROS_SPEED_2 * APPROACH);
-        IF joint = 0 AND way > NEAR_2 joint := 2;
-        way := Abs(start.robax.rax_3 - here.robax.rax_3);
-        IF way > THERE AND way / (ROS_SPEED_3 * APPROACH) > needed
-            needed := way / (ROS_SPEED_3 * APPROACH);
-        IF joint = 0 AND way > NEAR_3 joint := 3;
-        way := Abs(start.robax.rax_4 - here.robax.rax_4);
-        IF way > THERE AND way / (ROS_SPEED_4 * APPROACH) > needed
-            needed := way / (ROS_SPEED_4 * APPROACH);
-        IF joint = 0 AND way > NEAR_4 joint := 4;
-        way := Abs(start.robax.rax_5 - here.robax.rax_5);
-        IF way > THERE AND way / (ROS_SPEED_5 * APPROACH) > needed
-            needed := way / (ROS_SPEED_5 * APPROACH);
-        IF joint = 0 AND way > NEAR_5 joint := 5;
-        way := Abs(start.robax.rax_6 - here.robax.rax_6);
-        IF way > THERE AND way / (ROS_SPEED_6 * APPROACH) > needed
-            needed := way / (ROS_SPEED_6 * APPROACH);
-        IF joint = 0 AND way > NEAR_6 joint := 6;
-        way := Abs(start.extax.eax_a - here.extax.eax_a);
-        IF way > THERE AND way / (ROS_SPEED_7 * APPROACH) > needed
-            needed := way / (ROS_SPEED_7 * APPROACH);
-        IF joint = 0 AND way > NEAR_7 joint := 7;
-        way := Abs(start.extax.eax_b - here.extax.eax_b);
-        IF way > THERE AND way / (ROS_SPEED_8 * APPROACH) > needed
-            needed := way / (ROS_SPEED_8 * APPROACH);
-        IF joint = 0 AND way > NEAR_8 joint := 8;
-        IF 0 < needed AND needed < ROS_SHORTEST needed := ROS_SHORTEST;
+        reach_start Abs(start.robax.rax_1 - here.robax.rax_1), ROS_SPEED_1, NEAR_1, 1,
+            needed, joint;
+        reach_start Abs(start.robax.rax_2 - here.robax.rax_2), ROS_SPEED_2, NEAR_2, 2,
+            needed, joint;
+        reach_start Abs(start.robax.rax_3 - here.robax.rax_3), ROS_SPEED_3, NEAR_3, 3,
+            needed, joint;
+        reach_start Abs(start.robax.rax_4 - here.robax.rax_4), ROS_SPEED_4, NEAR_4, 4,
+            needed, joint;
+        reach_start Abs(start.robax.rax_5 - here.robax.rax_5), ROS_SPEED_5, NEAR_5, 5,
+            needed, joint;
+        reach_start Abs(start.robax.rax_6 - here.robax.rax_6), ROS_SPEED_6, NEAR_6, 6,
+            needed, joint;
+        reach_start Abs(start.extax.eax_a - here.extax.eax_a), ROS_SPEED_7, NEAR_7, 7,
+            needed, joint;
+        reach_start Abs(start.extax.eax_b - here.extax.eax_b), ROS_SPEED_8, NEAR_8, 8,
+            needed, joint;
+    ENDPROC
+
+    LOCAL PROC reach_start(num way, num speed, num near, num n, INOUT num needed, INOUT num joint)
+        IF joint = 0 AND way > near joint := n;
+        IF way <= THERE RETURN;
+        IF needed < ROS_SHORTEST needed := ROS_SHORTEST;
+        IF needed < way / (speed * APPROACH) needed := way / (speed * APPROACH);
     ENDPROC
 
     ! Ask the supervisor whether the trajectory may start. A halt that is still under way is

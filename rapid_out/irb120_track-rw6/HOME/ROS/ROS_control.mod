@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "783ab244d672";
+    CONST string ROS_BUILD_CONTROL := "feefa96ac009";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -157,7 +157,7 @@ MODULE ROS_control
     ! The message that begins at byte `at` of `data`. Anything but a request of the right length
     ! breaks the link, unless its type is not known.
     LOCAL PROC take_request(VAR socketdev client, VAR rawbytes data, num at)
-        VAR num comm := 0;
+        VAR num comm;
         VAR num wanted := 0;
 
         ClearRawBytes request;
@@ -215,7 +215,7 @@ MODULE ROS_control
 
     ! STOP is the only point that comes here. The reply comes when the stop is sure to last.
     LOCAL PROC take_stop(VAR socketdev client)
-        VAR num sequence := 0;
+        VAR num sequence;
 
         UnpackRawBytes request, 17, sequence \IntX:=DINT;
         linked := (sequence = ROS_SEQ_STOP);
@@ -266,7 +266,7 @@ MODULE ROS_control
     ENDFUNC
 
     LOCAL PROC take_pause(VAR socketdev client)
-        VAR num paused := 0;
+        VAR num paused;
 
         UnpackRawBytes request, 17, paused \IntX:=DINT;
         IF paused <> 0 AND paused <> 1 THEN
@@ -284,7 +284,7 @@ MODULE ROS_control
 
     ! The motion task is asked directly: it is the only one that can.
     LOCAL PROC take_speed(VAR socketdev client)
-        VAR num percent := 0;
+        VAR num percent;
 
         UnpackRawBytes request, 17, percent \Float4;
         IF NOT (1 <= percent AND percent <= 100) THEN
@@ -304,7 +304,7 @@ MODULE ROS_control
     ENDPROC
 
     LOCAL PROC take_heartbeat(VAR socketdev client)
-        VAR num seconds := 0;
+        VAR num seconds;
 
         UnpackRawBytes request, 17, seconds \Float4;
         IF NOT (0 <= seconds AND seconds <= LONGEST) THEN
@@ -332,7 +332,7 @@ MODULE ROS_control
         told_dead := trajectory;
         IF ROS_started = trajectory reached := ROS_reached;
         joints := CJointT();
-        ROS_pack_header answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED, ROS_COMM_TOPIC, ROS_REPLY_NONE;
+        ROS_form answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED;
         PackRawBytes trajectory, answer, 17 \IntX:=DINT;
         PackRawBytes reached, answer, 21 \IntX:=DINT;
         PackRawBytes ROS_dead_reason MOD 100, answer, 25 \IntX:=DINT;
@@ -344,15 +344,14 @@ MODULE ROS_control
         PackRawBytes joints.robax.rax_6 / ROS_DEG, answer, 49 \Float4;
         PackRawBytes joints.extax.eax_a / ROS_MM, answer, 53 \Float4;
         PackRawBytes joints.extax.eax_b / ROS_DEG, answer, 57 \Float4;
-        ROS_pack_zeros answer, 61, ROS_LEN_STOPPED + 4;
         send_answer client;
     ENDPROC
 
     ! SIGNAL: read one, or write it first.
     LOCAL PROC take_signal(VAR socketdev client)
-        VAR num index := 0;
-        VAR num write := 0;
-        VAR num value := 0;
+        VAR num index;
+        VAR num write;
+        VAR num value;
         VAR num fault;
 
         UnpackRawBytes request, 17, index \IntX:=DINT;

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "783ab244d672";
+    CONST string ROS_BUILD_STREAM := "feefa96ac009";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -140,7 +140,7 @@ MODULE ROS_stream
 
     ! TRUE if the checksum of the batch is right.
     LOCAL FUNC bool is_intact(VAR rawbytes data, num at)
-        VAR dnum word := 0;
+        VAR dnum word;
         VAR num here;
         VAR num behind;
 
@@ -283,7 +283,7 @@ MODULE ROS_stream
     LOCAL PROC take_points(VAR rawbytes data, num at)
         VAR num here;
         VAR num left;
-        VAR dnum sum := 0;
+        VAR dnum sum;
         VAR num head;
 
         IF written = ROS_head THEN
@@ -323,11 +323,11 @@ MODULE ROS_stream
     ! Check the point at byte `at` of `data`, and write it into the ring unless it or one before
     ! it is wrong.
     LOCAL PROC take_point(VAR rawbytes data, num at, bool last)
-        VAR dnum word_1 := 0;
-        VAR dnum word_2 := 0;
-        VAR dnum word_3 := 0;
-        VAR dnum word_4 := 0;
-        VAR dnum word_5 := 0;
+        VAR dnum word_1;
+        VAR dnum word_2;
+        VAR dnum word_3;
+        VAR dnum word_4;
+        VAR dnum word_5;
         VAR num joint_1;
         VAR num joint_2;
         VAR num joint_3;

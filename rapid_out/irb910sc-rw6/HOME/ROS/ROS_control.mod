@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "91205cbbcef1";
+    CONST string ROS_BUILD_CONTROL := "3e9798de1011";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -146,7 +146,7 @@ MODULE ROS_control
     ! The message that begins at byte `at` of `data`. Anything but a request of the right length
     ! breaks the link, unless its type is not known.
     LOCAL PROC take_request(VAR socketdev client, VAR rawbytes data, num at)
-        VAR num comm := 0;
+        VAR num comm;
         VAR num wanted := 0;
 
         ClearRawBytes request;
@@ -202,7 +202,7 @@ MODULE ROS_control
 
     ! STOP is the only point that comes here. The reply comes when the stop is sure to last.
     LOCAL PROC take_stop(VAR socketdev client)
-        VAR num sequence := 0;
+        VAR num sequence;
 
         UnpackRawBytes request, 17, sequence \IntX:=DINT;
         linked := (sequence = ROS_SEQ_STOP);
@@ -253,7 +253,7 @@ MODULE ROS_control
     ENDFUNC
 
     LOCAL PROC take_pause(VAR socketdev client)
-        VAR num paused := 0;
+        VAR num paused;
 
         UnpackRawBytes request, 17, paused \IntX:=DINT;
         IF paused <> 0 AND paused <> 1 THEN
@@ -271,7 +271,7 @@ MODULE ROS_control
 
     ! The motion task is asked directly: it is the only one that can.
     LOCAL PROC take_speed(VAR socketdev client)
-        VAR num percent := 0;
+        VAR num percent;
 
         UnpackRawBytes request, 17, percent \Float4;
         IF NOT (1 <= percent AND percent <= 100) THEN
@@ -291,7 +291,7 @@ MODULE ROS_control
     ENDPROC
 
     LOCAL PROC take_heartbeat(VAR socketdev client)
-        VAR num seconds := 0;
+        VAR num seconds;
 
         UnpackRawBytes request, 17, seconds \Float4;
         IF NOT (0 <= seconds AND seconds <= LONGEST) THEN
@@ -319,7 +319,7 @@ MODULE ROS_control
         told_dead := trajectory;
         IF ROS_started = trajectory reached := ROS_reached;
         joints := CJointT();
-        ROS_pack_header answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED, ROS_COMM_TOPIC, ROS_REPLY_NONE;
+        ROS_form answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED;
         PackRawBytes trajectory, answer, 17 \IntX:=DINT;
         PackRawBytes reached, answer, 21 \IntX:=DINT;
         PackRawBytes ROS_dead_reason MOD 100, answer, 25 \IntX:=DINT;
@@ -327,7 +327,6 @@ MODULE ROS_control
         PackRawBytes joints.robax.rax_2 / ROS_DEG, answer, 33 \Float4;
         PackRawBytes joints.robax.rax_3 / ROS_MM, answer, 37 \Float4;
         PackRawBytes joints.robax.rax_4 / ROS_DEG, answer, 41 \Float4;
-        ROS_pack_zeros answer, 45, ROS_LEN_STOPPED + 4;
         send_answer client;
     ENDPROC
 ENDMODULE
