@@ -17,7 +17,7 @@ from rapidgen.proving.model import Case, Outcome, Report
 from rapidgen.proving.suite import CASES
 from rapidgen.system.model import System
 from rapidgen.virtual.cell import in_its_cell
-from rapidgen.virtual.dialect import Dialect
+from rapidgen.virtual.dialect import NOT_THE_DRIVERS, Dialect
 
 R = TypeVar("R")
 
@@ -58,7 +58,7 @@ _NEEDED = {"unpack_ulint", "alias_by_name"}
 
 def _inverted() -> Iterable[tuple[str, Any]]:
     for field in fields(Dialect):
-        if field.name in _NEEDED:
+        if field.name in _NEEDED | NOT_THE_DRIVERS:
             continue
         if isinstance(field.default, bool):
             yield field.name, not field.default

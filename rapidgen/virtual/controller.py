@@ -219,7 +219,9 @@ class VirtualController(ControllerState):
             schedule="random" if switch_at_pers else schedule,
         )
         self.log = ControllerLog(self.kernel)
-        self.io = IOSystem(self.kernel, self.log, system)
+        self.io = IOSystem(
+            self.kernel, self.log, system, lowest_first=self.dialect.bit_order == "lowest"
+        )
         self.motion = MotionSystem(self.kernel, robots, self.log, self.io)
         self._connect_background_tasks()
         if network is None:
@@ -231,7 +233,7 @@ class VirtualController(ControllerState):
         if faults is not None and faults.network:
             network = FaultyNetwork(network, self.kernel, faults.network)
         self.network = network
-        self.sockets = SocketTable(network)
+        self.sockets = SocketTable(network, limited=self.dialect.sockets_limited)
         self.files = FileSystem(folder, home=system.home)
         self.operator = Operator(self.kernel, answers)
         self.texts = TextTables()

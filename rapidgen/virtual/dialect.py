@@ -98,9 +98,59 @@ class Dialect:
     """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver
     ends every command so), or it is an error (S4 datasys 3-StrFind)."""
 
+    argument_error: Literal["recoverable", "fatal"] = "recoverable"
+    """An argument that a built-in refuses is ERR_ARGVALERR, which a handler gets: the later manuals
+    have the name, which built-ins raise it is remembered [mem]. `fatal`: no handler gets it."""
+
+    undo_error: Literal["stop", "ignore"] = "stop"
+    """An error in an UNDO handler stops the task and leaves out the other ones, or ends that
+    handler only, with a message [mem]. K is silent."""
+
+    event_stops: bool = False
+    """Stop in an event routine brings the STOP routines, too [mem]."""
+
+    interrupts_limited: bool = True
+    """A task may have 100 connected interrupts, then ERR_INOMAX [mem]. False: any number [K §8]."""
+
+    shortest_timer: Literal["limited", "any"] = "limited"
+    """ITimer below 0.1 s, with \\Single below 0.01 s, is an error [mem], or is allowed (S4 datasys
+    2-ITimer names no limit)."""
+
+    signal_times: Literal["irc5", "s4"] = "irc5"
+    """\\SDelay and \\PLength: 0.001 to 2000 s [mem], or 0.1 to 32 s (S4 datasys 2-SetDO-1)."""
+
+    bit_order: Literal["lowest", "highest"] = "lowest"
+    """Which bit of a group signal the first number of its DeviceMap is [mem]."""
+
+    list_number: Literal["zero", "one"] = "zero"
+    """\\ListNo of ReadCfgData counts from 0, and -1 follows the last [mem], or from 1, and 0
+    follows."""
+
+    queue_patience: bool = True
+    """RMQSendWait without \\TimeOut gives up after 60 s [mem]. False: it waits for ever, as
+    RMQReadWait does."""
+
+    sockets_limited: bool = True
+    """32 sockets of a controller may be open [mem]. False: any number."""
+
     byte_to_str: Literal["character", "code"] = "character"
     """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
     end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""
+
+
+NOT_THE_DRIVERS = frozenset(
+    {
+        "event_stops",
+        "interrupts_limited",
+        "shortest_timer",
+        "signal_times",
+        "bit_order",
+        "list_number",
+        "queue_patience",
+        "sockets_limited",
+    }
+)
+"""Switches that no generated driver can notice: it does nothing that they are about."""
 
 
 def parse_dialect(text: str) -> Dialect:

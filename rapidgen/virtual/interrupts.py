@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 LARGEST_QUEUE = 30
 """Queued interrupts of a task; one more stops it [S4 datasys 1-intnum-2]."""
 LARGEST_NUMBER = 100
-"""Connected interrupts of a task, then ERR_INOMAX [mem]."""
+"""Connected interrupts of a task, then ERR_INOMAX (switch `interrupts_limited`)."""
 
 
 @dataclass(slots=True, eq=False)
@@ -59,7 +59,8 @@ class Interrupts:
         """CONNECT: a fresh number; ERR_ALRDYCNT while `current` is connected [K §4.12]."""
         if current in self.connected:
             raise RapidError("ERR_ALRDYCNT")
-        if len(self.connected) >= LARGEST_NUMBER:
+        limited = self.task.controller.dialect.interrupts_limited
+        if limited and len(self.connected) >= LARGEST_NUMBER:
             raise RapidError("ERR_INOMAX")
         number = self._next
         self._next += 1

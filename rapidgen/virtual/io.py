@@ -7,7 +7,7 @@ connections); abb_driver's documentation for the seven system outputs that it wa
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 from rapidgen.system.model import CrossConnection, SignalSpec, System
@@ -140,12 +140,16 @@ class _Output:
 class IOSystem:
     """All signals of one controller. Names are compared without case."""
 
-    def __init__(self, kernel: Kernel, log: EventLog, system: System) -> None:
+    def __init__(
+        self, kernel: Kernel, log: EventLog, system: System, *, lowest_first: bool = True
+    ) -> None:
+        """`lowest_first`: the first bit of a group's map is its lowest (switch `bit_order`)."""
         self._kernel = kernel
         self._log = log
         self.signals: dict[str, Signal] = {}
         for spec in system.signals:
-            self.signals.setdefault(spec.name.lower(), Signal(spec))
+            bits = spec.bits if lowest_first else spec.bits[::-1]
+            self.signals.setdefault(spec.name.lower(), Signal(replace(spec, bits=bits)))
         self.on_action: Callable[[str, str], None] | None = None
         """Called with (action, argument) when the signal of a system input rises."""
         self.on_end: Callable[[str], None] | None = None

@@ -97,18 +97,14 @@ class Pointer(Task):
             try:
                 handler()
             except FatalError as error:
-                self._undo_ended(error)
-                return
+                self.undo_ended(error)
+                break
             except RECOVERABLE as error:
-                self._undo_ended(self.unhandled(error))
-                return
+                self.undo_ended(self.unhandled(error))
+                if self.controller.dialect.undo_error == "stop":
+                    break
             finally:
                 self.undo_level -= 1
-
-    def _undo_ended(self, error: FatalError) -> None:
-        place = str(error.stack[-1]) if error.stack else ""
-        texts = [text for text in error.arguments if text]
-        self.controller.log.error(error.event, error.title, place, *texts, task=self.name)
         self._kept_undo = []
 
     def go_on(self, places: Sequence[Standing]) -> None:

@@ -1,8 +1,9 @@
 """Containers of raw bytes: 0 to 1024 valid bytes, little endian unless told [manual 3HAC16581-1].
 
 `data` holds the valid bytes only; everything behind counts as 0. Indexes are RAPID's, from 1.
-Which error a value out of range raises is in no public source [mem]: a number that is not whole
-raises ERR_INT_NOTVAL, one that does not fit ERR_ARGVALERR, a place outside ERR_OUTOFBND.
+Which error a value out of range raises is in no public source (switch `argument_error`): a number
+that is not whole raises ERR_INT_NOTVAL, one that does not fit ERR_ARGVALERR, a place outside
+ERR_OUTOFBND.
 """
 
 import struct
@@ -34,7 +35,7 @@ class RawBytes:
         self.data[index - 1 : end] = data
 
     def take(self, index: int, count: int) -> bytes:
-        """`count` valid bytes from `index` on; ERR_OUTOFBND beyond the valid length [mem]."""
+        """`count` valid bytes from `index` on; ERR_OUTOFBND beyond the valid length."""
         if index < 1 or index - 1 + count > len(self.data):
             raise RapidError(
                 "ERR_OUTOFBND",
@@ -84,7 +85,7 @@ def float_from(raw: RawBytes, index: int, *, network: bool) -> float:
 
 
 def byte_value(value: float) -> int:
-    """A `byte`: whole, 0 to 255; ERR_ARGVALERR otherwise [mem]."""
+    """A `byte`: whole, 0 to 255; ERR_ARGVALERR otherwise."""
     number = whole(value, "ERR_ARGVALERR")
     if not 0 <= number <= 255:
         raise RapidError("ERR_ARGVALERR", f"{number} is no byte")

@@ -68,10 +68,12 @@ class Recovery(Process):
         self.skip_warning = False
         self.handler_level = 0
         self._stops = controller.dialect.unhandled_error == "stop"
+        fatal = controller.dialect.argument_error == "fatal"
+        self._fatal_number = errnum("ERR_ARGVALERR") if fatal else None
         self._instead: RapidError | None = None
         self.undo_level = 0
         self.undo_failed = False
-        """An error in an UNDO handler stops the task [mem]."""
+        """An error in an UNDO handler stops the task (switch `undo_error`)."""
 
     # -- handlers --------------------------------------------------------------------------------
 
@@ -92,6 +94,8 @@ class Recovery(Process):
         frame = sys._getframe(1)
         known = self._settled(error, traceback, frame, budget)
         number = known.number
+        if number == self._fatal_number and not known.raised:
+            raise self.unhandled(known) from None
         way = None
         if known.target is not None:
             if known.target is not frame:
@@ -296,10 +300,20 @@ class Recovery(Process):
             self.undo_failed = True
             raise
         except RECOVERABLE as error:
+            fatal = self.unhandled(error)
+            if self.controller.dialect.undo_error == "ignore":
+                self.undo_ended(fatal)
+                return
             self.undo_failed = True
-            raise self.unhandled(error) from None
+            raise fatal from None
         finally:
             self.undo_level -= 1
+
+    def undo_ended(self, error: FatalError) -> None:
+        """Tell of an error in an UNDO handler that stops nothing."""
+        place = str(error.stack[-1]) if error.stack else ""
+        texts = [text for text in error.arguments if text]
+        self.controller.log.error(error.event, error.title, place, *texts, task=self.name)
 
     def keep_undo(self, handler: Callable[[], int]) -> bool:
         """Whether an UNDO handler is left for later: the program may go on where it was."""

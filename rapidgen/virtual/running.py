@@ -438,11 +438,13 @@ class RapidTask(Stepping):
         """Stop, Break: the program stops; a start goes on behind the instruction.
 
         In an event routine it ends the routine, which runs from its beginning at the next event
-        [S4 2-Stop-1]; then no STOP routine runs [mem].
+        [S4 2-Stop-1]. Whether the STOP routines run then is a switch.
         """
         self._set("stopped")
         self.controller.program_stopped(self)
         if self.event:
+            if self.controller.dialect.event_stops and self.event != "STOP":
+                self._events.append("STOP")
             self.hold()
             raise EventStopped
         self._events.append("STOP")

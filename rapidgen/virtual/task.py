@@ -39,6 +39,11 @@ class Task(Recovery):
         self._holds = 0
         self.waiting_for: Callable[[], bool] | None = None
 
+    @property
+    def stepping(self) -> bool:
+        """Whether a step is being executed."""
+        return False
+
     # -- waiting ---------------------------------------------------------------------------------
 
     def sleep(self, seconds: float) -> None:

@@ -1,7 +1,8 @@
 """Programs in RAPID that say what they expect: see tests/virtual_core/test_conformance.py.
 
 `! source:`, `! expect:` (one TPWrite, in order), `! fault: NUMBER LINE`, `! signal: NAME TYPE`,
-`! task: NAME ENTRY` (a ROB in the name: it has a robot), `! robot: SHIPPED NAME`.
+`! dialect: SWITCH=VALUE`, `! task: NAME ENTRY` (a ROB in the name: it has a robot),
+`! robot: SHIPPED NAME`.
 """
 
 import re
@@ -12,6 +13,7 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 from rapidgen.virtual.controller import VirtualController
+from rapidgen.virtual.dialect import parse_dialect
 from rapidgen.virtual.mechanics import groups_for
 
 HERE = Path(__file__).parent / "conformance"
@@ -33,7 +35,13 @@ def _execute(path):
     printed = []
     system = System(path.stem, tuple(tasks), signals)
     robots = [g for name in _marks(text, "robot") for g in groups_for(system, load_config(name))]
-    with VirtualController(system, robots, cycle="once", autostart=False) as controller:
+    with VirtualController(
+        system,
+        robots,
+        cycle="once",
+        autostart=False,
+        dialect=parse_dialect(",".join(_marks(text, "dialect"))),
+    ) as controller:
         controller.operator.subscribe(lambda _, line: printed.append(line))
         controller.start_program()
         assert controller.run(max_time=100) == "finished", controller.where()

@@ -9,6 +9,7 @@ from rapidgen.system.model import (
     SystemInput,
     SystemOutput,
 )
+from rapidgen.virtual.controller import VirtualController
 from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import STATUSES, SignalAlias, status_name
@@ -158,6 +159,21 @@ def test_signals_that_share_bits_of_a_device_change_together(make_bench):
     bench("Reset", io["do2"])
     assert seen == [0b1101, 0b1001]
     assert io["doRaised"].value == 0
+
+
+@pytest.mark.parametrize(("lowest", "value"), [(True, 0b0100), (False, 0b0010)])
+def test_which_bit_of_a_group_comes_first(lowest, value):
+    """[mem] switch `bit_order`"""
+    specs = (
+        SignalSpec("go1", "GO", device="d652", size=4, bits=(4, 5, 6, 7)),
+        SignalSpec("do6", "DO", device="d652", bits=(6,)),
+    )
+    dialect = Dialect(bit_order="lowest" if lowest else "highest")
+    with VirtualController(System("plant", (), signals=specs), dialect=dialect) as controller:
+        controller.signals["do6"] = 1
+        assert controller.signals["go1"] == value
+        controller.signals["go1"] = 0b1101
+        assert controller.signals["do6"] == lowest
 
 
 def test_a_read_only_signal_is_not_the_programs(plant):

@@ -6,6 +6,7 @@ from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.network.device import SocketDevice, SocketStatus
 from rapidgen.virtual.rawbytes import RawBytes
+from tests.virtual_core.support import boot
 
 PORT = 5000
 
@@ -351,7 +352,7 @@ def test_port_in_use_and_bound_twice(bench):
 
 
 def test_the_33rd_socket_is_refused_and_a_closed_one_makes_room(bench):
-    """32 sockets of a controller [mem]: a program that leaks them is stopped by an error."""
+    """32 sockets of a controller (switch `sockets_limited`): a leak is stopped by an error."""
     sockets = [SocketDevice() for _ in range(33)]
 
     def body(task):
@@ -363,6 +364,19 @@ def test_the_33rd_socket_is_refused_and_a_closed_one_makes_room(bench):
         return error
 
     assert bench.run(body) == ["ERR_SOCK_UNSPEC"]
+
+
+def test_any_number_of_sockets_in_the_other_dialect():
+    text = (
+        "VAR socketdev many{40};\nPROC main()\n FOR i FROM 1 TO 40 DO\n SocketCreate many{i};\n"
+        ' ENDFOR\n TPWrite "40";\nERROR\n TPWrite "full";\n EXIT;\nENDPROC'
+    )
+    for limited, told in ((True, ["full"]), (False, ["40"])):
+        controller, printed = boot(text, dialect=Dialect(sockets_limited=limited), cycle="once")
+        with controller:
+            controller.start_program()
+            controller.run(max_time=10)
+        assert printed == told
 
 
 def test_closing_a_task_closes_its_sockets_only(bench):

@@ -102,20 +102,23 @@ def test_stop_from_inside(statement: str) -> None:
         assert sorted(printed[2:]) == ["RESTART 52", "on", "other RESTART 52"]
 
 
-def test_stop_in_an_event_routine_leaves_it() -> None:
-    """It begins anew at the next event [S4 2-Stop-1]; no STOP routine runs [mem]."""
+@pytest.mark.parametrize("stops", [False, True])
+def test_stop_in_an_event_routine_leaves_it(stops: bool) -> None:
+    """It begins anew at the next event [S4 2-Stop-1]; STOP routines are a switch [mem]."""
     text = (
         'PROC on_START()\n TPWrite "begun";\n Stop;\n TPWrite "never";\nENDPROC\n'
         'PROC on_STOP()\n TPWrite "stop";\nENDPROC\nPROC main()\n TPWrite "main";\nENDPROC'
     )
-    controller, printed = boot(text, events=("START", "STOP"), cycle="once")
+    dialect = Dialect(event_stops=stops)
+    controller, printed = boot(text, events=("START", "STOP"), cycle="once", dialect=dialect)
     with controller:
         controller.start_program()
         controller.run_for(1)
-        assert (printed, controller.task("T1").state) == (["begun"], "stopped")
+        seen = ["begun", "stop"] if stops else ["begun"]
+        assert (printed, controller.task("T1").state) == (seen, "stopped")
         controller.start_program()
         controller.run_for(1)
-        assert printed == ["begun", "main"]
+        assert printed == [*seen, "main"]
 
 
 def test_a_start_waits_for_the_stop_routine() -> None:

@@ -1,7 +1,10 @@
 """docs/runtime-rules.md: what it names exists, and no conformance program is left out."""
 
 import re
+from dataclasses import fields
 from pathlib import Path
+
+from rapidgen.virtual.dialect import NOT_THE_DRIVERS, Dialect
 
 TESTS = Path(__file__).parents[1]
 TEXT = (TESTS.parent / "docs" / "runtime-rules.md").read_text("utf-8")
@@ -40,3 +43,17 @@ def test_every_number_is_there_once() -> None:
         themes.setdefault(theme, []).append(int(place))
     for theme, places in themes.items():
         assert sorted(places) == list(range(1, len(places) + 1)), theme
+
+
+def test_every_switch_is_documented_with_its_values() -> None:
+    page = (TESTS.parent / "docs" / "virtual-controller.md").read_text("utf-8")
+    rows = dict(re.findall(r"^\| `(\w+)` \| (`[^|]+) \| [^|]+ \|$", page, re.MULTILINE))
+    for field in fields(Dialect):
+        default = field.default
+        values = (
+            [str(default).lower(), str(not default).lower()]
+            if isinstance(default, bool)
+            else [default, *(v for v in field.type.__args__ if v != default)]
+        )
+        assert rows[field.name].replace("`", "").split(", ") == values, field.name
+    assert {f.name for f in fields(Dialect)} >= NOT_THE_DRIVERS

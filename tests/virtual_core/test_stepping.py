@@ -393,3 +393,31 @@ def test_trigg_in_a_step_sets_its_signal_and_runs_no_trap() -> None:
         s.controller.start_program()
         s.controller.run_for(9)
         assert (s.controller.signals["lamp"], s.printed) == (1, ["trap"])
+
+
+def test_a_search_without_a_hit_stops_a_step() -> None:
+    """[S4 2-SearchL-5, "Instruction forward"]: the program stops; no handler gets the error."""
+    from rapidgen.config import load_config
+    from rapidgen.system.model import SignalSpec
+
+    text = (
+        "CONST robtarget a := [[350,0,450],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "CONST robtarget b := [[350,50,450],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "VAR robtarget found;\n"
+        "PROC main()\n MoveJ a, v1000, fine, tool0;\n"
+        " SearchL \\Stop, sensor, found, b, v200, tool0;\n"
+        'ERROR\n TPWrite "handled";\n TRYNEXT;\nENDPROC'
+    )
+    options = {
+        "robots": load_config("irb120").groups,
+        "specs": {"T1": {"motion": True}},
+        "signals": (SignalSpec("sensor", "DI"),),
+    }
+    with Stepper(text, **options) as s:
+        s.step()
+        assert s.step() == "error"
+        assert (s.task.fault.event, s.printed) == (49_906, [])
+    with Stepper(text, **options) as s:
+        s.controller.start_program()
+        s.controller.run_for(9)
+        assert s.printed == ["handled"]

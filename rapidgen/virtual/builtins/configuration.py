@@ -1,8 +1,8 @@
 """ReadCfgData and its family, and WarmStart.
 
-Sources: 3HAC16581-1's arguments and error names [manual]. \\ListNo [mem]: the number, from 0, of
-one of several instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind it
-stands the number of the next one, -1 behind the last.
+Sources: 3HAC16581-1's arguments and error names [manual]. \\ListNo: the number of one of several
+instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind it stands the number
+of the next one. How they are counted: switch `list_number`.
 """
 
 from rapidgen.virtual.configuration import Configuration
@@ -27,10 +27,11 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
         raise RapidError("ERR_CFG_NOTFND", path)
     if number is None:
         return found[0]
-    at = number.get()
+    first = 0 if task.controller.dialect.list_number == "zero" else 1
+    at = number.get() - first
     if at not in range(len(found)):
-        raise RapidError("ERR_CFG_OUTOFBND", f"{at:g} of {len(found)}")
-    number.set(at + 1 if at + 1 < len(found) else -1)
+        raise RapidError("ERR_CFG_OUTOFBND", f"{number.get():g} of {len(found)}")
+    number.set(first + at + 1 if at + 1 < len(found) else first - 1)
     return found[int(at)]
 
 

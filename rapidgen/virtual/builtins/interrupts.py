@@ -12,7 +12,9 @@ from rapidgen.virtual.values import Cell, Ref, copy_value, register_type
 
 SHORTEST_TIMER = 0.1
 SHORTEST_SINGLE_TIMER = 0.01
-"""Seconds; a shorter one is an error (RobotWare 6) [mem]."""
+"""Seconds; a shorter one is an error (switch `shortest_timer`)."""
+_FINEST_TIMER = 0.001
+"""Seconds that a clock of the controller resolves."""
 EDGE = 2
 
 
@@ -69,6 +71,8 @@ def i_timer(
 ) -> None:
     """ITimer: first after one period; the next is counted from the event, not from the trap."""
     shortest = SHORTEST_SINGLE_TIMER if single or safe else SHORTEST_TIMER
+    if task.controller.dialect.shortest_timer == "any":
+        shortest = _FINEST_TIMER
     if not seconds >= shortest:
         raise RapidError("ERR_ARGVALERR", f"the shortest time is {shortest} s")
     order = _order(task, interrupt, single, safe)

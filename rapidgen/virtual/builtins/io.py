@@ -1,7 +1,7 @@
 """Signals: Set to AliasIO, and the instructions that wait for a signal.
 
 Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \\TimeFlag);
-3HAC16581-1 names of the IRC5 additions. Ranges of \\SDelay and \\PLength: 0.001 to 2000 s [mem].
+3HAC16581-1 names of the IRC5 additions. Ranges of \\SDelay and \\PLength: switch `signal_times`.
 """
 
 from collections.abc import Callable
@@ -12,8 +12,7 @@ from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.task import Task
 from rapidgen.virtual.values import Ref, single
 
-_SHORTEST = 0.001
-_LONGEST = 2000.0
+_TIMES = {"irc5": (0.001, 2000.0), "s4": (0.1, 32.0)}
 _DEFAULT_PULSE = 0.2
 
 
@@ -38,14 +37,15 @@ def _writable(target: AnySignal) -> Signal:
     return signal
 
 
-def _duration(seconds: float, name: str) -> float:
-    if not _SHORTEST - 1e-9 <= seconds <= _LONGEST:
+def _duration(task: Task, seconds: float, name: str) -> float:
+    shortest, longest = _TIMES[task.controller.dialect.signal_times]
+    if not shortest * (1 - 1e-6) <= seconds <= longest:
         raise RapidError("ERR_ARGVALERR", f"\\{name}:={seconds:g}")
     return seconds
 
 
-def _delay(seconds: float | None) -> float:
-    return 0.0 if not seconds else _duration(seconds, "SDelay")
+def _delay(task: Task, seconds: float | None) -> float:
+    return 0.0 if not seconds else _duration(task, seconds, "SDelay")
 
 
 # -- writing ------------------------------------------------------------------------------------
@@ -56,7 +56,7 @@ def set_do(
     task: Task, delay: float | None, _sync: bool | None, signal: AnySignal, value: float
 ) -> None:
     """Set a digital output, at once or after \\SDelay."""
-    _io(task).set(_writable(signal), dionum(task, value), delay=_delay(delay))
+    _io(task).set(_writable(signal), dionum(task, value), delay=_delay(task, delay))
 
 
 @builtin("Set")
@@ -81,7 +81,7 @@ def invert_do(task: Task, signal: AnySignal) -> None:
 @builtin("PulseDO")
 def pulse_do(task: Task, high: bool | None, length: float | None, signal: AnySignal) -> None:
     """Invert a digital output for a while; the program goes on at once."""
-    seconds = _DEFAULT_PULSE if length is None else _duration(length, "PLength")
+    seconds = _DEFAULT_PULSE if length is None else _duration(task, length, "PLength")
     _io(task).pulse(_writable(signal), seconds, high=bool(high))
 
 
@@ -106,7 +106,7 @@ def set_go(
     number = value if value is not None else dnum_value
     assert number is not None
     try:
-        _io(task).set(_writable(signal), number, delay=_delay(delay))
+        _io(task).set(_writable(signal), number, delay=_delay(task, delay))
     except ValueError as error:
         raise RapidError("ERR_GO_LIM", str(error)) from error
 

@@ -1,6 +1,6 @@
 """Numbers: rounding, powers, trigonometry in degrees, counters; num and dnum twins.
 
-Sources: the S4 reference's page of each name [manual]; argument errors are ERR_ARGVALERR [mem].
+Sources: the S4 reference's page of each name [manual]; argument errors: switch `argument_error`.
 """
 
 import math

@@ -106,7 +106,7 @@ def path_acc_lim(
 ) -> None:
     """m/s^2 of the TCP along its path. One value holds for both: profiles are symmetric.
 
-    ERR_ARGVALERR: a limit without a value of at least 0.1 [mem].
+    ERR_ARGVALERR: a limit without a value of at least 0.1 (switch `argument_error`).
     """
     found = []
     for wanted, value in ((limits_rise, rise), (limits_fall, fall)):
@@ -119,7 +119,7 @@ def path_acc_lim(
 
 @builtin("WorldAccLim")
 def world_acc_lim(task: Task, limit: float | None, _off: bool | None) -> None:
-    """m/s^2 of the TCP in the world, turning included. ERR_ARGVALERR: below 0.1 [mem].
+    """m/s^2 of the TCP in the world, turning included. ERR_ARGVALERR: below 0.1.
 
     FatalError: the model has no geometry.
     """

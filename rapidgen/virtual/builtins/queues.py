@@ -1,7 +1,7 @@
 """RAPID message queues: RMQFindSlot to IRMQMessage. See `queues.py`.
 
-Sources: 3HAC16581-1's arguments and error names [manual]; default time-outs 60 s of RMQSendWait,
-none of RMQReadWait [mem].
+Sources: 3HAC16581-1's arguments and error names [manual]. Without \\TimeOut RMQReadWait waits for
+ever; how long RMQSendWait does is the switch `queue_patience`.
 """
 
 from rapidgen.virtual.datum import target_of, value_of
@@ -76,8 +76,9 @@ def rmq_send_wait(
                 return message
         return None
 
+    patience = _DEFAULT_TIME if task.controller.dialect.queue_patience else None
     if not task.wait_for(
-        lambda: answer() is not None, on=(own.changed,), timeout=_time(timeout, _DEFAULT_TIME)
+        lambda: answer() is not None, on=(own.changed,), timeout=_time(timeout, patience)
     ):
         raise RapidError("ERR_RMQ_TIMEOUT")
     found = answer()

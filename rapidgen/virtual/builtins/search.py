@@ -2,14 +2,15 @@
 
 Source: S4 datasys 2-SearchL. \\Stop brakes hard, \\PStop and \\SStop on the path as a normal
 stop, without a switch and with \\Sup the robot goes on to its target. The move ends in a stop
-point, the point of the hit is where the TCP was when the signal changed.
+point, the point of the hit is where the TCP was when the signal changed. In a step a search
+without a hit stops the program, no handler gets it.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import AnySignal
 from rapidgen.virtual.kernel import WaitSet
 from rapidgen.virtual.motion.group import MotionGroup
@@ -22,6 +23,8 @@ from rapidgen.virtual.task import Task
 from rapidgen.virtual.values import Ref
 
 _REASON = "search"
+_NO_HIT = 49_906
+"""Event; the number is ours."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -119,6 +122,8 @@ def _search(task: Task, group: MotionGroup, move: Move, given: Given) -> None:
             group.clear_path()
         group.start(_REASON)
     if not hits.found or (given["Sup"] and len(hits.found) > 1):
+        if task.stepping:
+            raise FatalError(_NO_HIT, "Search was not successful", f"{len(hits.found)} hits")
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
     given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier))
 

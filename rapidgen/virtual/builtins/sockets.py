@@ -1,9 +1,9 @@
 """SocketCreate to SocketReceiveFrom.
 
 Sources: 3HAC16581-1 as quoted on CSDN [manual] for limits, default times and ERR_SOCK_CLOSED;
-abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: 32 sockets, and a
-send that finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switches:
-`refused_connect`, `receive_timeout`.
+abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: a send that
+finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switches:
+`refused_connect`, `failed_connect`, `receive_timeout`, `send_attends`, `sockets_limited`.
 """
 
 from rapidgen.virtual.errors import FatalError, RapidError
@@ -421,7 +421,7 @@ def socket_receive_from(
     port: Ref,
     time: float | None,
 ) -> None:
-    """Wait for one datagram; what does not fit is lost [mem]."""
+    """Wait for one datagram; what does not fit is lost, as with every BSD socket."""
     endpoint = _datagrams(task, socket)
     limit = _limit(text, raw, data, read_count)
     received = _wait_for_bytes(task, socket, endpoint, limit, exact=False, time=time)

@@ -1,7 +1,7 @@
 """Strings and conversions.
 
 Sources: the S4 reference's page of each name for the edges (positions from 1, a position
-outside is an error); which error number that is, is remembered only [mem].
+outside is an error); which error that is: switch `argument_error`.
 """
 
 from rapidgen.virtual.datum import target_of, value_of

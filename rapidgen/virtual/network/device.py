@@ -6,7 +6,7 @@ from rapidgen.virtual.network.interface import Endpoint, Network
 from rapidgen.virtual.values import register_type
 
 MAX_SOCKETS = 32
-"""Sockets of one controller at a time [mem]."""
+"""Sockets of one controller at a time (switch `sockets_limited`)."""
 
 
 class SocketStatus(IntEnum):
@@ -36,14 +36,15 @@ register_type("socketdev", SocketDevice)
 class SocketTable:
     """Which sockets of a network are in use, and by which task."""
 
-    def __init__(self, network: Network) -> None:
+    def __init__(self, network: Network, *, limited: bool = True) -> None:
         self._network = network
+        self._limited = limited
         self._owners: dict[SocketDevice, str] = {}
 
     @property
     def full(self) -> bool:
         """Whether no further socket can be created."""
-        return len(self._owners) >= MAX_SOCKETS
+        return self._limited and len(self._owners) >= MAX_SOCKETS
 
     def add(self, device: SocketDevice, task: str) -> None:
         """A socket comes into use."""
