@@ -26,6 +26,7 @@ from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.faults import FaultPlan
 from rapidgen.virtual.log import Domain
+from rapidgen.virtual.motion.settings import MotionSettings
 from rapidgen.virtual.tracing import Coverage
 
 Lines: TypeAlias = dict[str, dict[int, int]]
@@ -59,6 +60,7 @@ class Setting:
     random_schedule: bool = False
     switch_at_pers: bool = False
     dialect: Dialect = field(default_factory=Dialect)
+    motion: MotionSettings = field(default_factory=MotionSettings)
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False
 
@@ -113,6 +115,7 @@ class Bench:
             accounting="statement" if self.setting.random_schedule else "block",
             tracing=self.setting.coverage,
         )
+        controller.motion.settings = self.setting.motion
         return controller
 
     def beside(

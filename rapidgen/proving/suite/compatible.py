@@ -32,6 +32,8 @@ def _single_point_sent_twice(bench: Bench) -> None:
     link = bench.motion()
     link.send(point_frame(0, 2, target, 10.0) + point_frame(1, 2, target, 10.0))
     bench.wait_until_at(target, 40)
+    # Two points of which only the second is elsewhere are a way like any other.
+    bench.moves_through(link, bench.wave(2, duration=1.0))
 
 
 def _equal_stamps(bench: Bench) -> None:

@@ -2,6 +2,7 @@
 
 import struct
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 from rapidgen.protocol import decode, encode, messages, spec
@@ -180,6 +181,7 @@ def _speed(bench: Bench) -> None:
         link.send(bench.download(points))
         bench.wait_until_moving()
         if percent:
+            _done(control.ask(messages.Speed(1)), "SPEED 1")
             _done(control.ask(messages.Speed(percent)), f"SPEED {percent:g}")
         for wrong in (0.0, -5.0, 101.0, 0.5, 1e6):
             _not_done(control.ask(messages.Speed(wrong)), Reason.BAD_VALUE, f"SPEED {wrong:g}")
@@ -189,6 +191,53 @@ def _speed(bench: Bench) -> None:
         bench.run(0.5)
     if not 1.5 * taken[0] < taken[1] < 2.5 * taken[0] or abs(taken[2] - taken[0]) > 0.5:
         raise Broken(f"at 100, 50 and again 100 % a trajectory took {taken} s")
+
+
+def _nobody_answers(bench: Bench) -> None:
+    """Whoever asks something of a motion task that does not run is told so, soon."""
+    control, link = bench.control(), bench.motion()
+    link.send(bench.download(bench.wave(12)))
+    bench.wait_until_moving()
+    bench.controller.perform("stop")
+    bench.run(0.5)
+    asked = bench.now
+    told = control.ask(messages.Speed(50))
+    if not isinstance(told, messages.NotDone) or bench.now - asked > 1.5:
+        raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.2f} s")
+    bench.controller.perform("start")
+    bench.stays(3, "the program was stopped and started")
+    bench.moves_through(link, bench.wave(3))
+
+
+def _own_stop(bench: Bench) -> None:
+    """Where a StopMove belongs to its task, the control server takes back its own."""
+    motion = replace(bench.setting.motion, stop_owner="task")
+    other = bench.beside(bench.system, setting=replace(bench.setting, motion=motion))
+    try:
+        control, link = other.control(), other.motion()
+        for leaves, fails in ((False, False), (True, False), (False, True)):
+            link.send(other.download(other.wave(12)))
+            other.wait_until_moving()
+            other.run(0.3)
+            if fails:
+                other.fails("ROS_control", "StartMove", "ERR_PATHDIST", 2)
+            _stop(control)
+            if leaves:
+                control.close()
+            other.wait_until_standing(3)
+            other.stays(1, "it was stopped over the control port")
+            other.moves_through(link, other.wave(3))
+            if leaves:
+                control = other.control()
+        link.send(other.download(other.wave(12)))
+        other.wait_until_moving()
+        _done(control.ask(messages.Pause(1)), "PAUSE")
+        other.wait_until_standing(3)
+        _stop(control)
+        other.stays(1, "it was paused, and stopped over the control port")
+        other.moves_through(link, other.wave(3))
+    finally:
+        other.close()
 
 
 def _heartbeats(bench: Bench) -> None:
@@ -219,7 +268,9 @@ def _heartbeats(bench: Bench) -> None:
         if not isinstance(told, messages.HeartbeatReply) or told.state != TrajectoryState.FAILED:
             raise Broken(f"a heartbeat after one was missing is answered by {told}")
         bench.moves_through(link, bench.wave(10))
-        for wrong in (-1.0, 1e5):
+        if not isinstance(control.ask(messages.Heartbeat(3600)), messages.HeartbeatReply):
+            raise Broken("an hour between heartbeats is refused")
+        for wrong in (-1.0, 3601.0, 1e5):
             _not_done(control.ask(messages.Heartbeat(wrong)), Reason.BAD_VALUE, f"{wrong:g} s")
         link.close()
         control.close()
@@ -234,7 +285,7 @@ def _control_client_leaves(bench: Bench) -> None:
         link.send(bench.download(points))
         bench.wait_until_moving()
         if heartbeats:
-            control.ask(messages.Heartbeat(30))
+            control.ask(messages.Heartbeat(0.8))
         bench.run(0.3)
         control.close()
         if heartbeats:
@@ -421,6 +472,8 @@ CASES = tuple(
         ("pause", "a pause on the path", _pauses, ""),
         ("pause-ends", "what halts a motion halts a paused one", _pause_ends, "R6"),
         ("speed", "a speed for one trajectory", _speed, ""),
+        ("nobody-answers", "a motion task that does not answer", _nobody_answers, ""),
+        ("own-stop", "a StopMove that only its own task takes back", _own_stop, ""),
         ("heartbeats", "a missing heartbeat stops the robot", _heartbeats, "R12"),
         ("control-leaves", "a control client leaves", _control_client_leaves, ""),
         ("newest-control", "the newest control client is served", _newest_control_client, "R12"),

@@ -320,6 +320,16 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
             raise Broken(f"point {number} is right, the reply is {content}")
         if number >= 3 and content != messages.Refused(Reason.JOINT_LIMIT, 3, 2):
             raise Broken(f"point 3 was wrong, the reply to point {number} is {content}")
+    # Behind a refusal at the end nothing is left to be skipped.
+    axis, here = 0, bench.position
+    far = _with(here, axis, _inward(bench, axis, 0.3))
+    link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, here, 9.0))
+    link.send(raw_point(1, here, 1.0, spec.Comm.REQUEST))
+    content = decode(link.expect_reply(2, "a point behind a refused end is answered"))
+    if not isinstance(content, messages.Refused) or content.reason != Reason.NO_START:
+        raise Broken(f"a point behind a refused end is answered by {content}")
+    link.send(raw_point(int(spec.Sequence.END), here, 1.0))
+    bench.run(0.5)
     state = bench.watcher()
     number = bench.progress(state).trajectory
     good = bench.wave(3)

@@ -236,6 +236,8 @@ def _state_for_hours(bench: Bench) -> None:
 def _idle_costs_nothing(bench: Bench) -> None:
     """A driver that waits leaves the controller's processor to others."""
     link, state = bench.motion(), bench.state()
+    if bench.group.ports.control:
+        bench.control()
     bench.run(2)
     kernel = bench.controller.kernel
     idle, start = kernel.idle, kernel.now

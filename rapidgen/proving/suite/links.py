@@ -1,6 +1,9 @@
 """Connections that come, go, hang and take each other's place."""
 
+from rapidgen.protocol import decode, messages, spec
+from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.link import raw_point
 from rapidgen.proving.model import Broken, Case
 
 
@@ -11,7 +14,19 @@ def _leaves_in_a_download(bench: Bench) -> None:
         bench.run(0.2)
         link.close(abort=abort)
         bench.stays(3, "its client left in the download")
+        _has_no_start(bench)
         _moves(bench)
+
+
+def _has_no_start(bench: Bench) -> None:
+    """Nothing of what one client has sent counts for the next."""
+    link = bench.motion()
+    link.send(raw_point(5, bench.position, 1.0, spec.Comm.REQUEST))
+    told = decode(link.expect_reply(2, "a point without a start is answered"))
+    if not isinstance(told, messages.Refused) or told.reason != Reason.NO_START:
+        raise Broken(f"a point without a start is answered by {told}")
+    link.close()
+    bench.run(0.2)
 
 
 def _leaves_while_moving(bench: Bench) -> None:

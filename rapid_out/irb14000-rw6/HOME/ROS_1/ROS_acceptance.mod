@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "402bf3d075de";
+    CONST string ROS_BUILD_ACCEPTANCE := "9b811e6242c3";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -245,7 +245,7 @@ MODULE ROS_acceptance
             RETURN;
         ENDIF
         IF index >= 0 place := "Point " + ValToStr(index) + ". ";
-        IF code >= 100 place := place + "Joint " + ValToStr(code DIV 100) + ". ";
+        IF code DIV 100 > 0 place := place + "Joint " + ValToStr(code DIV 100) + ". ";
         IF silent_lines > 0 place := place + ValToStr(silent_lines) + " more like it.";
         silent_lines := 0;
         ErrWrite \W, "ROS: trajectory refused", ROS_reason_text(code MOD 100) \RL2:=place;

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "402bf3d075de";
+    CONST string ROS_BUILD_STATE_SERVER := "9b811e6242c3";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;
@@ -224,8 +224,8 @@ MODULE ROS_stateServer
 
         seconds := stamp - told_stamp;
         IF seconds <= 0 seconds := seconds + CLOCK_LIMIT;
-        ROS_pack_feedback feedback, state, stamp;
         ROS_pack_velocities feedback, joints, told_joints, seconds;
+        ROS_pack_feedback feedback, state, stamp;
     ENDPROC
 
     ! TRUE if a client has asked for a feature.

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "2956fe1e3727";
+    CONST string ROS_BUILD_CONTROL := "ea9b149f995c";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -45,6 +45,7 @@ MODULE ROS_control
             ROS_BUILD_CONTROL = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_speed_of := -1;
+        ClkStart since_look;
         ROS_listen server, PORT;
         WHILE TRUE DO
             serve client_1, client_2;
@@ -69,8 +70,6 @@ MODULE ROS_control
         heartbeat := 0;
         told_dead := ROS_dead;
         ROS_begin_frames;
-        ClkReset since_look;
-        ClkStart since_look;
         WHILE linked AND (NOT taken_over) DO
             received := ROS_receive(client, ROS_chunk, patience());
             IF received > 0 THEN
@@ -181,7 +180,7 @@ MODULE ROS_control
     ENDFUNC
 
     LOCAL PROC send_answer(VAR socketdev client)
-        IF NOT ROS_send(client, answer) linked := FALSE;
+        linked := ROS_send(client, answer);
     ENDPROC
 
     LOCAL PROC confirm(VAR socketdev client)

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "2956fe1e3727";
+    CONST string ROS_BUILD_MOTION_SERVER := "ea9b149f995c";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -216,7 +216,7 @@ MODULE ROS_motionServer
 
     LOCAL PROC reply(VAR socketdev client, num type, num code)
         ROS_pack_reply answer, type, code;
-        IF NOT ROS_send(client, answer) linked := FALSE;
+        linked := ROS_send(client, answer);
     ENDPROC
 
     ! A request is answered by what has become of the trajectory so far.
@@ -228,12 +228,12 @@ MODULE ROS_motionServer
         ELSE
             ROS_pack_reply answer, ROS_MSG_JOINT_TRAJ_PT, ROS_REPLY_SUCCESS;
         ENDIF
-        IF NOT ROS_send(client, answer) linked := FALSE;
+        linked := ROS_send(client, answer);
     ENDPROC
 
     LOCAL PROC answer_batch(VAR socketdev client)
         ROS_pack_batch_reply answer;
-        IF NOT ROS_send(client, answer) linked := FALSE;
+        linked := ROS_send(client, answer);
     ENDPROC
 
     ! STOP: the reply comes when the robot has been told to stop, not when it stands. Points
