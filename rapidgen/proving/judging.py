@@ -25,6 +25,9 @@ PATIENCE = (2.0, 12.0)
 """A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
 is more. A mutant that takes longer hangs the driver: whoever runs the suite sees that."""
 HANGS = " (hangs)"
+FAILS = " (fails)"
+STUMBLES = (ArithmeticError, AssertionError, AttributeError, LookupError, TypeError, ValueError)
+"""What a case may raise that expected an answer of another shape: it notices, without words."""
 NEAR = 12
 """Lines: what a case has noticed this near to a mutant counts more than what it has elsewhere."""
 
@@ -83,7 +86,7 @@ class Judge:
 
     def learn(self, path: str, line: int, case: str) -> None:
         """A mutant there was noticed by this case: it may well notice the next one, too."""
-        name = case.removesuffix(HANGS)
+        name = case.removesuffix(HANGS).removesuffix(FAILS)
         if name in self._cases:
             self._noticed.append((path, line, name))
 
@@ -121,7 +124,10 @@ class Judge:
         for tried, case in enumerate(concerned):
             if _spent() - started >= budget:
                 return "", tried, len(concerned) - tried
-            by = in_a_fork(partial(self._noticed_by, case))
+            try:
+                by = in_a_fork(partial(self._noticed_by, case))
+            except STUMBLES:
+                by = case.name + FAILS
             if by:
                 return by, tried + 1, 0
         return "", len(concerned), 0

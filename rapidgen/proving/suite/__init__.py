@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from rapidgen.proving.model import Case
 from rapidgen.proving.suite import (
+    batches,
     compatible,
     controller,
     controlling,
@@ -30,6 +31,7 @@ _ALL: tuple[Case, ...] = (
     *joints.CASES,
     *stopping.CASES,
     *streaming.CASES,
+    *batches.CASES,
     *controlling.CASES,
     *telling.CASES,
     *watching.CASES,

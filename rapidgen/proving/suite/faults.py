@@ -288,6 +288,8 @@ def _even(bench: Bench) -> None:
         for (t1, a), (t2, b) in pairwise(track)
         if begun < t1 and t2 < ended and t2 - t1 > 1e-3
     ]
+    if not speeds:
+        raise Broken("on a straight way the robot hardly moved")
     if min(speeds) < 0.5 * max(speeds):
         raise Broken(
             f"on a straight way the robot goes from {max(speeds):.3f} down to {min(speeds):.3f} "

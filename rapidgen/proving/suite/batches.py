@@ -1,0 +1,302 @@
+"""Batches of points one by one: what each reply says, and each way to spoil one."""
+
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+
+from rapidgen.protocol import bulk, messages, spec
+from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
+from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.link import STOP, Point
+from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
+from rapidgen.proving.suite.streaming import way
+
+_NONE = StreamFlag(0)
+_LARGEST = 2**23 - 1
+
+
+def _replies(bench: Bench) -> None:
+    """Each reply has the stream, its trajectory, the points taken, room and progress."""
+    watcher, ring = bench.watcher(), bench.config.trajectory.ring
+    stream = Streamer(bench, number=_LARGEST)
+    points = way(bench, 40)
+    for first in range(0, 40, 10):
+        stream.put(points[first : first + 10], _NONE if first else BEGIN)
+        told = stream.accepted(f"points from {first} on")
+        if (told.stream, told.accepted) != (_LARGEST, first + 10):
+            raise Broken(f"{first + 10} points of stream {_LARGEST} were sent, the reply is {told}")
+        if not told.reached <= told.planned <= told.accepted:
+            raise Broken(f"counts of a reply do not fit each other: {told}")
+        if not told.accepted <= ring - 1 - told.room + told.planned:
+            raise Broken(f"a ring of {ring} places, the reply is {told}")
+        bench.run(0.3)
+        if bench.progress(watcher).trajectory != told.trajectory:
+            raise Broken(f"PROGRESS is of another trajectory than {told}")
+    stream.put(())
+    if stream.accepted("a batch without points").state != TrajectoryState.MOVING:
+        raise Broken(f"the robot moves, the reply is {stream.last}")
+    bench.wait_until_at(points[-1][0], 30)
+    bench.run(0.5)
+    stream.put(())
+    told = stream.accepted("a batch without points, starved")
+    if told[2:] != (40, ring - 1, 40, 40, TrajectoryState.STARVED):
+        raise Broken(f"all of 40 points are executed, the reply is {told}")
+    stream.put((), END)
+    bench.run(0.5)
+    for flags in (_NONE, END):
+        stream.put((), flags)
+        if stream.accepted("a batch without points behind the end").state != TrajectoryState.DONE:
+            raise Broken(f"the stream is done, the reply is {stream.last}")
+
+
+def _strange(bench: Bench) -> None:
+    """A batch of no stream is refused for itself, and nothing is told of any trajectory."""
+    stream = Streamer(bench, number=7)
+    points = way(bench, 4)
+    for number, flags in ((7, _NONE), (7, END), (0, BEGIN), (0, _NONE), (_LARGEST + 1, BEGIN)):
+        stream.number, stream.sent = number, 0
+        stream.put(points, flags)
+        told = stream.refused(Reason.NO_START, f"stream {number}, {flags!r}")
+        wanted = number if number <= _LARGEST else 0
+        if told != messages.PointsRefused(wanted, 0, 0, Reason.NO_START, -1, 0):
+            raise Broken(f"a batch of no stream is answered by {told}")
+    stream.number, stream.sent = 7, 0
+    stream.put(points, BEGIN)
+    stream.accepted("a beginning")
+    stream.number = 8
+    stream.put(points)
+    stream.refused(Reason.NO_START, "a batch of another stream")
+    stream.number, stream.sent = 7, 4
+    stream.put(way(bench, 4), END)
+    stream.accepted("the rest of a stream")
+    bench.run(3)
+    bench.wait_until_standing(5)
+
+
+def _spoilt(frame: bytes, place: int) -> bytes:
+    data = bytearray(frame)
+    data[place : place + 8] = b"\xff" * 8
+    return bytes(data)
+
+
+def _no_number(bench: Bench) -> None:
+    """Eight bytes that are too large for the controller to count, anywhere in a batch."""
+    last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
+    for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
+        stream = Streamer(bench, number=3)
+        stream.link.send(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
+        stream.reply()
+        told = stream.last
+        if not isinstance(told, messages.PointsRefused) or told.accepted or told.stream != whose:
+            raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
+        if place >= 32 and told.reason != Reason.CHECKSUM:
+            raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
+        bench.stays(1, "a beginning is damaged")
+        stream.link.close()
+        bench.run(0.5)
+
+
+def _damaged_beginning(bench: Bench) -> None:
+    """A damaged beginning of another stream ends nothing; of the same one it cuts that."""
+    for number in (4, 3):
+        stream, since = Streamer(bench, number=3), bench.now
+        points = way(bench, 24)
+        stream.put(points[:20], BEGIN)
+        bench.wait_until_moving()
+        wrong = Streamer(bench, stream.link, number=number)
+        data = bytearray(wrong.frame(way(bench, 3), BEGIN))
+        data[60] ^= 1
+        stream.link.send(bytes(data))
+        stream.reply()
+        told = stream.refused(Reason.CHECKSUM, "a damaged beginning")
+        if told.stream != number:
+            raise Broken(f"a damaged beginning of stream {number}: the reply is {told}")
+        stream.put(points[20:], END)
+        if number == 4:
+            stream.accepted("points of the stream under way")
+            bench.wait_until_at(points[-1][0], 20)
+        else:
+            stream.refused(Reason.CHECKSUM, "points behind a damaged beginning")
+            bench.wait_until_at(points[19][0], 20)
+        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+        stream.link.close()
+        bench.run(1.2)
+
+
+def _padding(bench: Bench) -> None:
+    """Where a point has a place for a joint that the robot lacks that place is zero."""
+    joints = len(bench.position)
+    if 2 * spec.point_pairs(joints) == joints + 1:
+        return
+    stream = Streamer(bench)
+    here = bench.position
+    frames = bulk.encode_points(1, 0, [1.0, 1.0], np.array([(*here, 0.5)] * 2), flags=BEGIN | END)
+    stream.link.send(frames[0])
+    stream.reply()
+    told = stream.refused(Reason.BAD_PADDING, "a value for a joint that is not there")
+    if (told.accepted, told.point) != (0, 0):
+        raise Broken(f"the first point has a value too many, the reply is {told}")
+
+
+def _enough(bench: Bench) -> None:
+    """Just as many seconds as are to wait in the ring are enough; without the last they are not."""
+    preload = bench.config.trajectory.preload
+    duration = preload / 4
+    if duration < 1.05 * bench.config.trajectory.min_segment:
+        return
+    for count, enough in ((5, True), (4, False)):
+        stream = Streamer(bench)
+        points = [(p, duration) for p, _ in way(bench, 5, duration)][:count]
+        stream.put(points, BEGIN)
+        stream.accepted("the first points")
+        if enough:
+            bench.wait_until_moving(1)
+        else:
+            bench.stays(2, f"{(count - 1) * duration:g} s wait in the ring")
+        stream.put((), FLUSH)
+        bench.wait_until_at(points[-1][0], 10)
+        stream.link.close()
+        bench.run(1.2)
+
+
+def _not_now(bench: Bench) -> None:
+    """A stream that begins while no motion is possible is refused, like a download."""
+    for action, reasons in (
+        ("stop", (Reason.NOT_EXECUTING,)),
+        ("e-stop", (Reason.EMERGENCY_STOP, Reason.MOTORS_OFF)),
+    ):
+        bench.controller.perform(action)
+        bench.run(0.5)
+        stream = Streamer(bench)
+        stream.put((), BEGIN)
+        stream.accepted("a beginning without points")
+        stream.put(way(bench, 20))
+        told = stream.last
+        if not isinstance(told, messages.PointsRefused) or told.reason not in reasons:
+            raise Broken(f"after {action} points are answered by {told}")
+        if (told.accepted, told.point, told.joint) != (0, -1, 0):
+            raise Broken(f"after {action} points are answered by {told}")
+        for again in ("reset-e-stop", "motors-on", "start"):
+            bench.controller.perform(again)
+        bench.stays(3, f"points came after {action}")
+        stream.link.close()
+        bench.run(1.2)
+
+
+def _ends_before_it_moves(bench: Bench) -> None:
+    """A stream without points that is stopped, left, or taken the place of, never moves."""
+    watcher = bench.watcher()
+    stream = Streamer(bench)
+    stream.put((), BEGIN)
+    stream.link.send(STOP)
+    stream.link.reply(spec.JOINT_TRAJ_PT.number)
+    stream.put(way(bench, 20))
+    stream.refused(Reason.STOPPED, "points behind a STOP")
+    bench.stays(1, "the stream was stopped")
+    stream.number, stream.sent = 2, 0
+    stream.put((), BEGIN)
+    stream.link.send(bench.download(bench.wave(3))[:68])
+    stream.put(way(bench, 20))
+    stream.refused(Reason.SUPERSEDED, "points behind a download")
+    bench.stays(1, "the stream was superseded")
+    for number in (3, 4):
+        stream.number, stream.sent = number, 0
+        stream.put((), BEGIN)
+        if number == 4:
+            stream.put(way(bench, 3), _NONE)
+            stream.sent = 17
+            stream.put(way(bench, 3), _NONE)
+            stream.refused(Reason.SEQUENCE_GAP, "points behind a hole")
+        stream.link.close()
+        bench.run(1)
+        told = bench.progress(watcher)
+        wanted = (TrajectoryState.REFUSED, Reason.INCOMPLETE) if number == 3 else None
+        if wanted and ((told.state, told.reason) != wanted or (told.point, told.joint) != (0, 0)):
+            raise Broken(f"a stream without a point was left, PROGRESS says {told}")
+        stream = Streamer(bench)
+        watcher.read()
+    bench.run(1)
+
+
+def _stays(bench: Bench) -> None:
+    """The same place again is a stay, in a stream too."""
+    first, second, third = way(bench, 3, 0.4)
+    stay = 1.5
+    points: list[Point] = [first, second, (second[0], stay), third]
+    stream, since = Streamer(bench), bench.now
+    stream.put(points, BEGIN | END)
+    stream.accepted("a stream with a stay")
+    bench.wait_until_at(third[0], 10)
+    asked = second[1] + stay + third[1]
+    if not asked - 0.1 <= bench.now - since <= 1.3 * asked + 0.4:
+        raise Broken(f"{asked:.2f} s with a stay took {bench.now - since:.2f} s")
+    still = [t for t, p in bench.track if t > since and distance(p, second[0]) < 1e-4]
+    if not still:
+        raise Broken("the robot was not where it had to stay")
+
+
+def _short_last(bench: Bench) -> None:
+    """The last segment may be short: it has no successor."""
+    policy = bench.config.trajectory
+    if policy.too_fast != "refuse" or policy.min_segment < 0.005:
+        return
+    points = [(p, 1.0) for p, _ in bench.wave(4, size=0.001)]
+    points[3] = (points[3][0], policy.min_segment / 2)
+    stream = Streamer(bench)
+    stream.put(points, BEGIN | END)
+    stream.accepted("a short last segment")
+    bench.wait_until_at(points[3][0], 10)
+
+
+def _silent(bench: Bench) -> None:
+    """A stream may be silent for some seconds; once it has ended, a newer client is served."""
+    stream = Streamer(bench)
+    points = way(bench, 60)
+    stream.put(points[:25], BEGIN)
+    bench.wait_until_moving()
+    bench.motion()
+    bench.run(2.5)
+    stream.put(points[25:50], END)
+    stream.accepted("points after 2.5 s of silence")
+    bench.until(partial(_is_lost, stream), 2, "a client whose stream has ended gives way")
+    bench.wait_until_standing(2)
+    bench.stays(1, "its client was replaced")
+
+
+def _is_lost(stream: Streamer) -> bool:
+    return stream.link.lost
+
+
+def _behind_the_end(bench: Bench) -> None:
+    """What comes behind the end is refused, and what came before it is done."""
+    watcher = bench.watcher()
+    stream = Streamer(bench)
+    stream.all(way(bench, 12))
+    stream.put(way(bench, 3))
+    told = stream.refused(Reason.SEQUENCE_GAP, "points behind the end")
+    if (told.accepted, told.point) != (12, 12):
+        raise Broken(f"points came behind 12 and the end, the reply is {told}")
+    bench.wait_until_at(stream.points[11][0], 20)
+    bench.run(0.5)
+    progress = bench.progress(watcher)
+    if (progress.state, progress.reached) != (TrajectoryState.DONE, 12):
+        raise Broken(f"points came behind the end, PROGRESS says {progress}")
+
+
+_PROOFS: tuple[tuple[str, str, Callable[[Bench], None], str], ...] = (
+    ("batch-replies", "replies to batches: counts, room, state", _replies, ""),
+    ("batch-strange", "batches of no stream", _strange, "C4"),
+    ("batch-no-number", "bytes that are no number in a batch", _no_number, "R2"),
+    ("batch-beginning", "a damaged beginning while a stream moves", _damaged_beginning, ""),
+    ("batch-padding", "a value for a joint that is not there", _padding, ""),
+    ("batch-enough", "just enough points to begin with", _enough, ""),
+    ("batch-not-now", "a stream while no motion is possible", _not_now, "R7a"),
+    ("batch-ends-early", "streams that end before they move", _ends_before_it_moves, "R5"),
+    ("batch-stay", "a stay in a stream", _stays, "R8"),
+    ("batch-short-last", "a short last segment of a stream", _short_last, "R9"),
+    ("batch-silent", "a stream that is silent for seconds", _silent, "R12"),
+    ("batch-behind-end", "points behind the end", _behind_the_end, ""),
+)
+CASES = tuple(Case(name, title, "streaming", prove, who) for name, title, prove, who in _PROOFS)
