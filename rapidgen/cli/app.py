@@ -3,6 +3,7 @@
 Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage.
 """
 
+import errno
 import gc
 import os
 import sys
@@ -45,6 +46,15 @@ VERBS = {
     "demo": "Build a driver, boot it on a virtual controller, move it, and report.",
 }
 
+# What the machine refuses is said by RG903. An error of another kind that has no file is a fault of
+# the program and is left to fly.
+_MACHINE = {
+    errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO, errno.EROFS, errno.EMFILE, errno.ENFILE
+}  # fmt: skip
+_BAD_PATH = {
+    errno.ENOENT, errno.ENOTDIR, errno.EISDIR, errno.ENAMETOOLONG, errno.ELOOP, errno.EACCES
+}  # fmt: skip
+
 # Options that may stand without a value.
 _OPTIONAL_VALUES = {"--profile": "--profile=-"}
 
@@ -54,6 +64,7 @@ def run(arguments: list[str] | None = None) -> None:
     # Imports make tens of thousands of objects that live on: collecting them is a tenth of a build.
     gc.set_threshold(50_000, 20, 50)
     words = sys.argv[1:] if arguments is None else arguments
+    _prepare_streams()
     sys.exit(main([_OPTIONAL_VALUES.get(word, word) for word in words]))
 
 
@@ -61,6 +72,9 @@ def main(words: list[str]) -> int:
     """Run one verb; its exit code."""
     from rapidgen.diagnostics.model import DiagnosticError
 
+    if "" in words:
+        _show((_empty_argument(),))
+        return 2
     command = typer.main.get_command(_app(words))
     try:
         result = command.main(args=words, prog_name="rapidgen", standalone_mode=False)
@@ -78,7 +92,21 @@ def main(words: list[str]) -> int:
         # The reader has gone (`| head`): nothing is left to say, and nobody to say it to.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 141
+    except OSError as error:
+        if error.filename is None and error.errno not in _MACHINE | {errno.ENOENT}:
+            raise
+        return _refused(error)
     return result if isinstance(result, int) else 0
+
+
+def _prepare_streams() -> None:
+    """A closed stream takes everything; what a terminal's encoding lacks is written as a code."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
+        else:
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _app(words: list[str]) -> typer.Typer:
@@ -126,6 +154,39 @@ def _root(
     ] = False,
 ) -> None:
     pass
+
+
+def _refused(error: OSError) -> int:
+    """Say what the operating system refused; the exit code."""
+    from rapidgen.diagnostics import Diagnostic, Severity
+
+    # What could not be written must not be tried again when Python ends.
+    if error.filename is None and error.errno in _MACHINE:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    named = error.filename if isinstance(error.filename, str) else ""
+    what = named or ("standard output" if error.errno in _MACHINE else "the folder you are in")
+    _show(
+        (
+            Diagnostic(
+                "RG903",
+                Severity.ERROR,
+                f"cannot use {what}: {error.strerror}",
+                help="free it, or name another one",
+            ),
+        )
+    )
+    return 2 if error.errno in _BAD_PATH else 1
+
+
+def _empty_argument() -> "Diagnostic":
+    from rapidgen.diagnostics import Diagnostic, Severity
+
+    return Diagnostic(
+        "RG901",
+        Severity.ERROR,
+        "an argument is empty",
+        help="is a variable of your shell not set? The folder you are in is called `.`",
+    )
 
 
 def _show(found: "tuple[Diagnostic, ...]") -> None:

@@ -23,6 +23,7 @@ def fmt(
 
     Encoding and line ends stay as they are. A file with syntax errors is not touched.
     """
+    from rapidgen._writing import write_whole
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
     from rapidgen.rapid import format_source
     from rapidgen.system.paths import read_limited
@@ -47,7 +48,7 @@ def fmt(
         elif check:
             typer.echo(f"would format {path}", err=True)
         else:
-            _replace(path, after)
+            write_whole(path, after)
             typer.echo(f"formatted {path}", err=True)
     if wrong:
         raise DiagnosticError(wrong, exit_code=1)
@@ -77,19 +78,6 @@ def _files(paths: list[Path]) -> list[Path]:
                 )
             )
     return found
-
-
-def _replace(path: Path, data: bytes) -> None:
-    """Write beside the file and rename: a reader never sees half of it."""
-    import os
-    import tempfile
-
-    target = path.resolve()
-    descriptor, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    with open(descriptor, "wb") as file:
-        file.write(data)
-    os.chmod(name, target.stat().st_mode & 0o7777)
-    os.replace(name, target)
 
 
 def _difference(path: Path, before: bytes, after: bytes) -> str:

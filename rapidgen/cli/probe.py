@@ -23,6 +23,7 @@ def probe(
     for the other module: that one turns axis 6 by 10 degrees, after a question on the pendant.
     """
     from rapidgen._data import data_folder
+    from rapidgen._writing import write_whole
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
     name = "ROS_probe_motion.mod" if moving else "ROS_probe.mod"
@@ -31,7 +32,7 @@ def probe(
         typer.echo(text, nl=False)
         return 0
     try:
-        output.write_text(text, encoding="latin-1")
+        write_whole(output, text.encode("latin-1"))
     except OSError as error:
         raise DiagnosticError(
             Diagnostic(

@@ -81,6 +81,7 @@ def run(
     line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
     stopped with an error, on a deadlock, and at the limits of time and statements.
     """
+    from rapidgen._writing import write_whole
     from rapidgen.cli.loadable import refuse_unloadable
     from rapidgen.config import load_config
     from rapidgen.diagnostics import DiagnosticError, Severity, render
@@ -131,7 +132,7 @@ def run(
         if profiled is not None:
             _write_profile(profiled, profile)
         if covered is not None and coverage is not None:
-            coverage.write_text(covered.lcov(), encoding="utf-8")
+            write_whole(coverage, covered.lcov().encode())
     if found:
         raise DiagnosticError(found, exit_code=1)
 
@@ -255,12 +256,13 @@ def _fault(task: str, fault: "FatalError") -> "Diagnostic":
 def _write_profile(profile: object, target: str) -> None:
     import json
 
+    from rapidgen._writing import write_whole
     from rapidgen.virtual.tracing import Profile
 
     assert isinstance(profile, Profile)
     rows = profile.as_data()
     if target != "-":
-        Path(target).write_text(json.dumps(rows, indent=1) + "\n", encoding="utf-8")
+        write_whole(Path(target), (json.dumps(rows, indent=1) + "\n").encode())
         return
     sys.stderr.write(f"{'seconds':>12} {'passes':>9}  line\n")
     for row in rows[:40]:

@@ -10,8 +10,10 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.protocol.spec import Port
 
 _FORM = re.compile(
-    r"(?P<host>\[[^\]]+\]|[^:\[\],]+)"
-    r"(?::(?P<motion>\d+)(?:,(?P<state>\d+)(?:,(?P<control>\d+))?)?)?"
+    # An IPv6 address, or a name whose parts are as long as names may be.
+    r"(?P<host>\[[0-9A-Fa-f:.%\w-]+\]|(?=[^:]{1,253}(?::|$))\w[\w-]{0,62}(?:\.\w[\w-]{0,62})*)"
+    r"(?::(?P<motion>\d{1,5})(?:,(?P<state>\d{1,5})(?:,(?P<control>\d{1,5}))?)?)?",
+    re.ASCII,
 )
 LOOPBACK = "127.0.0.1"
 

@@ -24,11 +24,11 @@ from rapidgen.client.address import Address
 from rapidgen.client.core import STOP_FRAME, Core, Timeouts
 from rapidgen.client.effects import Close, Connect, Effect, Flow, Send, Wait
 from rapidgen.client.errors import (
-    ConnectionFailed,
     MotionStopped,
     RobotError,
     RobotTimeout,
     fault,
+    not_reached,
     os_reason,
 )
 from rapidgen.client.feed import Feed, batches
@@ -420,22 +420,8 @@ class AsyncRobot:
                 await loop.create_connection(
                     lambda: _Link(self, effect.port), self.address.host, number
                 )
-        except TimeoutError as error:
-            raise ConnectionFailed(
-                fault(
-                    "RG601",
-                    f"no answer from {where} within {effect.timeout:g} s",
-                    "is the controller on, and this machine in its network?",
-                )
-            ) from error
         except OSError as error:
-            raise ConnectionFailed(
-                fault(
-                    "RG601",
-                    f"cannot connect to {where}: {os_reason(error)}",
-                    "is the driver's task running? `rapidgen sim` starts a virtual controller",
-                )
-            ) from error
+            raise not_reached(where, error, effect.timeout) from error
 
     def _opened(self, link: _Link) -> None:
         self._links[link.port] = link

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from select import POLLOUT, poll
 
 from rapidgen.client.address import Address
-from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout, fault, os_reason
+from rapidgen.client.errors import ConnectionLost, RobotTimeout, fault, not_reached, os_reason
 from rapidgen.protocol.bulk import FRAME_BYTES
 from rapidgen.protocol.spec import Port
 
@@ -31,22 +31,9 @@ class Channel:
         name = port.name.lower()
         try:
             self.socket = socket.create_connection((address.host, number), timeout)
-        except TimeoutError as error:
-            raise ConnectionFailed(
-                fault(
-                    "RG601",
-                    f"no answer from {address.host} port {number} ({name}) within {timeout:g} s",
-                    "is the controller on, and this machine in its network?",
-                )
-            ) from error
         except OSError as error:
-            raise ConnectionFailed(
-                fault(
-                    "RG601",
-                    f"cannot connect to {address.host} port {number} ({name}): {os_reason(error)}",
-                    "is the driver's task running? `rapidgen sim` starts a virtual controller",
-                )
-            ) from error
+            where = f"{address.host} port {number} ({name})"
+            raise not_reached(where, error, timeout) from error
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.socket.setblocking(False)
         self.port = port

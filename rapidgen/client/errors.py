@@ -21,6 +21,7 @@ states. Time is that of the client's clock, s.
 """
 
 import os
+import socket
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
@@ -163,6 +164,21 @@ def fault(code: str, message: str, help: str = "", *notes: str) -> Diagnostic:
     return Diagnostic(code, Severity.ERROR, message, help=help, notes=notes)
 
 
+def not_reached(where: str, error: OSError, timeout: float) -> ConnectionFailed:
+    """Nobody answers at `where` (host and port); `timeout` in s is what a TimeoutError waited."""
+    if isinstance(error, TimeoutError):
+        message = f"no answer from {where} within {timeout:g} s"
+        mend = "is the controller on, and this machine in its network?"
+    else:
+        message = f"cannot connect to {where}: {os_reason(error)}"
+        mend = "is the driver's task running? `rapidgen sim` starts a virtual controller"
+    if isinstance(error, socket.gaierror):
+        mend = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
+    return ConnectionFailed(fault("RG601", message, mend))
+
+
 def os_reason(error: OSError) -> str:
     """What the operating system says, in its own words and small letters."""
+    if isinstance(error, socket.gaierror):
+        return "no host has this name"
     return (os.strerror(error.errno) if error.errno else str(error)).lower()

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from rapidgen._writing import write_whole
 from rapidgen.client.errors import InvalidTrajectory, fault, os_reason
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span
@@ -114,7 +115,7 @@ def write_csv(path: Path, trajectory: Trajectory) -> None:
     writer.writerow(["time", *names])
     for time, row in zip(trajectory.times.tolist(), trajectory.positions.tolist(), strict=True):
         writer.writerow([repr(time), *(repr(value) for value in row)])
-    path.write_text(out.getvalue(), encoding="utf-8")
+    write_whole(path, out.getvalue().encode())
 
 
 def read_json(path: Path) -> Trajectory:

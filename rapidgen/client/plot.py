@@ -4,6 +4,7 @@ One layout makes a list of shapes; an SVG writer and a Pillow writer draw them. 
 anti-aliased text and comes with yourdfpy anyway; matplotlib would be ten times its size.)
 """
 
+import io
 import json
 import math
 from collections.abc import Mapping, Sequence
@@ -14,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from rapidgen._writing import write_whole
 from rapidgen.client.trajectory import Array, Trajectory
 
 COLOURS = ("#1f77b4", "#d62728", "#2ca02c", "#9467bd", "#ff7f0e", "#17becf")
@@ -99,7 +101,7 @@ def write_plot(
     if png is not None:
         _draw_png(scene, png)
     if html is not None:
-        html.write_text(_html(scene, curves, title, units), encoding="utf-8")
+        write_whole(html, _html(scene, curves, title, units).encode())
 
 
 def _joints(curves: Sequence[Curve]) -> tuple[str, ...]:
@@ -253,7 +255,9 @@ def _draw_png(scene: _Scene, path: Path) -> None:
         font = ImageFont.load_default(text.size * scale)
         place = (text.x * scale, text.y * scale)
         draw.text(place, text.text, fill=text.colour, font=font, anchor=anchors[text.anchor])
-    image.resize((scene.width, scene.height), Image.Resampling.LANCZOS).save(path, "PNG")
+    drawn = io.BytesIO()
+    image.resize((scene.width, scene.height), Image.Resampling.LANCZOS).save(drawn, "PNG")
+    write_whole(path, drawn.getvalue())
 
 
 def _svg(scene: _Scene) -> str:

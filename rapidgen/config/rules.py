@@ -14,10 +14,20 @@ from typing import Any
 
 CoreSchema = dict[str, Any]
 
+_LARGEST = 1e6
+"""No angle, length, speed or acceleration of a robot is beyond it (deg, mm, kg, s), and a num
+holds such a figure to a tenth [K §2.13]."""
+
 _LEAVES: dict[Any, CoreSchema] = {
     str: {"type": "str", "strict": True},
     int: {"type": "int", "strict": True},
-    float: {"type": "float", "strict": True, "allow_inf_nan": False},
+    float: {
+        "type": "float",
+        "strict": True,
+        "allow_inf_nan": False,
+        "ge": -_LARGEST,
+        "le": _LARGEST,
+    },
     bool: {"type": "bool", "strict": True},
 }
 _BOUNDS = ("gt", "ge", "lt", "le", "min_length", "max_length", "pattern")

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from rapidgen._writing import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
 from rapidgen.config.draft import GroupDraft, JointDraft
@@ -191,10 +192,15 @@ def write_new(
         )
     before = path.read_bytes() if path.is_file() else None
     try:
-        path.write_text(text, encoding="utf-8")
+        write_whole(path, text.encode())
     except OSError as fault:
         raise DiagnosticError(
-            Diagnostic("RG001", Severity.ERROR, f"cannot write {path}: {fault.strerror}")
+            Diagnostic(
+                "RG001",
+                Severity.ERROR,
+                f"cannot write {path}: {fault.strerror}",
+                help="name a file in a folder that exists and may be written",
+            )
         ) from None
     try:
         return load_config(path, package_paths=package_paths).diagnostics
@@ -202,5 +208,5 @@ def write_new(
         if before is None:
             path.unlink()
         else:
-            path.write_bytes(before)
+            write_whole(path, before)
         raise

@@ -85,12 +85,12 @@ class Joint(_Part):
     ] = None
     lower: Annotated[float | None, Rule("Lower limit, deg or mm.")] = None
     upper: Annotated[float | None, Rule("Upper limit, deg or mm.")] = None
-    speed: Annotated[float | None, Rule("Largest speed, deg/s or mm/s.", gt=0)] = None
+    speed: Annotated[float | None, Rule("Largest speed, deg/s or mm/s.", ge=0.001)] = None
     acceleration: Annotated[
         float | None,
         Rule(
             "Acceleration, deg/s² or mm/s²; without it `acceleration_time` decides.",
-            gt=0,
+            ge=0.001,
         ),
     ] = None
     sign: Annotated[
@@ -235,7 +235,7 @@ class GroupKeys(_Part):
         float,
         Rule(
             "Seconds from standstill to full speed, for axes without `acceleration`.",
-            gt=0,
+            ge=0.001,
             le=10,
         ),
     ] = 0.25
@@ -259,7 +259,7 @@ class GroupKeys(_Part):
         default_factory=WorkObject
     )
     tcp_speed_limit: Annotated[
-        float, Rule("Ceiling of the tool's speed, mm/s.", gt=0, le=10000)
+        float, Rule("Ceiling of the tool's speed, mm/s.", ge=0.001, le=10000)
     ] = 5000.0
     ports: Annotated[Ports, Rule("TCP ports.")] = field(default_factory=Ports)
     source: Annotated[
@@ -281,10 +281,10 @@ class Trajectory(_Part):
     ] = 1000
     zone: Annotated[Zone, Rule("Zone of the points between the first and the last.")] = "z10"
     start_tolerance: Annotated[
-        float, Rule("Distance of the first point from the robot, deg.", gt=0, le=20)
+        float, Rule("Distance of the first point from the robot, deg.", ge=0.001, le=20)
     ] = 0.5
     start_tolerance_linear: Annotated[
-        float, Rule("The same for linear axes, mm.", gt=0, le=100)
+        float, Rule("The same for linear axes, mm.", ge=0.001, le=100)
     ] = 5.0
     too_fast: Annotated[
         Literal["refuse", "slow_down"],
@@ -297,7 +297,8 @@ class Trajectory(_Part):
         ),
     ] = 0.1
     approach_speed: Annotated[
-        float, Rule("Fraction of the axis speeds for an approach to the first point.", gt=0, le=1)
+        float,
+        Rule("Fraction of the axis speeds for an approach to the first point.", ge=0.001, le=1),
     ] = 0.1
     ring: Annotated[
         Literal[64, 128, 256, 512],

@@ -109,7 +109,7 @@ def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) ->
         where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
             "RG005",
-            f"unknown key '{path[-1]}'{where}",
+            f"unknown key '{_short(path[-1])}'{where}",
             key,
             "not a key of the configuration" if len(path) == 1 else "not a key here",
             meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
@@ -120,6 +120,12 @@ def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) ->
         key if is_key else value,
         _input(item),
     )
+
+
+def _short(given: object) -> str:
+    """A text of the file as a message may hold it."""
+    text = str(given)
+    return text if len(text) <= 60 else f"{text[:57]}..."
 
 
 def _input(item: dict[str, Any]) -> str:
@@ -145,12 +151,12 @@ def _reason(item: dict[str, Any], is_key: bool) -> str:
         "finite_number": "must be a finite number",
     }
     if kind in fixed:
-        tail = f", not '{given}'" if isinstance(given, str) else ""
+        tail = f", not '{_short(given)}'" if isinstance(given, str) else ""
         return fixed[kind] + tail
     if kind == "literal_error":
         words = [w.strip("'") for w in context["expected"].replace(" or ", ", ").split(", ")]
         meant = suggest(str(given), words)
-        return f"'{given}' is none of {', '.join(words)}" + (f"; {meant}" if meant else "")
+        return f"'{_short(given)}' is none of {', '.join(words)}" + (f"; {meant}" if meant else "")
     bounds = {
         "greater_than": ("gt", "more than"),
         "greater_than_equal": ("ge", "at least"),
@@ -159,7 +165,7 @@ def _reason(item: dict[str, Any], is_key: bool) -> str:
     }
     if kind in bounds:
         name, phrase = bounds[kind]
-        return f"must be {phrase} {context[name]:g}, not {given}"
+        return f"must be {phrase} {context[name]:g}, not {_short(given)}"
     if kind in ("too_short", "too_long"):
         bound = context["min_length" if kind == "too_short" else "max_length"]
         phrase = "at least" if kind == "too_short" else "at most"

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rapidgen._writing import write_whole
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
 from rapidgen.deploy.fleet import Outcome, connected, on_all
@@ -170,7 +171,7 @@ def write_plans(path: Path, plans: Sequence[Plan]) -> None:
     """`--out`. Raises DiagnosticError RG523 when the file cannot be written."""
     text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
     try:
-        path.write_text(text, encoding="utf-8")
+        write_whole(path, text.encode())
     except OSError as error:
         raise _plan_file(path, error.strerror or str(error)) from error
 

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -65,7 +66,7 @@ def make_build_id(config: RobotConfig, templates: Path) -> str:
     for path in sorted(templates.glob("*.j2")):
         parts += [path.name.encode(), path.read_bytes()]
     for name, data in config.inputs:
-        parts += [Path(name).name.encode(), data]
+        parts += [os.fsencode(Path(name).name), data]
     for part in parts:
         digest.update(len(part).to_bytes(8, "big") + part)
     return digest.hexdigest()[:12]

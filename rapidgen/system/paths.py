@@ -37,7 +37,11 @@ def read_limited(path: Path) -> bytes:
                 f"{path} is not a regular file of at most {MAX_FILE // 2**20} MB",
                 help="a RAPID module or cfg file is far smaller: is it the right file?",
             )
-        return file.read()
+        try:
+            return file.read()
+        except OSError as error:
+            mend = "look at the disk that it lies on"
+            raise refusal("RG704", f"cannot read {path}: {error.strerror}", help=mend) from error
 
 
 def inside(root: Path, relative: str) -> Path:
@@ -56,7 +60,8 @@ def inside(root: Path, relative: str) -> Path:
     path = root
     for part in parts:
         path = _entry(path, part)
-    if not path.resolve().is_relative_to(root.resolve()):
+    # A loop of links leads nowhere; reading it says so.
+    if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(root)):
         raise refusal(
             "RG706",
             f"'{relative}' is a link that leaves {root}",

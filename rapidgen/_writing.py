@@ -1,0 +1,44 @@
+"""One file put in its place whole: a full disk or a Ctrl-C leaves what was there before."""
+
+import os
+import secrets
+import stat
+from pathlib import Path
+
+
+def write_whole(path: Path, data: bytes) -> None:
+    """Write `data` beside `path` and rename it there; rights of a file that was there are kept.
+
+    A link stays and its target is replaced; a pipe or a device is written to. Raises OSError
+    that names `path`.
+    """
+    target = Path(os.path.realpath(path))
+    try:
+        before = _status(target)
+        if before is not None and not stat.S_ISREG(before.st_mode):
+            target.write_bytes(data)
+        else:
+            _replace(target, data, before)
+    except OSError as error:
+        error.filename, error.filename2 = str(path), None
+        raise
+
+
+def _status(target: Path) -> os.stat_result | None:
+    try:
+        return os.stat(target)
+    except FileNotFoundError:
+        return None
+
+
+def _replace(target: Path, data: bytes, before: os.stat_result | None) -> None:
+    fresh = target.parent / f".rapidgen-{secrets.token_hex(8)}"
+    descriptor = os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666)
+    try:
+        with open(descriptor, "wb") as file:
+            file.write(data)
+        if before is not None:
+            fresh.chmod(stat.S_IMODE(before.st_mode))
+        fresh.replace(target)
+    finally:
+        fresh.unlink(missing_ok=True)
