@@ -26,16 +26,24 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "IOEnable IODisable IOUnitState PackDNHeader",
     ),
     (
-        "SafeMove is not simulated",
-        """GetMaxNumberOfCyclicBool SetupCyclicBool RemoveCyclicBool RemoveAllCyclicBool
-        SetLeadThrough IsLeadThrough""",
+        "conditions that the controller evaluates by itself are not simulated",
+        "GetMaxNumberOfCyclicBool SetupCyclicBool RemoveCyclicBool RemoveAllCyclicBool",
+    ),
+    ("nobody can lead a simulated robot by hand", "SetLeadThrough IsLeadThrough"),
+    (
+        "path correction is not simulated",
+        "CorrCon CorrDiscon CorrClear CorrWrite CorrRead",
     ),
     (
-        "path correction and sensors are not simulated",
-        """CorrCon CorrDiscon CorrClear CorrWrite CorrRead WaitWObj DropWObj WaitSensor SyncToSensor
-        DropSensor SenDevice WriteVar ReadVar WriteBlock ReadBlock ContactL SiConnect SiClose
-        SiGetCyclic SiSetCyclic IVarValue""",
+        "conveyors are not simulated",
+        "WaitWObj DropWObj WaitSensor SyncToSensor DropSensor",
     ),
+    (
+        "there is no sensor to talk to",
+        """SenDevice WriteVar ReadVar WriteBlock ReadBlock SiConnect SiClose SiGetCyclic
+        SiSetCyclic IVarValue""",
+    ),
+    ("contact is not simulated", "ContactL"),
     (
         "force control (option 661-2) is not simulated",
         """FCCalib FCAct FCDeact FCRefStart FCRefStop FCPress1LStart FCPressL FCPressC FCPressEnd
@@ -50,7 +58,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ),
     ("linked motors are not simulated", "Linked_m_exe"),
     (
-        "the path recorder is not simulated",
+        "the controller's path recorder is not simulated",
         """PathRecStart PathRecStop PathRecMoveBwd PathRecMoveFwd PathRecValidBwd PathRecValidFwd
         StepBwdPath""",
     ),
@@ -61,15 +69,22 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ("motor angles need gear ratios, which are in no public source", "ReadMotor"),
     (
         "its arguments are in no public source",
-        """TriggLIOs TriggJIOs TriggDataReset TriggDataCopy TriggDataValid MoveJAO MoveLAO MoveCAO
-        MoveJGO MoveLGO MoveCGO CalcRotAxisFrame CalcRotAxFrameZ MToolRotCalib SToolRotCalib
-        SToolTCPCalib""",
+        "TriggLIOs TriggJIOs",
     ),
     (
-        "process equipment is not simulated",
-        """ArcL ArcC ArcLStart ArcLEnd ArcCStart ArcCEnd SpotL SpotJ LoadId CamLoadJob
-        CamStartLoadJob CamWaitLoadJob CamSetProgramMode CamSetRunMode CamReqImage CamGetResult
-        CamGetParameter CamSetParameter CamSetExposure CamFlush CamGetName CamNumberOfResults""",
+        "how the controller fits axes and tools to measured points is in no public source",
+        "CalcRotAxisFrame CalcRotAxFrameZ MToolRotCalib SToolRotCalib SToolTCPCalib",
+    ),
+    ("loads are not identified: torques are 0", "LoadId"),
+    (
+        "there is no camera",
+        """CamLoadJob CamStartLoadJob CamWaitLoadJob CamSetProgramMode CamSetRunMode CamReqImage
+        CamGetResult CamGetParameter CamSetParameter CamSetExposure CamFlush CamGetName
+        CamNumberOfResults""",
+    ),
+    (
+        "welding is not simulated",
+        "ArcL ArcC ArcLStart ArcLEnd ArcCStart ArcCEnd SpotL SpotJ",
     ),
     (
         "independent axes are not simulated",

@@ -37,6 +37,18 @@ def _writable(target: AnySignal) -> Signal:
     return signal
 
 
+_BEYOND = {"A": "ERR_AO_LIM", "G": "ERR_GO_LIM"}
+
+
+def fitting(signal: Signal, value: float) -> float:
+    """`value`, which fits the signal. ERR_AO_LIM, ERR_GO_LIM, ERR_ARGVALERR: it does not."""
+    try:
+        signal.fit(value)
+    except ValueError as error:
+        raise RapidError(_BEYOND.get(signal.spec.type[0], "ERR_ARGVALERR"), str(error)) from error
+    return value
+
+
 def _duration(task: Task, seconds: float, name: str) -> float:
     shortest, longest = _TIMES[task.controller.dialect.signal_times]
     if not shortest * (1 - 1e-6) <= seconds <= longest:

@@ -1,4 +1,5 @@
-"""Move instructions: MoveAbsJ, MoveExtJ, MoveJ, MoveL, MoveC and their DO and Sync forms.
+"""Move instructions: MoveAbsJ, MoveExtJ, MoveJ, MoveL, MoveC and their forms with a signal or
+a procedure.
 
 Those to a robtarget differ in way and events only: they are bound by name at the end.
 
@@ -10,6 +11,7 @@ from dataclasses import replace
 from math import inf
 from typing import Any, TypeAlias
 
+from rapidgen.virtual.builtins.io import fitting
 from rapidgen.virtual.compiler.symbols import Routine
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.interrupts import Interrupt
@@ -107,11 +109,10 @@ def move_ext_j(
 
 def _setting(task: Task, given: Given) -> tuple[PathEvent]:
     """The output changes in the middle of the corner, at a stop point on arrival."""
-    signal, value = given["Signal"], given["Value"]
-    if value not in (0, 1):
-        raise RapidError("ERR_ARGVALERR", f"{signal.signal.name} to {value:g}")
+    signal, value = given["Signal"].signal, given["Value"]
+    wanted = fitting(signal, given["Dvalue"] if value is None else value)
     io = task.controller.io
-    return (PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal.signal, value)),)
+    return (PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal, wanted)),)
 
 
 def _calling(task: Task, given: Given) -> tuple[PathEvent]:
@@ -131,9 +132,10 @@ def _calling(task: Task, given: Given) -> tuple[PathEvent]:
 bind("MoveJ", joint_move)
 bind("MoveL", cartesian_move)
 bind("MoveC", cartesian_move)
-bind("MoveJDO", joint_move, _setting)
-bind("MoveLDO", cartesian_move, _setting)
-bind("MoveCDO", cartesian_move, _setting)
+for _kind in ("DO", "AO", "GO"):
+    bind(f"MoveJ{_kind}", joint_move, _setting)
+    bind(f"MoveL{_kind}", cartesian_move, _setting)
+    bind(f"MoveC{_kind}", cartesian_move, _setting)
 bind("MoveJSync", joint_move, _calling)
 bind("MoveLSync", cartesian_move, _calling)
 bind("MoveCSync", cartesian_move, _calling)

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
 from typing import Any, TypeAlias
 
+from rapidgen.virtual.builtins.io import fitting
 from rapidgen.virtual.builtins.path import MOVE_TASK
 from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.io import AnySignal
@@ -54,11 +55,7 @@ def _output(
     if chosen is None:
         raise FatalError(events.NOT_SIMULATED, "Process events are not simulated", "\\ProcID")
     signal = chosen.signal
-    try:
-        signal.fit(value)
-    except ValueError as error:
-        name = {"A": "ERR_AO_LIM", "G": "ERR_GO_LIM"}.get(signal.spec.type[0], "ERR_ARGVALERR")
-        raise RapidError(name, str(error)) from error
+    fitting(signal, value)
     io = task.controller.io
 
     def act() -> None:
@@ -177,6 +174,24 @@ def trigg_check_io(
         task.interrupts.happen(ordered)
 
     data.set(where, amount, act)
+
+
+@builtin("TriggDataReset")
+def trigg_data_reset(_task: Task, data: TriggData) -> None:
+    """Nothing is prepared any more."""
+    data.event = None
+
+
+@builtin("TriggDataCopy")
+def trigg_data_copy(_task: Task, source: TriggData, destination: TriggData) -> None:
+    """The same event in another datum, which later changes of the first one leave alone."""
+    destination.event = source.event
+
+
+@builtin("TriggDataValid")
+def trigg_data_valid(_task: Task, data: TriggData) -> bool:
+    """Whether an event is prepared."""
+    return data.event is not None
 
 
 def _prepared(_task: Task, given: Given) -> tuple[PathEvent, ...]:
