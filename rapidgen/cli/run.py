@@ -150,7 +150,12 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
         name, equals, names = text.partition("=")
         if not equals or not name or not names:
             raise DiagnosticError(
-                Diagnostic("RG901", Severity.ERROR, f"--task '{text}' is not NAME=FILE,FILE")
+                Diagnostic(
+                    "RG901",
+                    Severity.ERROR,
+                    f"--task '{text}' is not NAME=FILE,FILE",
+                    help="such as --task T_ROB1=main.mod,data.mod",
+                )
             )
         by_task.setdefault(name, []).extend(names.split(","))
     if by_task:
@@ -159,8 +164,14 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
         return read_files(by_task, entry=entry)
     if not files:
         raise DiagnosticError(
-            Diagnostic("RG901", Severity.ERROR, "nothing to run: name a module or a folder")
+            Diagnostic(
+                "RG901",
+                Severity.ERROR,
+                "nothing to run",
+                help="name a module, a folder with modules, a generated folder or a backup",
+            )
         )
+    _no_configuration(files)
     if len(files) == 1 and files[0].is_dir() and (is_generated(files[0]) or is_backup(files[0])):
         return read_system(files[0])
     return read_files(files, entry=entry, name=files[0].stem)
@@ -172,7 +183,26 @@ def _limits(max_time: float, max_statements: int) -> None:
 
     if not 0 < max_time <= _LONGEST or max_statements < 1:
         message = f"--max-time is above 0 and at most {_LONGEST:g} s, --max-statements at least 1"
-        raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, message))
+        raise DiagnosticError(
+            Diagnostic("RG901", Severity.ERROR, message, help="such as --max-time 60")
+        )
+
+
+def _no_configuration(files: list[Path]) -> None:
+    """Refuse what `sim` and `build` take and `run` does not."""
+    from rapidgen.config import shipped_names
+    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+
+    for file in files:
+        if file.suffix in (".yaml", ".yml") or (str(file) in shipped_names() and not file.exists()):
+            raise DiagnosticError(
+                Diagnostic(
+                    "RG901",
+                    Severity.ERROR,
+                    f"{file} is a configuration, and run takes RAPID",
+                    help=f"`rapidgen sim {file}` boots it; or build it and run the folder",
+                )
+            )
 
 
 def _writable(path: Path) -> None:
@@ -183,17 +213,30 @@ def _writable(path: Path) -> None:
         path.open("a", encoding="utf-8").close()
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}"
-        raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, message)) from error
+        raise DiagnosticError(
+            Diagnostic(
+                "RG901",
+                Severity.ERROR,
+                message,
+                help="name a file in a folder that exists and may be written",
+            )
+        ) from error
 
 
 def _dialect(text: str) -> "Dialect":
+    from dataclasses import fields
+
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-    from rapidgen.virtual.dialect import parse_dialect
+    from rapidgen.virtual.dialect import Dialect, parse_dialect
 
     try:
         return parse_dialect(text)
     except ValueError as error:
-        raise DiagnosticError(Diagnostic("RG901", Severity.ERROR, f"--dialect: {error}")) from error
+        names = ", ".join(switch.name for switch in fields(Dialect))
+        fault = Diagnostic(
+            "RG901", Severity.ERROR, f"--dialect: {error}", help=f"SWITCH=VALUE; there are {names}"
+        )
+        raise DiagnosticError(fault) from error
 
 
 def _run(

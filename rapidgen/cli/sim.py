@@ -207,7 +207,8 @@ def _wanted(target: "Target") -> list[int]:
     """Ports that a driver must listen on before it may be called ready."""
     if not target.driver:
         return []
-    return [p for group in target.groups for p in (group.ports.motion, group.ports.state)]
+    ports = [group.ports for group in target.groups]
+    return [n for p in ports for n in (p.motion, p.control, p.state) if n]
 
 
 def _is_up(controller: "VirtualController", target: "Target") -> bool:

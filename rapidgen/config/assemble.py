@@ -62,7 +62,7 @@ def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
         _rest_on(made, base_name, made.root)
     elif shipped or path.parent == data_folder("robots"):
         _rest_on(made, path.stem, canonical(user, ()).root)
-    for layer in (user, over):
+    for layer in (user, over) if over.entries else (user,):
         moved = canonical(layer, group_names(made.root))
         made.found += moved.found
         made.root = merge(made.root, moved.root)

@@ -97,15 +97,8 @@ def write(output: Output, folder: Path) -> None:
 
     Raises DiagnosticError: RG102 (the folder holds other things), RG103 (it cannot be written).
     """
-    if folder.exists() and not _is_ours(folder):
-        raise DiagnosticError(
-            Diagnostic(
-                "RG102",
-                Severity.ERROR,
-                f"{folder} was not made by rapidgen and is not empty",
-                help="name another folder with -o, or remove this one yourself",
-            )
-        )
+    if folder.exists():
+        _refuse_foreign(folder, output)
     try:
         folder.parent.mkdir(parents=True, exist_ok=True)
         # A sibling, so that it lies on the same file system and can be renamed into place.
@@ -127,6 +120,41 @@ def write(output: Output, folder: Path) -> None:
         raise _unwritable(folder, error) from error
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
+
+
+def _refuse_foreign(folder: Path, output: Output) -> None:
+    """RG102 where replacing `folder` would take away what no build put there."""
+    if not _is_ours(folder):
+        raise _foreign(
+            f"{folder} was not made by rapidgen and is not empty",
+            "name another folder with -o, or remove this one yourself",
+        )
+    ours = {file.path for file in output.files} | _built(folder)
+    others = sorted(
+        path.relative_to(folder).as_posix()
+        for path in folder.rglob("*")
+        if path.is_symlink() or not path.is_dir()
+    )
+    others = [path for path in others if path not in ours]
+    if others:
+        more = f" and {len(others) - 3} more" if len(others) > 3 else ""
+        raise _foreign(
+            f"{folder} holds files that no build put there: {', '.join(others[:3])}{more}",
+            "move them to another place: a build replaces the folder as a whole",
+        )
+
+
+def _built(folder: Path) -> set[str]:
+    """Files that the manifest lists; none where it cannot be read."""
+    try:
+        listed = json.loads((folder / MANIFEST).read_bytes())["files"]
+        return {str(entry["path"]) for entry in listed}
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        return set()
+
+
+def _foreign(message: str, help: str) -> DiagnosticError:
+    return DiagnosticError(Diagnostic("RG102", Severity.ERROR, message, help=help))
 
 
 def _is_ours(folder: Path) -> bool:

@@ -179,7 +179,9 @@ def read_answers(path: Path) -> list[Answer]:
 
     try:
         entries = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, YAMLError) as error:
+    except OSError as error:
+        raise _unreadable(path, error.strerror or str(error)) from error
+    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
         raise _unreadable(path, str(error).splitlines()[0]) from error
     if not isinstance(entries, list):
         raise _unreadable(path, "it holds no list")

@@ -49,6 +49,22 @@ def test_check_and_diff(here, capsys):
     assert main(["build", "irb120", "-o", "x", "--check"]) == 0
 
 
+def test_a_file_that_no_build_made_is_not_taken_away(here, capsys):
+    assert main(["build", "irb120", "-o", "x"]) == 0
+    # A file of an earlier build is the build's own, though this one does not write it.
+    assert main(["build", "irb120", "-o", "x", "--set", "ports.control=0"]) == 0
+    assert not (here / "x/HOME/ROS/ROS_control.mod").exists()
+    own = here / "x/HOME/ROS/my_calibration.mod"
+    own.write_text("MODULE my_calibration\nENDMODULE\n")
+    assert main(["build", "irb120", "-o", "x"]) == 2
+    assert "error[RG102]" in (shown := capsys.readouterr().err)
+    assert "HOME/ROS/my_calibration.mod" in shown
+    assert own.exists()
+    own.unlink()
+    (here / "x/manifest.json").write_text("{")
+    assert main(["build", "irb120", "-o", "x"]) == 0
+
+
 def test_a_wrong_key_is_bad_input(here, capsys):
     assert main(["build", "irb120", "--set", "trajectory.capasity=5"]) == 2
     assert "capacity" in capsys.readouterr().err
