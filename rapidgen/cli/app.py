@@ -160,21 +160,16 @@ def _refused(error: OSError) -> int:
     """Say what the operating system refused; the exit code."""
     from rapidgen.diagnostics import Diagnostic, Severity
 
-    # What could not be written must not be tried again when Python ends.
-    if error.filename is None and error.errno in _MACHINE:
+    if error.filename is not None:
+        message, mend = f"cannot use {error.filename}", "free it, or name another one"
+    elif error.errno in _MACHINE:
+        # What could not be written to stdout must not be tried again when Python ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    named = error.filename if isinstance(error.filename, str) else ""
-    what = named or ("standard output" if error.errno in _MACHINE else "the folder you are in")
-    _show(
-        (
-            Diagnostic(
-                "RG903",
-                Severity.ERROR,
-                f"cannot use {what}: {error.strerror}",
-                help="free it, or name another one",
-            ),
-        )
-    )
+        message, mend = "cannot go on", "look at where the output goes, and at the disk"
+    else:
+        message, mend = "cannot go on", "is the folder that you are in still there?"
+    text = f"{message}: {error.strerror}"
+    _show((Diagnostic("RG903", Severity.ERROR, text, help=mend),))
     return 2 if error.errno in _BAD_PATH else 1
 
 

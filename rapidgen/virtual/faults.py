@@ -102,7 +102,9 @@ def read_plan(path: Path) -> FaultPlan:
 
     try:
         content = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, YAMLError) as error:
+    except OSError as error:
+        raise _unusable(path, error.strerror or str(error)) from error
+    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
         raise _unusable(path, str(error).splitlines()[0]) from error
     if not isinstance(content, dict) or set(content) - {"network", "controller"}:
         raise _unusable(path, "it is no mapping with `network` and `controller`")

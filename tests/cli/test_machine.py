@@ -38,8 +38,14 @@ def shell(command, folder, **environment):
 def test_output_that_has_no_room_is_said(folder, words):
     done = shell(f"$RG {words} >/dev/full", folder)
     assert done.returncode == 1
-    assert "error[RG903]: cannot use standard output: No space left" in done.stderr
+    assert "error[RG903]: cannot go on: No space left" in done.stderr
     assert "Traceback" not in done.stderr
+
+
+def test_a_folder_that_has_gone_is_said(folder):
+    done = shell("mkdir gone && cd gone && rmdir ../gone && $RG build irb120", folder)
+    assert done.returncode == 2
+    assert "error[RG903]: cannot go on: No such file" in done.stderr
 
 
 @pytest.mark.parametrize("words", ["explain all", "run good.mod", "robots"])
