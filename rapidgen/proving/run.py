@@ -18,6 +18,7 @@ from rapidgen.proving.suite import CASES
 from rapidgen.system.model import System
 from rapidgen.virtual.cell import in_its_cell
 from rapidgen.virtual.dialect import NOT_THE_DRIVERS, Dialect
+from rapidgen.virtual.motion.settings import MotionSettings
 
 R = TypeVar("R")
 
@@ -48,7 +49,25 @@ def settings(config: RobotConfig) -> dict[str, Setting]:
         found[group.name] = Setting(group=number, coverage=True)
     for name, value in _inverted():
         found[f"{name}={value}"] = Setting(dialect=replace(Dialect(), **{name: value}))
+    for name, value in _MOTION.items():
+        found[f"{name}={value}"] = Setting(motion=replace(MotionSettings(), **{name: value}))
     return found
+
+
+# Open questions about motion, each answered the other way.
+_MOTION: dict[str, Any] = {
+    "stop_waits": True,
+    "stop_owner": "task",
+    "refresh_timed": False,
+    "cleared_move": "hang",
+    "range_error": "fatal",
+    "zero_length": "wait",
+    "planning_lead": 0.02,
+    "servo_lag": 0.05,
+    "settle": 0.2,
+    "emergency_stop": "path",
+    "quick_factor": 1.0,
+}
 
 
 # What the driver cannot do without. Where it is otherwise a task ends at its start or every link

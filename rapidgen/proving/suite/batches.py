@@ -269,6 +269,30 @@ def _is_lost(stream: Streamer) -> bool:
     return stream.link.lost
 
 
+def _index_wraps(bench: Bench) -> None:
+    """Points are counted anew behind the last number that a controller counts exactly."""
+    last = spec.INDEX_WRAP
+    stream, since = Streamer(bench), bench.now
+    points = way(bench, 40)
+    stream.put(points[:10], BEGIN)
+    stream.accepted("the first points")
+    bench.wait_until_at(points[9][0], 20)
+    bench.run(0.5)
+    server, motion = bench.task("ROS_motionServer"), bench.task("ROS_motion")
+    bench.controller.task(server)["ROS_acceptance:ROS_count"] = last - 5
+    bench.controller.task(server)["ROS_stream:accepted"] = last - 5
+    bench.controller.task(motion)["ROS_motion:expected"] = last - 4
+    stream.sent = last - 5
+    stream.put(points[10:20])
+    if stream.accepted("points over the last number").accepted != 5:
+        raise Broken(f"ten points from {last - 5} on, the reply is {stream.last}")
+    stream.sent = 5
+    stream.put(points[20:], END)
+    stream.accepted("points behind the last number")
+    bench.wait_until_at(points[-1][0], 20)
+    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+
+
 def _behind_the_end(bench: Bench) -> None:
     """What comes behind the end is refused, and what came before it is done."""
     watcher = bench.watcher()
@@ -297,6 +321,7 @@ _PROOFS: tuple[tuple[str, str, Callable[[Bench], None], str], ...] = (
     ("batch-stay", "a stay in a stream", _stays, "R8"),
     ("batch-short-last", "a short last segment of a stream", _short_last, "R9"),
     ("batch-silent", "a stream that is silent for seconds", _silent, "R12"),
+    ("batch-index-wraps", "more points than numbers", _index_wraps, ""),
     ("batch-behind-end", "points behind the end", _behind_the_end, ""),
 )
 CASES = tuple(Case(name, title, "streaming", prove, who) for name, title, prove, who in _PROOFS)

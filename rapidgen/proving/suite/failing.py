@@ -271,8 +271,14 @@ def _stopped_without_signals(bench: Bench) -> None:
         other.wait_until_moving()
         other.controller.perform("stop")
         other.wait_until_standing(5)
+        watcher = other.watcher()
         link.send(STOP)
         other.run(3)
+        told = other.progress(watcher)
+        if (told.state, told.reason) != (spec.TrajectoryState.STOPPED, Reason.STOPPED):
+            raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
+        if told.point != told.reached or not 0 < told.planned <= told.received:
+            raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
         said = [e for e in other.controller.log if "does not answer" in str(e)]
         if len(said) != 1:
             raise Broken(

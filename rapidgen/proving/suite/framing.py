@@ -50,7 +50,12 @@ def _wrong_comm_type(bench: Bench) -> None:
 def _unknown_types(bench: Bench) -> None:
     link = bench.motion()
     for number in (0, 2, 10, 13, 14, 20, 1399, -5):
-        link.send(_word(44) + _word(number) + _word(1) + _word(0) + bytes(32))
+        for length in (44, 12, 1020):
+            data = _word(length) + _word(number) + _word(1) + _word(0) + bytes(length - 12)
+            link.send(data)
+            link.send(data[:500])
+            bench.run(0.02)
+            link.send(data[500:])
     bench.moves_through(link, bench.wave(3))
 
 

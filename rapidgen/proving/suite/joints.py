@@ -8,9 +8,10 @@ from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol import decode, messages
 from rapidgen.protocol.spec import Reason, TriState
 from rapidgen.proving.bench import HELLO, Bench, Setting
-from rapidgen.proving.link import Link, Point, Position
+from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
+from rapidgen.proving.suite.streaming import way
 
 _BEYOND = 0.01
 """rad or m outside a limit: more than rounding."""
@@ -215,11 +216,30 @@ def _in_motion(bench: Bench, link: Link) -> int:
     return sum(1 for t in told if isinstance(t, messages.Status) and t.in_motion == TriState.TRUE)
 
 
+def _away_from_zero(bench: Bench) -> None:
+    """Where no joint is near zero, short ways are short, and nothing else is changed."""
+    link = bench.motion()
+    there = tuple(0.4 * (j.upper if j.upper > -j.lower else j.lower) for j in bench.group.joints)
+    link.send(point_frame(0, 2, there, 9.0) + point_frame(1, 2, there, 9.0))
+    bench.wait_until_at(there, 60)
+    bench.moves_through(link, bench.wave(5, duration=0.15))
+    stream, since = Streamer(bench, link), bench.now
+    points = way(bench, 12)
+    stream.all(points)
+    bench.wait_until_at(points[-1][0], 20)
+    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+
+
 def _controller_error(bench: Bench) -> None:
-    """What the controller calls an error is one, for as long as it does."""
-    signal = next(s for s in STATUS_SIGNALS if s.function == "controller_error")
-    name = signal_name(bench.config, bench.group, signal)
+    """What the controller calls an error, or a movement, is one, for as long as it does."""
+    names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
+    name = names["controller_error"]
     state = bench.state()
+    for value in (0, 1):
+        bench.controller.signals[names["standing"]] = value
+        bench.run(2.5 * bench.config.state_period)
+        if bench.status(state).in_motion != 1 - value:
+            raise Broken(f"signal {names['standing']} is {value}, STATUS tells another thing")
     for value in (1, 0, 1, 0):
         bench.controller.signals[name] = value
         bench.run(2.5 * bench.config.state_period)
@@ -281,6 +301,7 @@ CASES = (
     Case("limits-without-sense", "a joint of which no range is left", "joints",
          _limits_without_sense),
     Case("moved-by-others", "movements that no signal shows", "joints", _moved_by_others, "R16"),
+    Case("away-from-zero", "short ways where no joint is near zero", "joints", _away_from_zero),
     Case("controller-error", "an error of the controller is in STATUS", "joints",
          _controller_error),
     Case("one-signal-missing", "each signal missing alone", "joints", _one_signal_missing, "R15"),

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "ae6bffd09b51";
+    CONST string ROS_BUILD_STREAM := "f3c5420ac098";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -273,7 +273,7 @@ MODULE ROS_stream
                 RETURN;
             ENDIF
             close ROS_REASON_NONE;
-        ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) OR room() = 0 THEN
+        ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) THEN
             announce;
         ENDIF
     ENDPROC

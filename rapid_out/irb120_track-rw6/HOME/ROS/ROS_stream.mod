@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "1d4da69c84d7";
+    CONST string ROS_BUILD_STREAM := "d4a0d212f450";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -274,7 +274,7 @@ MODULE ROS_stream
                 RETURN;
             ENDIF
             close ROS_REASON_NONE;
-        ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) OR room() = 0 THEN
+        ELSEIF (NOT holding) OR held >= PRELOAD OR has(ROS_STREAM_FLUSH) THEN
             announce;
         ENDIF
     ENDPROC

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "9b811e6242c3";
+    CONST string ROS_BUILD_STATE_SERVER := "4ad635626678";
 
     LOCAL CONST num PORT := 12002;
     LOCAL CONST num PERIOD := 0.05;
@@ -104,7 +104,6 @@ MODULE ROS_stateServer
         ENDWHILE
         ticks := 0;
         offset := 0;
-        overrun := 0;
         ClkReset schedule;
         ClkStart schedule;
         ClkReset since_look;
@@ -405,11 +404,6 @@ MODULE ROS_stateServer
         ticks := ticks + 1;
         due := ticks * PERIOD + offset;
         now := ClkRead(schedule);
-        WHILE due - now > LOOK_PERIOD AND clients > 0 DO
-            WaitTime LOOK_PERIOD;
-            look_after_clients;
-            now := ClkRead(schedule);
-        ENDWHILE
         IF clients = 0 RETURN;
         IF now < due THEN
             WaitTime due - now;
