@@ -239,6 +239,8 @@ class VirtualController(ControllerState):
         self.texts = TextTables()
         self.modules = ModuleTable()
         self.queues = QueueSystem(system.tasks)
+        self.test_signals: dict[int, float] = {}
+        """Values of the servos' test signals by channel."""
         self.configuration = Configuration(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,

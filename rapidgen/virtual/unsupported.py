@@ -17,10 +17,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         """WZBoxDef WZCylDef WZSphDef WZHomeJointDef WZLimJointDef WZDOSet WZLimSup WZEnable
         WZDisable WZFree""",
     ),
-    (
-        "the servo loops are not simulated",
-        "TuneServo TuneReset TestSignRead TestSignDefine TestSignReset",
-    ),
+    ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
         "there are no I/O units: every signal is a virtual one",
         "IOEnable IODisable IOUnitState PackDNHeader",

@@ -1,11 +1,13 @@
 """Errors of a process that runs while the robot moves, and what its axes carry.
 
 Sources: [K §7.4] for ProcerrRecovery, which stops the movement; 3HAC050917 for arguments. There
-are no dynamics: torques are 0, loads change nothing.
+are no dynamics: torques are 0, loads change nothing. gizatt/ABB-IRB140 [code] for the arguments of
+TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 """
 
 from typing import Any
 
+from rapidgen.virtual.builtins.units import unit_axis
 from rapidgen.virtual.errors import FatalError, RapidError, errnum
 from rapidgen.virtual.motion import events
 from rapidgen.virtual.motion.access import group_of, moving_group
@@ -14,6 +16,11 @@ from rapidgen.virtual.process_errors import ProcessError
 from rapidgen.virtual.registry import builtin
 from rapidgen.virtual.running import RapidTask
 from rapidgen.virtual.values import Ref
+
+_CHANNELS = range(1, 13)
+_TORQUE = 9
+_FORCES = range(201, 213)
+"""Torque of a motor, and what a force sensor feels: 0 where there are no dynamics."""
 
 
 @builtin("ProcerrRecovery")
@@ -61,3 +68,46 @@ def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa
     """0 Nm. ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
+
+
+# -- test signals --------------------------------------------------------------------------------
+
+
+@builtin("TestSignDefine")
+def define_test_signal(
+    task: RapidTask,
+    channel: float,
+    signal: float,
+    unit: Any,  # noqa: ANN401
+    axis: float,
+    _sample: float,
+) -> None:
+    """A signal of the servos for a channel. ERR_ARGVALERR: no such channel; ERR_AXIS_PAR.
+
+    FatalError: a signal of which nobody knows what it shows.
+    """
+    if channel not in _CHANNELS:
+        raise RapidError("ERR_ARGVALERR", f"channel {channel:g}")
+    unit_axis(task, unit, axis)
+    if signal != _TORQUE and signal not in _FORCES:
+        raise FatalError(
+            events.NOT_SIMULATED,
+            f"Test signal {signal:g} is not simulated",
+            "torques (9) and force sensors (201 to 212) are, and are 0",
+        )
+    task.controller.test_signals[int(channel)] = 0.0
+
+
+@builtin("TestSignRead")
+def read_test_signal(task: RapidTask, channel: float) -> float:
+    """The value of a channel. ERR_ARGVALERR: none is defined for it."""
+    value: float | None = task.controller.test_signals.get(int(channel))
+    if value is None:
+        raise RapidError("ERR_ARGVALERR", f"channel {channel:g} has no signal")
+    return value
+
+
+@builtin("TestSignReset")
+def reset_test_signals(task: RapidTask) -> None:
+    """All channels are free."""
+    task.controller.test_signals.clear()
