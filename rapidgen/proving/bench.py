@@ -291,10 +291,11 @@ class Bench:
                     _exchange(task.program, module, tree)
 
     def fails(
-        self, module: str, instruction: str, error: str, times: int = 1
+        self, module: str, instruction: str, error: str, times: int = 1, *, after: int = 0
     ) -> Callable[[], None]:
         """The next `times` calls of an instruction in a module's task raise an error.
 
+        `after`: so many calls are left as they are before.
         Whatever a controller may report: the driver has to live with it. What is returned
         ends it.
         """
@@ -302,11 +303,12 @@ class Bench:
         routine = program.find_routine(None, instruction.casefold())
         assert routine is not None
         as_before = program.space[routine.code]
-        left = times
+        left, before = times, after
 
         def failing(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-            nonlocal left
-            if left <= 0:
+            nonlocal left, before
+            if left <= 0 or before > 0:
+                before -= 1
                 return as_before(*arguments)
             left -= 1
             raise RapidError(error)

@@ -293,6 +293,32 @@ def _index_wraps(bench: Bench) -> None:
     bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
 
 
+def _unreadable(bench: Bench) -> None:
+    """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
+    joints = spec.point_pairs(len(bench.position))
+    # Two words of the head, those of two points, the checksum; and the frame's own.
+    for after in range(2 * joints + 6):
+        stream, since = Streamer(bench), bench.now
+        points = way(bench, 22)
+        stream.put(points[:20], BEGIN)
+        bench.wait_until_moving()
+        recovers = bench.fails("ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
+        stream.link.send(stream.frame(points[20:], _NONE))
+        bench.run(0.1)
+        recovers()
+        if not stream.link.lost:
+            stream.reply()
+            told = stream.last
+            if not isinstance(told, messages.PointsRefused) or told.reason != Reason.CHECKSUM:
+                raise Broken(f"read {after} of a batch has failed, the reply is {told}")
+        bench.wait_until_standing(10)
+        bench.followed([bench.track_at(since), *(p for p, _ in points[:20])], since=since)
+        bench.stays(0.3, f"read {after} of a batch has failed")
+        bench.healthy()
+        stream.link.close()
+        bench.run(0.3)
+
+
 def _behind_the_end(bench: Bench) -> None:
     """What comes behind the end is refused, and what came before it is done."""
     watcher = bench.watcher()
@@ -322,6 +348,7 @@ _PROOFS: tuple[tuple[str, str, Callable[[Bench], None], str], ...] = (
     ("batch-short-last", "a short last segment of a stream", _short_last, "R9"),
     ("batch-silent", "a stream that is silent for seconds", _silent, "R12"),
     ("batch-index-wraps", "more points than numbers", _index_wraps, ""),
+    ("batch-unreadable", "bytes of a batch that cannot be read", _unreadable, "R3"),
     ("batch-behind-end", "points behind the end", _behind_the_end, ""),
 )
 CASES = tuple(Case(name, title, "streaming", prove, who) for name, title, prove, who in _PROOFS)

@@ -297,6 +297,58 @@ def _heartbeat_in_time(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(4))
 
 
+def _instructions_fail(bench: Bench) -> None:
+    """Whatever the control server's instructions report, the next client can stop the robot."""
+    for instruction, error in (
+        ("SocketReceive", "ERR_SOCK_CLOSED"),
+        ("SocketSend", "ERR_SOCK_CLOSED"),
+        ("SocketAccept", "ERR_SOCK_CLOSED"),
+        ("UnpackRawBytes", "ERR_OUTOFBND"),
+        ("CopyRawBytes", "ERR_OUTOFBND"),
+        ("StopMove", "ERR_PATH_STOP"),
+    ):
+        control, link = bench.control(), bench.motion()
+        points = bench.wave(30)
+        link.send(bench.download(points))
+        bench.wait_until_moving()
+        recovers = bench.fails("ROS_control", instruction, error)
+        control.send(encode(HELLO, spec.Comm.REQUEST))
+        bench.run(0.3)
+        control.send(STOP)
+        bench.run(1)
+        recovers()
+        bench.healthy()
+        control = bench.control()
+        bench.run(0.3)
+        _stop(control, 2)
+        bench.wait_until_standing(3)
+        bench.stays(1, f"it was stopped; {instruction} of the control server has failed")
+        bench.moves_through(link, bench.wave(3))
+        control.close()
+        link.close()
+        bench.run(1.3)
+
+
+def _supervisor_is_gone(bench: Bench) -> None:
+    """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
+    other = bench.beside(bench.system)
+    try:
+        control, link = other.control(), other.motion()
+        other.fails("ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        other.run(1)
+        link.send(other.download(other.wave(8)))
+        other.stays(3, "the supervisor does not answer")
+        for asked in (control, link):
+            asked.send(STOP)
+            told = asked.reply(_TRAJ, 3)
+            if not isinstance(told, messages.Failure):
+                raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
+        _not_done(control.ask(messages.Pause(1), 3), Reason.INTERNAL, "PAUSE")
+        other.stays(1, "the supervisor does not answer")
+    finally:
+        other.close()
+
+
 def _old_end(bench: Bench) -> None:
     """A client that comes later is not told of what ended before; a cut tells joint and place."""
     link = bench.motion()
@@ -526,6 +578,9 @@ CASES = tuple(
         ("heartbeats", "a missing heartbeat stops the robot", _heartbeats, "R12"),
         ("heartbeat-in-time", "the stop for a missing heartbeat comes in time",
          _heartbeat_in_time, "R12"),
+        ("control-fails", "instructions of the control server that report errors",
+         _instructions_fail, "R3"),
+        ("supervisor-gone", "a supervisor that does not answer", _supervisor_is_gone, "R7b"),
         ("old-end", "STOPPED tells what ends, not what has ended", _old_end, ""),
         ("control-leaves", "a control client leaves", _control_client_leaves, ""),
         ("newest-control", "the newest control client is served", _newest_control_client, "R12"),
