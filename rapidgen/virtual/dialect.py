@@ -98,6 +98,10 @@ class Dialect:
     """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver
     ends every command so), or it is an error (S4 datasys 3-StrFind)."""
 
+    whole_text: Literal["six", "all"] = "six"
+    """A whole num in the standard format: 6 significant digits (S4 datasys 3-ValToStr-1), or all of
+    them up to 16777215, as the check sums of Keyence's CV-X modules need it."""
+
     argument_error: Literal["recoverable", "fatal"] = "recoverable"
     """An argument that a built-in refuses is ERR_ARGVALERR, which a handler gets: the later manuals
     have the name, which built-ins raise it is remembered [mem]. `fatal`: no handler gets it."""
@@ -140,6 +144,7 @@ class Dialect:
 
 NOT_THE_DRIVERS = frozenset(
     {
+        "whole_text",
         "event_stops",
         "interrupts_limited",
         "shortest_timer",

@@ -41,7 +41,7 @@ class ModuleTable:
 
     def __init__(self) -> None:
         self._origins: dict[tuple[str, str], Origin] = {}
-        self.searches: dict[str, Iterator[tuple[LoadedModule, Data]]] = {}
+        self.searches: dict[str, Iterator[tuple[LoadedModule | None, Data]]] = {}
         """By task: what SetDataSearch has found and GetNextSym has not given yet."""
 
     def origin(self, task: "Task", module: str) -> Origin | None:

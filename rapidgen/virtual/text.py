@@ -16,6 +16,8 @@ from rapidgen.virtual.values import DNUM, STRING_LIMIT, Record, Type, single
 NUM_DIGITS = 6
 DNUM_DIGITS = 15
 _FRACTION = 0.000005
+_EXACT = 2**24
+"""Whole numbers below are exact in a num."""
 _ALL_DIGITS = Context(prec=800)
 """Enough for every float with decimals behind it."""
 _LITERAL = re.compile(
@@ -31,28 +33,36 @@ def limited(text: str) -> str:
     return text
 
 
-def number_text(value: float, digits: int = NUM_DIGITS) -> str:
-    """A number in the standard format."""
+def number_text(value: float, digits: int = NUM_DIGITS, *, whole: bool = False) -> str:
+    """A number in the standard format; `whole`: all digits of one that is whole and exact."""
     if digits == NUM_DIGITS and math.isfinite(value):
         fraction = abs(value) % 1
         if fraction < _FRACTION or fraction > 1 - _FRACTION:
             value = round(value)
+            if whole and abs(value) < _EXACT:
+                return str(value)
     text = f"{value:.{digits}G}"
     return "0" if text == "-0" else text
 
 
-def value_text(value: Any, type_: Type | None = None) -> str:  # noqa: ANN401 - any RAPID value
+def value_text(
+    value: Any,  # noqa: ANN401 - any RAPID value
+    type_: Type | None = None,
+    *,
+    whole: bool = False,
+) -> str:
     """Any value in the standard format: texts quoted, aggregates without blanks."""
     if value.__class__ is dict:
-        return "[" + ",".join(value_text(v, type_) for v in value.values()) + "]"
+        return "[" + ",".join(value_text(v, type_, whole=whole) for v in value.values()) + "]"
     if isinstance(value, Record):
         parts = zip(value.values(), value.rapid_type.components, strict=True)
-        return "[" + ",".join(value_text(part, kind) for part, (_, kind) in parts) + "]"
+        texts = (value_text(part, kind, whole=whole) for part, (_, kind) in parts)
+        return "[" + ",".join(texts) + "]"
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
     if isinstance(value, str):
         return '"' + value.replace('"', '""') + '"'
-    return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS)
+    return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS, whole=whole)
 
 
 def literal_text(value: Any, type_: Type) -> str:  # noqa: ANN401 - any RAPID value

@@ -148,7 +148,7 @@ def write(
     no_new_line: bool | None,
 ) -> None:
     """Write a text, a value in the standard format and a line feed."""
-    line = appended(text, num, boolean, pos, orient, dnum)
+    line = appended(task, text, num, boolean, pos, orient, dnum)
     _put(task, device, (line + ("" if no_new_line else "\n")).encode("latin-1"))
 
 

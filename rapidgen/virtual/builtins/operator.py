@@ -56,6 +56,7 @@ def _operator(task: Task) -> Operator:
 
 
 def appended(
+    task: Task,
     text: str,
     num: float | None,
     boolean: bool | None,
@@ -64,13 +65,14 @@ def appended(
     dnum: float | None,
 ) -> str:
     """`text` with a value in the standard format behind it (TPWrite, Write)."""
+    whole = task.controller.dialect.whole_text == "all"
     if num is not None:
-        return text + number_text(num)
+        return text + number_text(num, whole=whole)
     if dnum is not None:
         return text + number_text(dnum, DNUM_DIGITS)
     for value in (boolean, pos, orient):
         if value is not None:
-            return text + value_text(value)
+            return text + value_text(value, whole=whole)
     return text
 
 
@@ -85,7 +87,7 @@ def tp_write(
     dnum: float | None,
 ) -> None:
     """Show a text, with a value behind it if one is given."""
-    _operator(task).write(task.name, appended(text, num, boolean, pos, orient, dnum))
+    _operator(task).write(task.name, appended(task, text, num, boolean, pos, orient, dnum))
 
 
 @builtin("TPErase", cost="string")

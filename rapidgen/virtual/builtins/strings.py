@@ -107,9 +107,9 @@ def str_to_val(_task: Task, text: str, datum: object) -> bool:
 
 
 @builtin("ValToStr", cost="string")
-def val_to_str(_task: Task, datum: object) -> str:
+def val_to_str(task: Task, datum: object) -> str:
     """The text of any value; ERR_STRTOOLNG over 80 characters."""
-    return limited(value_text(*value_of(datum)))
+    return limited(value_text(*value_of(datum), whole=task.controller.dialect.whole_text == "all"))
 
 
 @builtin("StrFormat", cost="string", pure=True)

@@ -1,13 +1,15 @@
 """Data by name: GetDataVal, SetDataSearch and their family; the active tool and work object.
 
 Sources: 3HAC16581-1's arguments and error names [manual]; the pairing of error and case is
-remembered only [mem]. A search sees the modules of the task, not predefined data.
+remembered only [mem]. A search that is not narrowed to a task or module sees predefined data, too:
+Keyence's CV-X modules [code] look for tool0 and wobj0 so.
 """
 
 import re
 from collections.abc import Iterator
 
 from rapidgen.rapid import nodes as n
+from rapidgen.rapid import signatures
 from rapidgen.virtual.builtins.modules import task_named
 from rapidgen.virtual.compiler.program import LoadedModule
 from rapidgen.virtual.compiler.symbols import Data
@@ -144,6 +146,20 @@ def _declared(
                 yield loaded, declaration, data
 
 
+def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterator[Data]:
+    """Predefined data of a type (all for an empty one) that nothing in the program hides."""
+    for key, datum in signatures.predefined().items():
+        if type_ and datum.type.lower() != type_.lower():
+            continue
+        if (kinds and datum.kind not in kinds) or key in task.program.globals:
+            continue
+        if pattern and re.fullmatch(pattern, datum.name, re.IGNORECASE) is None:
+            continue
+        data = task.program.find_data(None, key)
+        if data is not None:
+            yield data
+
+
 @builtin("SetDataSearch", cost="string")
 def set_data_search(
     task: Task,
@@ -161,7 +177,7 @@ def set_data_search(
 ) -> None:
     """Begin a search: kinds, place and scope narrow it, none of them means all."""
     kinds = {k for k, wanted in (("PERS", pers), ("VAR", var), ("CONST", const)) if wanted}
-    found = [
+    found: list[tuple[LoadedModule | None, Data]] = [
         (module, data)
         for module, declaration, data in _declared(
             task, type_, "" if in_task else in_module or "", pattern or ""
@@ -170,6 +186,8 @@ def set_data_search(
         and (not global_ or declaration.scope != "LOCAL")
         and (not local or declaration.scope == "LOCAL")
     ]
+    if not (in_task or in_module or local):
+        found += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
     _modules(task).searches[task.name] = iter(found)
 
 
