@@ -47,6 +47,10 @@ class Camera:
         line, _, self._left = self._left.partition(b"\r")
         return line.decode()
 
+    def ended(self) -> bool:
+        """Whether the robot closes the connection next."""
+        return not self._left and not self._link.recv(1)
+
     def close(self) -> None:
         """End the connection."""
         self._link.close()
@@ -134,7 +138,50 @@ def _near(found: list[float], wanted: list[float], by: float) -> bool:
     return all(abs(a - b) <= by for a, b in zip(found, wanted, strict=True))
 
 
-TRIALS: tuple[Callable[[Path], None], ...] = (setup,)
+LEGS = (3, 2, 2)
+"""Points of each leg; the last one of a leg is the first one of the next."""
+WAY = [[10 + 4 * i, 20, -10 + i, 0, 40, 5 + 10 * i] for i in range(sum(LEGS) - len(LEGS) + 1)]
+
+
+def operation(folder: Path) -> None:
+    """Two picks along planned paths, then nothing is found."""
+    names = [p for p in sorted((folder / "CV-X_OperationProgram_ABB").glob("*.mod"))]
+    modules = [module(folder / "KeyenceRobotVisionSetup.sys"), *map(module, names)]
+    asked: list[str] = []
+    with running(*modules) as camera:
+        triggers, picks = 0, 2
+        while (line := camera.receive()) != "T1" or triggers < 2 * picks:
+            asked.append(line)
+            if line == "T1":
+                triggers += 1
+                camera.send("T1")
+                # The second trigger of a round is given on the way, for the next picture.
+                if triggers % 2:
+                    camera.send("1")
+                continue
+            camera.send(_planned(*map(int, line.split(",")[1:])).ljust(125, "#"))
+        camera.send("T1")
+        camera.send("0")
+        assert camera.ended()
+    assert len({line for line in asked if line.startswith("PPR,3,")}) == len(WAY)
+    print(f"operation: {picks} picks, {len(asked)} requests answered, then no path")
+
+
+def _planned(command: int, *given: int) -> str:
+    """The reply to PPR: what is set, and what was planned."""
+    if command == 3:
+        leg, point = given[2:4]
+        place = sum(LEGS[:leg]) - leg + point
+        return "PPR," + ",".join(f"{angle:+08.3f}" for angle in WAY[place])
+    first = {23: 3, 19: 1, 21: -1, 0: 3, 16: 0, 18: 1}
+    if command in first:
+        return f"PPR,{first[command]}"
+    if command == 25:
+        return "PPR," + ",".join(f"{angle:+08.3f}" for angle in START)
+    return "PPR," + ",".join(map(str, {24: (0, 1, 2), 22: (50, 80, 100), 2: LEGS}[command]))
+
+
+TRIALS: tuple[Callable[[Path], None], ...] = (setup, operation)
 
 if __name__ == "__main__":
     for trial in TRIALS:

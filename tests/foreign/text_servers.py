@@ -2,11 +2,15 @@
 
     python -m tests.foreign.text_servers FOLDER
 
-FOLDER is a checkout of joseballester/abb-rapidserver, jk4684/Gcode or RobotExMachina/Machina.NET,
-whose own clients are for ROS, windows on a screen, or C#.
+FOLDER is a checkout of joseballester/abb-rapidserver, jk4684/Gcode, RobotExMachina/Machina.NET or
+FlyingSlap/MatrixComm, whose own clients are for ROS, windows on a screen, or C#.
 """
 
+import socket
+import struct
 import sys
+import threading
+from contextlib import suppress
 from pathlib import Path
 
 from rapidgen.system.model import ModuleFile, System, TaskSpec
@@ -92,7 +96,41 @@ def machina(folder: Path) -> None:
     print("Machina: every instruction acknowledged")
 
 
-TRIALS = {"main.py": gcode, "RAPID/TASK2": rapidserver, "src/Machina": machina}
+def matrices(folder: Path) -> None:
+    """FlyingSlap/MatrixComm: 4 x 4 singles, column by column, back and forth."""
+    sent = [float(n) / 8 for n in range(16)]
+    # It waits a second before it listens, and listens again when its client has left.
+    with served(only_program(folder), "irb120") as (controller, (port,)):
+        for _ in range(2):
+            with connected(port) as link:
+                counts = []
+                for _ in range(3):
+                    counts.append(struct.unpack("<16f", link.recv(64, socket.MSG_WAITALL))[0])
+                    link.sendall(struct.pack("<16f", *sent))
+                assert counts[1] == counts[0] + 1, counts
+            kept = controller.call(lambda: str(controller.task("T_ROB1")["RobotSide:nTestMatrix"]))
+        assert "0.125" in kept, kept
+    print("MatrixComm: matrices in both directions, twice")
+
+
+def connected(port: int) -> socket.socket:
+    """A connection on which something has come: a server that is leaving accepts, too."""
+    while True:
+        with suppress(ConnectionError):
+            link = socket.create_connection(("127.0.0.1", port), timeout=10)
+            with suppress(ConnectionError):
+                if link.recv(1, socket.MSG_PEEK):
+                    return link
+            link.close()
+        threading.Event().wait(0.05)
+
+
+TRIALS = {
+    "main.py": gcode,
+    "RAPID/TASK2": rapidserver,
+    "src/Machina": machina,
+    "MatrixComm.xml": matrices,
+}
 
 if __name__ == "__main__":
     place = Path(sys.argv[1])
