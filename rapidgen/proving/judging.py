@@ -7,7 +7,8 @@ that execute its statement, those that have noticed most around it for their tim
 import math
 import os
 import signal
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from types import FrameType
@@ -81,6 +82,7 @@ class Judge:
             o.case: {(p, n) for p, lines in o.lines.items() for n, hits in lines.items() if hits}
             for o in outcomes
         }
+        self._worth = _worth(self._lines)
         self._bench = Bench(config, system, chosen)
         self._bench.compile()
 
@@ -94,7 +96,7 @@ class Judge:
         """The cases that execute the mutant's statement, in the order to be tried."""
         place = (mutant.path, mutant.statement)
         names = [n for n in self._cases if not mutant.statement or place in self._lines[n]]
-        worth = dict.fromkeys(names, 1.0)
+        worth = {name: self._worth[name].get(mutant.path, 1.0) for name in names}
         for path, line, name in self._noticed:
             if name in worth:
                 near = path == mutant.path and abs(line - mutant.line) <= NEAR
@@ -144,6 +146,17 @@ class Judge:
         except _Hung:
             return case.name + HANGS
         return ""
+
+
+def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, float]]:
+    """What each case is likely to notice in each file: a line counts by how few cases get there."""
+    common = Counter(place for places in reached.values() for place in places)
+    found: dict[str, dict[str, float]] = {}
+    for name, places in reached.items():
+        own = found[name] = {}
+        for path, line in places:
+            own[path] = own.get(path, 0.0) + 1 / common[path, line]
+    return found
 
 
 def _as_it_is(number: int) -> Outcome:

@@ -27,6 +27,9 @@ OF_THE_ROBOT = (
     "outside-limits",
     "start-too-far",
     "padding",
+    "stream-joints",
+    "away-from-zero",
+    "batch-padding",
     "stop-on-path",
     "e-stop",
 )
