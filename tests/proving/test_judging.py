@@ -83,7 +83,7 @@ def test_a_fork_answers_raises_or_fails():
 
 
 def test_a_case_that_noticed_a_neighbour_is_tried_first(judge):
-    mutant = changed("ROS_socket", b"RETURN part_bytes > 0;", b"RETURN part_bytes >= 0;")
+    mutant = changed("ROS_socket", b"IF part_bytes > 0 RETURN", b"IF part_bytes >= 0 RETURN")
     last = judge.concerned(replace(mutant, statement=0))[-1].name
     judge.learn(mutant.path, mutant.line + 2, last)
     assert judge.concerned(replace(mutant, statement=0))[0].name == last
