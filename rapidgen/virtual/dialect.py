@@ -98,6 +98,10 @@ class Dialect:
     """StrFind and StrMatch from the position right behind the text find nothing (Machina's driver
     ends every command so), or it is an error (S4 datasys 3-StrFind)."""
 
+    moves_back: bool = True
+    """A backward step over a move that was stepped takes the robot to where it began (S4 datasys
+    2-SearchL-6: "carries out the movement"), or refuses."""
+
     whole_text: Literal["six", "all"] = "six"
     """A whole num in the standard format: 6 significant digits (S4 datasys 3-ValToStr-1), or all of
     them up to 16777215, as the check sums of Keyence's CV-X modules need it."""
@@ -144,6 +148,7 @@ class Dialect:
 
 NOT_THE_DRIVERS = frozenset(
     {
+        "moves_back",
         "whole_text",
         "event_stops",
         "interrupts_limited",

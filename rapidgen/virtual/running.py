@@ -9,6 +9,7 @@ from rapidgen.virtual.compiler.base import CannotCompile
 from rapidgen.virtual.compiler.program import Program, Shared
 from rapidgen.virtual.compiler.resume import Standing
 from rapidgen.virtual.compiler.symbols import Routine
+from rapidgen.virtual.driving_back import StepHistory
 from rapidgen.virtual.errors import (
     RECOVERABLE,
     EndOfRun,
@@ -79,6 +80,7 @@ class RapidTask(Stepping):
 
     def start(self) -> None:
         """Start from where the task stopped, or from main."""
+        self._forget_steps()
         if self.leaving:
             self._start_asked = True
         elif self.state == "stopped":
@@ -140,6 +142,11 @@ class RapidTask(Stepping):
             self.launch(self._body)
 
     def _begin_step(self, over: bool, depth: int = -1) -> None:
+        motion = self.controller.motion
+        if self.history is None and motion.is_motion_task(self.name):
+            self.history = StepHistory(motion.of_task(self.name))
+        if self.history is not None and not self._backward:
+            self.history.begin()
         self.program.trace_from_now()
         self.fault = None
         self._events.append("STEP")
@@ -152,6 +159,8 @@ class RapidTask(Stepping):
         motion = self.controller.motion
         if motion.is_motion_task(self.name):
             motion.of_task(self.name).wait_standing(self)
+        if self.history is not None:
+            self.history.end()
         self._at_point = self.step_under_way.depth_now
         self._set("stopped")
         self.controller.step_ended(self)
@@ -182,6 +191,7 @@ class RapidTask(Stepping):
         if self.state not in ("stopped", "error"):
             raise CannotStep(f"the task is {self.state}")
         self.place = self.standing_at(line)
+        self._forget_steps()
         if self.alive:
             self.order(PointerMoved())
             self.held = False
@@ -203,7 +213,13 @@ class RapidTask(Stepping):
             raise CannotStep(f"{self.name} has no procedure {name} without parameters")
         return found
 
+    def _forget_steps(self) -> None:
+        """Moves that were stepped are not driven back any more."""
+        if self.history is not None:
+            self.history.forget()
+
     def _leave(self, routine: Routine | None) -> None:
+        self._forget_steps()
         self._routine = routine
         self._fresh = True
         self._start_asked = False

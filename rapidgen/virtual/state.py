@@ -118,9 +118,14 @@ class ControllerState:
         if self.failed or self.halted or self.e_stop or not self.motors_on:
             raise CannotStep(self._why_not())
         task.step(back=back, over=over)
+        if not back:
+            self.step_moves()
+        self._report()
+
+    def step_moves(self) -> None:
+        """The robots may move during a step."""
         for group in self.motion.groups.values():
             group.start("program")
-        self._report()
 
     def step_ended(self, task: "RapidTask") -> None:
         """A task has done its step."""

@@ -3,7 +3,8 @@
 A stopped program is taken down and goes on in code that reports every statement
 (pointer.py); it stops again before the next one. Backward, only simple statements are executed:
 assignments and CONNECT do nothing, a call of the program's own procedure executes its BACKWARD
-handler, everything else refuses. There are no interrupts meanwhile.
+handler, a move that was stepped takes the robot back, everything else refuses. There are no
+interrupts meanwhile.
 """
 
 import sys
@@ -16,6 +17,7 @@ from rapidgen.virtual.compiler.analysis import walk
 from rapidgen.virtual.compiler.base import CannotCompile
 from rapidgen.virtual.compiler.program import LoadedModule
 from rapidgen.virtual.compiler.resume import Standing, find
+from rapidgen.virtual.driving_back import StepHistory
 from rapidgen.virtual.pointer import Pointer, standing
 from rapidgen.virtual.recovery import Place
 
@@ -43,6 +45,8 @@ class Stepping(Pointer):
         super().__init__(*arguments)
         self.step_under_way: Step | None = None
         self.stepping_back = False
+        self.history: StepHistory | None = None
+        """Of a motion task: the moves of its steps."""
 
     @property
     def stepping(self) -> bool:
@@ -144,13 +148,18 @@ class Stepping(Pointer):
     def _call_back(self, call: n.ProcedureCall, before: Standing) -> None:
         routine = self.program.find_routine(before.routine.module, call.name.lower())
         if routine is None or routine.node is None:
-            raise CannotStep(f"{call.name} is not executed backward")
+            if routine is None or routine.builtin is None or routine.builtin.cost != "move":
+                raise CannotStep(f"{call.name} is not executed backward")
+            self._drive_back(call, before)
+            return
         handler = routine.node.backward
         try:
             once = self.program.rest(before, alone=True)
             function = self.program.backward(routine) if handler is not None else _nothing
         except CannotCompile as error:
             raise CannotStep(str(error)) from error
+        if handler is not None:
+            self.controller.step_moves()
         self.intercept(routine, lambda *a, **k: self.at_level(lambda: function(*a, **k)))
         try:
             once(before.values)
@@ -158,6 +167,18 @@ class Stepping(Pointer):
             self.not_below()
         if handler is None:
             raise CannotStep(f"{call.name} has no BACKWARD handler")
+
+    def _drive_back(self, call: n.ProcedureCall, before: Standing) -> None:
+        """A move that was stepped is driven back (switch `moves_back`)."""
+        module = before.routine.module
+        assert module is not None
+        if self.history is None or not self.controller.dialect.moves_back:
+            raise CannotStep(f"{call.name} is not executed backward")
+        place = Place(module.name, before.routine.name, module.span(call), None)
+        if not self.history.drive(self, place, self.controller.step_moves):
+            raise CannotStep(
+                f"{call.name}: where it began is not known, or the robot does not stand at its end"
+            )
 
 
 def _nothing(*_arguments: Any, **_named: Any) -> None:  # noqa: ANN401

@@ -6,6 +6,7 @@ import pytest
 
 from rapidgen.system.model import EventRoutine, ModuleFile, System, TaskSpec
 from rapidgen.virtual import VirtualController
+from rapidgen.virtual.dialect import Dialect
 from rapidgen.virtual.stepping import CannotStep
 
 from .support import boot, system
@@ -421,3 +422,110 @@ def test_a_search_without_a_hit_stops_a_step() -> None:
         s.controller.start_program()
         s.controller.run_for(9)
         assert s.printed == ["handled"]
+
+
+WAY = """
+  CONST robtarget a := [[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  CONST jointtarget home := [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
+  PROC main()
+    MoveAbsJ home, v1000, z50, tool0;
+    MoveL Offs(a,0,100,0), v500, z20, tool0;
+    MoveC Offs(a,50,150,0), Offs(a,0,200,0), v500, z20, tool0;
+    MoveJ Offs(a,-50,0,-50), v1000, z50, tool0;
+    WaitTime 1;
+  ENDPROC
+"""
+
+
+def moving(text: str, **options: object) -> Stepper:
+    """A stepper with an IRB 120."""
+    from rapidgen.config import load_config
+
+    robots = load_config("irb120").groups
+    return Stepper(text, robots=robots, specs={"T1": {"motion": True}}, **options)
+
+
+def tcp(s: Stepper) -> tuple[float, ...]:
+    """mm"""
+    group = s.controller.motion.group("rob1")
+    return tuple(1000 * v for v in group.geometry().forward(group.positions())[0])
+
+
+def test_moves_are_driven_back_on_their_way() -> None:
+    """[S4 2-SearchL-6] backward a move carries out the movement, with the shape it has."""
+    with moving(WAY) as s:
+        group = s.controller.motion.group("rob1")
+        stood = [group.positions()]
+        for _ in range(4):
+            s.step()
+            stood.append(group.positions())
+        assert s.line() == "main 10"
+        ways = []
+        for k in (3, 2, 1, 0):
+            place: list[tuple[float, ...]] = []
+            s.task.step(back=True)
+            while s.task.state == "running":
+                s.controller.run_for(0.01)
+                place.append(tcp(s))
+            assert group.positions() == pytest.approx(stood[k], abs=1e-6)
+            assert s.line() == f"main {6 + k}"
+            ways.append(place)
+        assert refusals(s) == []
+        # The circle through (50, 150) about (0, 150), and the line with x and z as they were.
+        for x, y, _ in ways[1]:
+            assert (x - 364.354) ** 2 + (y - 150) ** 2 == pytest.approx(50**2, rel=1e-2)
+        for x, _, z in ways[2]:
+            assert (x, z) == pytest.approx((364.354, 594), abs=0.05)
+        assert s.step() == "main 7"
+        assert group.positions() == pytest.approx(stood[1], abs=1e-6)
+
+
+def test_a_move_that_was_not_stepped_is_not_driven_back() -> None:
+    with moving(WAY) as s:
+        s.controller.start_program()
+        s.controller.run_until(lambda: s.task.place is not None and s.line() == "main 10")
+        s.controller.stop_program()
+        s.controller.run_for(2)
+        before = tcp(s)
+        assert s.step(back=True) == "main 10"
+        assert refusals(s)[0].startswith("MoveJ: where it began is not known")
+        assert tcp(s) == before
+
+
+def test_a_move_is_not_driven_back_from_elsewhere() -> None:
+    with moving(WAY) as s:
+        for _ in range(2):
+            s.step()
+        group = s.controller.motion.group("rob1")
+        group.jog(tuple(v + 0.01 for v in group.positions()))
+        before = group.positions()
+        assert s.step(back=True) == "main 8"
+        assert refusals(s)[0].startswith("MoveL: where it began is not known")
+        assert group.positions() == before
+
+
+def test_moves_are_not_driven_back_by_the_other_dialect() -> None:
+    with moving(WAY, dialect=Dialect(moves_back=False)) as s:
+        for _ in range(2):
+            s.step()
+        before = tcp(s)
+        assert s.step(back=True) == "main 8"
+        assert refusals(s) == ["MoveL is not executed backward"]
+        assert tcp(s) == before
+
+
+def test_events_of_a_move_are_not_repeated_backward() -> None:
+    """[S4 2-TriggL] "no trigger activities at all are carried out" """
+    from rapidgen.system.model import SignalSpec
+
+    text = WAY.replace(
+        "MoveL Offs(a,0,100,0), v500, z20, tool0",
+        "MoveLDO Offs(a,0,100,0), v500, z20, tool0, lamp, 1",
+    )
+    with moving(text, signals=(SignalSpec("lamp", "DO"),)) as s:
+        for _ in range(2):
+            s.step()
+        assert s.controller.signals["lamp"] == 1
+        s.controller.signals["lamp"] = 0
+        assert s.step(back=True) == "main 7"
+        assert s.controller.signals["lamp"] == 0
