@@ -189,11 +189,17 @@ def _ends_before_it_moves(bench: Bench) -> None:
     """A stream without points that is stopped, left, or taken the place of, never moves."""
     watcher = bench.watcher()
     stream = Streamer(bench)
+    # A refusal of before is none of the next stream's.
+    stream.put([(p, 0.0) for p, _ in way(bench, 2)], BEGIN | END)
+    stream.refused(Reason.BAD_DURATION, "a second point without a duration")
+    stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
     stream.link.send(STOP)
     stream.link.reply(spec.JOINT_TRAJ_PT.number)
     stream.put(way(bench, 20))
-    stream.refused(Reason.STOPPED, "points behind a STOP")
+    refusal = stream.refused(Reason.STOPPED, "points behind a STOP")
+    if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
+        raise Broken(f"points behind a STOP are answered by {refusal}")
     bench.stays(1, "the stream was stopped")
     stream.number, stream.sent = 2, 0
     stream.put((), BEGIN)

@@ -131,9 +131,18 @@ def _mixed_builds(bench: Bench) -> None:
         mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
         other = bench.beside(mixed)
         try:
-            state, link = other.state(), other.motion()
-            link.send(other.download(other.wave(4)))
-            other.stays(4, f"{path} is of another build")
+            state, link = other.watcher(), other.motion()
+            other.run(0.5)
+            frames = other.download(other.wave(4))
+            link.send(frames[:68])
+            other.run(0.5)
+            told = other.progress(state)
+            if (told.state, told.reason, told.point, told.joint) != (
+                spec.TrajectoryState.REFUSED, Reason.BUILD_MISMATCH, -1, 0
+            ):  # fmt: skip
+                raise Broken(f"{path} is of another build, PROGRESS says {told}")
+            link.send(frames[68:])
+            other.stays(3, f"{path} is of another build")
             status = other.status(state)
             if status.motion_possible != 0:
                 raise Broken(f"with {path} of another build STATUS says that motion is possible")

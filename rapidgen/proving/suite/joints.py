@@ -7,7 +7,7 @@ from rapidgen.config.model import Joint, MotionGroup
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol import decode, messages
 from rapidgen.protocol.spec import Reason, TriState
-from rapidgen.proving.bench import HELLO, Bench, Setting
+from rapidgen.proving.bench import HELLO, Bench, Setting, distance
 from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
@@ -79,6 +79,16 @@ def _joints_of_a_stream(bench: Bench) -> None:
             target = _with(here, axis, _step(joint, here[axis], fast))
             blame([(here, 1.0), (target, seconds), (here, 9.0)], Reason.TOO_FAST, 1, axis)
     blame.close()
+    bench.run(1.2)
+    # The first point's duration is not the client's business, nor how far the start is off.
+    stream = Streamer(bench)
+    away = _with(here, 0, _step(bench.group.joints[0], here[0], 0.5 * policy.start_tolerance))
+    stream.put([(away, 9.0), (here, 1.0)], BEGIN | END)
+    stream.accepted("a start within tolerance")
+    bench.wait_until_moving(1)
+    bench.run(2.5)
+    if not bench.standing or distance(bench.position, here) > 1e-4:
+        raise Broken("the way to the first point of a stream took as long as its duration says")
 
 
 def _told_limits(bench: Bench) -> messages.HelloReply:

@@ -30,6 +30,8 @@ def refused(
         )
     if (told.state, told.reason, told.joint) != (spec.TrajectoryState.REFUSED, reason, wrong):
         raise Broken(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
+    if point == 0 and reason != Reason.START_TOO_FAR and told.received:
+        raise Broken(f"the first point had to be refused, PROGRESS says {told}")
     if point is not None and told.point != point:
         raise Broken(f"point {point} had to be blamed, PROGRESS says {told}")
     # A refusal is over with the next good trajectory.

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "3bdc45ea1d0f";
+    CONST string ROS_BUILD_ACCEPTANCE := "c5da57de49f6";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -21,7 +21,6 @@ MODULE ROS_acceptance
     CONST num ROS_SPEED_4 := 320.32;
     CONST num ROS_SPEED_5 := 320.32;
     CONST num ROS_SPEED_6 := 420.42;
-    CONST jointtarget ROS_NOWHERE := [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
 
     ! Fraction of an axis' speed on the way to the first point
     LOCAL CONST num APPROACH := 0.1;
@@ -80,7 +79,6 @@ MODULE ROS_acceptance
         ROS_phase := ROS_TRAJ_RECEIVING;
         ROS_phase_of := ROS_trajectory;
         ROS_taken.session := ROS_trajectory;
-        ROS_taken.target := ROS_NOWHERE;
         ROS_taken.dwell := FALSE;
     ENDPROC
 
@@ -117,7 +115,6 @@ MODULE ROS_acceptance
             taken := high;
         ELSEIF NOT (low <= wanted AND wanted <= high) THEN
             ROS_object 100 * joint + not_a_number(wanted, ROS_REASON_JOINT_LIMIT);
-            taken := low;
         ENDIF
         ! How the robot gets to the first point is not the client's business.
         IF ROS_first OR Abs(taken - before) <= speed * ROS_seconds RETURN taken;

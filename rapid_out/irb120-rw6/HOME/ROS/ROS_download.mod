@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "3bdc45ea1d0f";
+    CONST string ROS_BUILD_DOWNLOAD := "c5da57de49f6";
 
     LOCAL CONST dnum NO_BITS := 0;
 
@@ -223,6 +223,5 @@ MODULE ROS_download
         ROS_fed := 0;
         ROS_to_feed := ROS_count;
         ROS_hand_over;
-        IF ROS_is_feeding() ROS_feed;
     ENDPROC
 ENDMODULE

@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "da79491f2142";
+    CONST string ROS_BUILD_DOWNLOAD := "739ea56b6c93";
 
     LOCAL CONST dnum NO_BITS := 0;
 
@@ -239,6 +239,5 @@ MODULE ROS_download
         ROS_fed := 0;
         ROS_to_feed := ROS_count;
         ROS_hand_over;
-        IF ROS_is_feeding() ROS_feed;
     ENDPROC
 ENDMODULE

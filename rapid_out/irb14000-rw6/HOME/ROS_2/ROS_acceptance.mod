@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "f731b85ddae3";
+    CONST string ROS_BUILD_ACCEPTANCE := "46e99a2857ef";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -22,7 +22,6 @@ MODULE ROS_acceptance
     CONST num ROS_SPEED_5 := 400.4;
     CONST num ROS_SPEED_6 := 400.4;
     CONST num ROS_SPEED_7 := 180.18;
-    CONST jointtarget ROS_NOWHERE := [[0,0,0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];
 
     ! Fraction of an axis' speed on the way to the first point
     LOCAL CONST num APPROACH := 0.1;
@@ -85,7 +84,6 @@ MODULE ROS_acceptance
         ROS_phase_2 := ROS_TRAJ_RECEIVING;
         ROS_phase_of_2 := ROS_trajectory_2;
         ROS_taken.session := ROS_trajectory_2;
-        ROS_taken.target := ROS_NOWHERE;
         ROS_taken.dwell := FALSE;
     ENDPROC
 
@@ -122,7 +120,6 @@ MODULE ROS_acceptance
             taken := high;
         ELSEIF NOT (low <= wanted AND wanted <= high) THEN
             ROS_object 100 * joint + not_a_number(wanted, ROS_REASON_JOINT_LIMIT);
-            taken := low;
         ENDIF
         ! How the robot gets to the first point is not the client's business.
         IF ROS_first OR Abs(taken - before) <= speed * ROS_seconds RETURN taken;

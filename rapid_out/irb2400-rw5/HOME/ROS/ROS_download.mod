@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "6aae01e42f16";
+    CONST string ROS_BUILD_DOWNLOAD := "74b8665e9faf";
 
     LOCAL CONST dnum NO_BITS := 0;
 
@@ -225,7 +225,6 @@ MODULE ROS_download
         ROS_fed := 0;
         ROS_to_feed := ROS_count;
         ROS_hand_over;
-        IF ROS_is_feeding() ROS_feed;
     ENDPROC
 
     LOCAL PROC check_tcp_speed()

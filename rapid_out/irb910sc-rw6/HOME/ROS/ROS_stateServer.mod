@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "2cccbcf8a101";
+    CONST string ROS_BUILD_STATE_SERVER := "2bf84499d67b";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -98,7 +98,6 @@ MODULE ROS_stateServer
     ENDPROC
 
     LOCAL PROC wait_for_client()
-        set_alarm FALSE;
         WHILE clients = 0 DO
             welcome WAIT_MAX;
         ENDWHILE
@@ -123,7 +122,6 @@ MODULE ROS_stateServer
                 newer{n} := newer{n} + 1;
             ENDFOR
             newer{slot} := 0;
-            wants{slot} := 0;
             served{slot} := TRUE;
             clients := clients + 1;
             ! The newest is served: the oldest may be a dead link.
@@ -322,7 +320,6 @@ MODULE ROS_stateServer
         IF waiting < 0 RETURN FALSE;
         received := ROS_receive(client{slot}, heard, 1);
         IF NOT ROS_take_hello(heard, received, message, wants{slot}) RETURN FALSE;
-        message_wants := 0;
         note_wishes;
         RETURN sent(slot, message);
     ENDFUNC
@@ -384,7 +381,6 @@ MODULE ROS_stateServer
         ELSE
             RETURN;
         ENDIF
-        message_wants := 0;
         FOR slot FROM 1 TO SLOTS DO
             IF has(slot, ROS_FEATURE_EVENTS) THEN
                 IF NOT sent(slot, message) drop slot;
