@@ -30,11 +30,10 @@ HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 RELEASED = 4.0
 """s at which every stop is taken back and the override is 100 %."""
 PERIOD = 0.002
-SPEED = {"joint": 1 + 1e-6, "flat": 1 + 1e-6, "brakes": 1 + 1e-6, "cartesian": 1.02}
-ACCELERATION = {"joint": 1 + 1e-3, "flat": 1 + 1e-3, "brakes": inf, "cartesian": 1.2}
-"""Shares of the axes' limits that may be reached. Those along a line come from samples of its
-inverse kinematics, so they are met less exactly. `flat`: a robot without geometry; `brakes`: some
-stops are by the brakes, which slow down as hard as the end of an axis' range asks for."""
+SPEED = {"joint": 1 + 1e-6, "flat": 1 + 1e-6, "brakes": 1 + 1e-6, "cartesian": 1 + 1e-3}
+ACCELERATION = {"joint": 1 + 1e-3, "flat": 1 + 1e-3, "brakes": inf, "cartesian": 1 + 1e-3}
+"""Shares of the axes' limits that may be reached. `flat`: a robot without geometry; `brakes`:
+some stops are by the brakes, which slow down as hard as the end of an axis' range asks for."""
 KINDS = ("joint", "flat", "brakes", "cartesian", "cartesian", "cartesian")
 RAMPS = (0.05, 0.05, 0.0, 0.2)
 

@@ -36,6 +36,7 @@ class CartesianWay:
     """The way of a CartesianMove over its nominal time."""
 
     __slots__ = (
+        "_ceilings",
         "_external",
         "_kinematics",
         "_nodes",
@@ -75,15 +76,25 @@ class CartesianWay:
         if move.singularities is not Singularities.OFF:
             self._wrist = origin, wrist_end(kinematics, move, origin, check)
         self._turns = self.measure.angle > NO_TURN
-        self._shares, self._nodes = self._sample(origin)
+        count = _FEWEST
+        while True:
+            self._shares, self._nodes = self._sample(origin, count)
+            fastest, self.strength = self._bounds()
+            self.duration = self._nominal(move, fastest, from_rest + move.zone.fine)
+            count = len(self._nodes) - 1
+            spacing = self.duration / count
+            self._ceilings, close = interval_limits(self._nodes, spacing, limits)
+            if close or 2 * count > _MOST:
+                break
+            count *= 2
         self.target = self._nodes[-1]
-        fastest, self.strength = self._bounds()
+
+    def _nominal(self, move: CartesianMove, fastest: float, rests: int) -> float:
+        """Nominal s of the move, which stands at `rests` of its ends."""
         if move.time is None:
-            self.duration = max(nominal_time(self.measure, move.speed), SHORTEST)
-        else:
-            rests = from_rest + move.zone.fine
-            total = move.time - rests * limits.ramp / 2
-            self.duration = timed(total, fastest, self.strength, rests / 2)
+            return max(nominal_time(self.measure, move.speed), SHORTEST)
+        total = move.time - rests * self.limits.ramp / 2
+        return timed(total, fastest, self.strength, rests / 2)
 
     @property
     def tcp(self) -> float:
@@ -117,7 +128,6 @@ class CartesianWay:
         """One piece for each interval of the sampling that lies between start and end."""
         count = len(self._nodes) - 1
         spacing = self.duration / count
-        bounds = interval_limits(self._nodes, spacing, self.limits)
 
         def at(place: float) -> Posture:
             return self.posture(place - begin)
@@ -129,15 +139,15 @@ class CartesianWay:
                 right = begin + self.duration
             low, high = max(left, start), min(right, end)
             if high - low > 1e-12:
-                found.append(Curve(low, high, at, bounds[k], self.tcp))
+                found.append(Curve(low, high, at, self._ceilings[k], self.tcp))
         if found:
             found[0].start, found[-1].end = start, end
         return found
 
     # -- inverse kinematics along the way -----------------------------------------------------
 
-    def _sample(self, origin: Posture) -> tuple[list[float], list[Posture]]:
-        count = _FEWEST
+    def _sample(self, origin: Posture, count: int) -> tuple[list[float], list[Posture]]:
+        """Nodes at `count` equal shares, or at more of them where the steps were too long."""
         while True:
             shares = spaced(0.0, 1.0, count)
             nodes = [origin]

@@ -28,6 +28,8 @@ from rapidgen.virtual.motion.sampling import interval_limits, largest_step, samp
 
 Bend = tuple[float, float, list[Piece]]
 """Start and end on the path, and the pieces between."""
+Ceilings = list[tuple[float, float]]
+"""Path speed and acceleration for each of some equal intervals."""
 _SMALLEST = 1e-7
 _FEWEST, _MOST = 5, 80
 """Intervals of one section of a corner."""
@@ -247,36 +249,38 @@ def _sampled(
     pieces: list[Piece] = []
     try:
         for low, high in sections:
-            found = _section(solve, point, low, high, origin)
+            found = _section(solve, point, (low, high), origin, limits)
             if found is None:
                 return None
-            at, nodes = found
-            origin = nodes[-1]
-            count = len(nodes) - 1
-            places = spaced(low, high, count)
-            bounds = interval_limits(nodes, (high - low) / count, limits)
-            pieces += [Curve(places[k], places[k + 1], at, bounds[k], tcp) for k in range(count)]
+            at, origin, ceilings = found
+            pieces += _curves(at, (low, high), ceilings, tcp)
     except RapidError:
         return None  # the corner cannot be reached: the point itself can
     return sections[0][0], sections[-1][1], pieces
 
 
 def _section(
-    solve: _Tracker, point: float, low: float, high: float, origin: Posture
-) -> tuple[Callable[[float], Posture], list[Posture]] | None:
-    count = _FEWEST
+    solve: _Tracker,
+    point: float,
+    bounds: tuple[float, float],
+    origin: Posture,
+    limits: AxisLimits,
+) -> tuple[Callable[[float], Posture], Posture, Ceilings] | None:
+    """Posture at a place, the last one, and the limits of each interval; None: a jump."""
+    (low, high), count = bounds, _FEWEST
     while True:
         places = spaced(low, high, count)
+        spacing = (high - low) / count
         nodes = [origin]
         for place in places[1:]:
             nodes.append(solve(place - point, nodes[-1]))
-        step = largest_step(nodes)
-        if step <= _STEP:
-            break
-        if count >= _MOST:
+        if largest_step(nodes) <= _STEP:
+            ceilings, close = interval_limits(nodes, spacing, limits)
+            if close or count >= _MOST:
+                break
+        elif count >= _MOST:
             return None
         count *= 2
-    spacing = (high - low) / count
 
     def at(place: float) -> Posture:
         k = min(count - 1, max(0, int((place - low) / spacing)))
@@ -284,7 +288,15 @@ def _section(
         near = tuple([a + (b - a) * part for a, b in zip(nodes[k], nodes[k + 1], strict=True)])
         return solve(place - point, near)
 
-    return at, nodes
+    return at, nodes[-1], ceilings
+
+
+def _curves(
+    at: Callable[[float], Posture], bounds: tuple[float, float], ceilings: Ceilings, tcp: float
+) -> list[Piece]:
+    """A piece for each interval."""
+    places = pairwise(spaced(*bounds, len(ceilings)))
+    return [Curve(*ends, at, own, tcp) for ends, own in zip(places, ceilings, strict=True)]
 
 
 # -- joint space along both tangents ------------------------------------------------------------
@@ -316,12 +328,14 @@ def _mixed(
     # The two halves have different slopes: sampled apart, so that no node lies across.
     pieces: list[Piece] = []
     for low, high in ((start, point), (point, end)):
-        half = 2 * _FEWEST
-        spacing = (high - low) / half
-        bounds = interval_limits(sample(at, low, high, half), spacing, limits)
-        places = spaced(low, high, half)
-        tcp = max(way.tcp, after.tcp)
-        pieces += [Curve(places[k], places[k + 1], at, bounds[k], tcp) for k in range(half)]
+        count = _FEWEST
+        while True:
+            nodes, spacing = sample(at, low, high, count), (high - low) / count
+            ceilings, close = interval_limits(nodes, spacing, limits)
+            if close or count >= _MOST:
+                break
+            count *= 2
+        pieces += _curves(at, (low, high), ceilings, max(way.tcp, after.tcp))
     return start, end, pieces
 
 
