@@ -388,6 +388,17 @@ def test_17_a_lever_robot_needs_its_coupling(check):
     assert config.groups[0].coupling == 1
 
 
+def test_17_a_palletiser_of_nobodys_list_needs_its_coupling_too(check):
+    text = robot(BASE, arm())
+    axes = {1: 1, 2: 2, 3: 3, 6: 6}
+    lines = "\n".join(f"  joint_{n}: {{axis: rax_{axis}}}" for n, axis in axes.items())
+    passive = "  ignore_joints: [joint_4, joint_5]"
+    _, found = check(text, f"joints:\n{lines}", urdf=passive)
+    assert errors(found) == ["RG047"]
+    config, _ = check(text, f"coupling: 0\njoints:\n{lines}", urdf=passive)
+    assert config.groups[0].coupling == 0
+
+
 def test_17_a_serial_robot_has_none(check):
     _, found = check(robot(BASE, arm(), name="irb6700_200_260"), "coupling: 1")
     assert found["RG047"].severity is Severity.WARNING
@@ -425,7 +436,7 @@ def test_20_four_joints(check):
     text = robot(BASE, arm([f"joint_{n}" for n in range(1, 5)]))
     _, found = check(text)
     assert errors(found) == ["RG050"]
-    lines = "joints:\n" + "\n".join(
+    lines = "coupling: 0\njoints:\n" + "\n".join(
         f"  joint_{n}: {{axis: rax_{axis}}}" for n, axis in ((1, 1), (2, 2), (3, 3), (4, 6))
     )
     config, found = check(text, lines)

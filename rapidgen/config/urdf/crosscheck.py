@@ -13,6 +13,7 @@ SERIAL = frozenset(
     {"120", "140", "1100", "1200", "1300", "1600", "2600", "4600", "6640", "6650", "6700", "7600"}
 )
 _FAMILY = re.compile(r"[ic]rb[_ -]?(\d{3,5})", re.IGNORECASE)
+_PALLETISER = {"rax_1", "rax_2", "rax_3", "rax_6"}
 _CLOSE = 0.6
 """deg or mm"""
 
@@ -31,11 +32,15 @@ def check_coupling(
 ) -> list[Diagnostic]:
     """A lever robot needs `coupling`, a serial one has none (RG047)."""
     known = family(draft.model, robot.name, file)
-    if draft.coupling is None and known in COUPLED:
+    axes = {joint.axis for joint in draft.joints if joint.axis.startswith("rax_")}
+    who = f"IRB {known}" if known in COUPLED else ""
+    if not who and known not in SERIAL and axes == _PALLETISER:
+        who = "a palletiser (axes 1, 2, 3 and 6)"
+    if draft.coupling is None and who:
         return [
             error(
                 "RG047",
-                f"IRB {known} couples axes 2 and 3; `coupling` is not given",
+                f"{who} couples axes 2 and 3; `coupling` is not given",
                 place,
                 "",
                 "add `coupling: 1` (controller axis 3 = joint_3 + joint_2), or 0 where the URDF "
