@@ -1,6 +1,8 @@
 """One trajectory after the other, and clients that come and go."""
 
-from tests.generate.bench import trajectory
+import pytest
+
+from tests.generate.bench import STOP, trajectory
 from tests.generate.driving import (
     CLIENT_LOST,
     FIVE,
@@ -11,6 +13,7 @@ from tests.generate.driving import (
     move_well,
     reply_of,
     send_all,
+    start_moving,
 )
 
 
@@ -52,6 +55,49 @@ def test_a_client_that_vanishes_stops_the_robot(bench):
     assert b.joints() == here
     move_well(b)
     assert b.status(state)[2:4] == (0, 0)
+
+
+def _lost(b):
+    return [e for e in b.vc.log if e.title == "ROS: trajectory ended early"]
+
+
+@pytest.mark.parametrize("how", ["fin", "reset"])
+def test_the_event_log_tells_why_a_robot_stops_without_its_client(bench, how):
+    """The controller shows nothing of it, and STATUS has nobody left to tell."""
+    b = bench()
+    client, _ = start_moving(b)
+    b.vc.network.close(client.endpoint, abort=how == "reset")
+    b.vc.run_for(1)
+    assert b.group.is_standing
+    (event,) = _lost(b)
+    assert event.type.name == "WARNING"
+    assert "the connection to the client was lost" in str(event)
+
+
+def test_a_client_that_takes_over_from_a_moving_one_is_told_in_the_event_log(bench):
+    """As a second node does: it connects and says nothing while the first one's robot moves."""
+    b = bench()
+    start_moving(b)
+    b.client()
+    b.vc.run_for(1.5)
+    assert b.group.is_standing
+    assert len(_lost(b)) == 1
+
+
+def test_clients_that_leave_a_standing_robot_are_not_reported(bench):
+    b = bench()
+    move_well(b).close()
+    b.vc.run_for(1)
+    client = b.client()
+    send_all(client, trajectory([b.joints(), FIVE[1]], [10, 1]))
+    assert reply_of(client)[0] == 1
+    b.vc.run_for(0.3)
+    assert not b.group.is_standing
+    client.send(STOP)
+    b.vc.run_for(1)
+    client.close()
+    b.vc.run_for(1)
+    assert not _lost(b)
 
 
 def test_a_client_that_vanishes_in_a_download(bench):

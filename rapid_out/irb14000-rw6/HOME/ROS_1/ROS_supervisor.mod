@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "46e99a2857ef";
+    CONST string ROS_BUILD_SUPERVISOR := "9ffea2843b23";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -133,6 +133,8 @@ MODULE ROS_supervisor
     ENDPROC
 
     LOCAL PROC halt(num reason)
+        VAR bool lost := FALSE;
+
         stop_robot;
         ROS_latched_1 := TRUE;
         ROS_take_back_1 := FALSE;
@@ -141,12 +143,15 @@ MODULE ROS_supervisor
             ! The first reason counts.
             ROS_halt_reason_1 := reason;
             ROS_halted_1 := ROS_session_1;
+            lost := (reason = ROS_REASON_CLIENT_LOST);
         ENDIF
         ROS_paused_1 := -1;
         ROS_abort_1 := ROS_next(ROS_abort_1);
         ClkReset since_halt;
         ClkStart since_halt;
         ring;
+        ! Whoever stands beside the robot learns of all other reasons in another way.
+        IF lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
     ENDPROC
 
     ! Let the robot move again, once nothing is left of the old path.
