@@ -21,7 +21,10 @@ def features(config: RobotConfig, group: MotionGroup) -> Feature:
 
 
 def hello_reply(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, object]:
-    """The reply to HELLO as pack instructions, in the order of the specification."""
+    """The reply to HELLO as pack instructions, in the order of the specification.
+
+    The first of a field that is not zero has its `label`, for people who read the module.
+    """
     joints = group.joints
     policy = config.trajectory
     numbers = range(1, len(joints) + 1)
@@ -62,7 +65,11 @@ def hello_reply(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[
     for field in reply.fields:
         given = values[field.name]
         step = field.size if field.type is Wire.CHAR else field.type.size
+        label = field.name.replace("_", " ") + (f", {field.unit}" if field.unit else "")
         for value in given:
-            items.append({"value": value, "offset": offset, "form": forms[field.type]})
+            part = {"value": value, "offset": offset, "form": forms[field.type], "label": ""}
+            if value != "0":
+                part["label"], label = label, ""
+            items.append(part)
             offset += step
     return {"length": offset - 1 - spec.PREFIX_BYTES, "parts": items}

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "78873952622e";
+    CONST string ROS_BUILD_STATE_SERVER := "37f6fdccc635";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -21,6 +21,8 @@ MODULE ROS_stateServer
     LOCAL CONST num LOOK_PERIOD := 0.1;
     ! s: a send is broken off when it has lasted from one alarm to the next.
     LOCAL CONST num PATIENCE := 0.1;
+    ! deg or mm: an axis that has moved by less since the last message stands.
+    LOCAL CONST num NOISE := 0.05;
     ! Events of the controller that wait to be told.
     LOCAL CONST num EVENTS := 16;
 
@@ -284,14 +286,14 @@ MODULE ROS_stateServer
 
     ! TRUE if no axis has moved since the last message by more than a sensor's noise.
     LOCAL FUNC bool near(jointtarget joints)
-        IF Abs(joints.robax.rax_1 - told_joints.robax.rax_1) > 0.05 RETURN FALSE;
-        IF Abs(joints.robax.rax_2 - told_joints.robax.rax_2) > 0.05 RETURN FALSE;
-        IF Abs(joints.robax.rax_3 - told_joints.robax.rax_3) > 0.05 RETURN FALSE;
-        IF Abs(joints.robax.rax_4 - told_joints.robax.rax_4) > 0.05 RETURN FALSE;
-        IF Abs(joints.robax.rax_5 - told_joints.robax.rax_5) > 0.05 RETURN FALSE;
-        IF Abs(joints.robax.rax_6 - told_joints.robax.rax_6) > 0.05 RETURN FALSE;
-        IF Abs(joints.extax.eax_a - told_joints.extax.eax_a) > 0.05 RETURN FALSE;
-        IF Abs(joints.extax.eax_b - told_joints.extax.eax_b) > 0.05 RETURN FALSE;
+        IF Abs(joints.robax.rax_1 - told_joints.robax.rax_1) > NOISE RETURN FALSE;
+        IF Abs(joints.robax.rax_2 - told_joints.robax.rax_2) > NOISE RETURN FALSE;
+        IF Abs(joints.robax.rax_3 - told_joints.robax.rax_3) > NOISE RETURN FALSE;
+        IF Abs(joints.robax.rax_4 - told_joints.robax.rax_4) > NOISE RETURN FALSE;
+        IF Abs(joints.robax.rax_5 - told_joints.robax.rax_5) > NOISE RETURN FALSE;
+        IF Abs(joints.robax.rax_6 - told_joints.robax.rax_6) > NOISE RETURN FALSE;
+        IF Abs(joints.extax.eax_a - told_joints.extax.eax_a) > NOISE RETURN FALSE;
+        IF Abs(joints.extax.eax_b - told_joints.extax.eax_b) > NOISE RETURN FALSE;
         RETURN TRUE;
     ENDFUNC
 
