@@ -167,8 +167,13 @@ def test_write_compare_and_replace(output, tmp_path):
     write(output, folder)
     assert compare(output, folder) == []
     (folder / "HOME/ROS/old.mod").write_text("stale")
+    # It is an earlier build's own: the manifest lists it.
+    manifest = json.loads((folder / "manifest.json").read_bytes())
+    manifest["files"].append({"path": "HOME/ROS/old.mod"})
+    (folder / "manifest.json").write_text(json.dumps(manifest))
     (folder / "SYS.cfg").write_text("edited")
-    assert [c.path for c in compare(output, folder)] == ["HOME/ROS/old.mod", "SYS.cfg"]
+    changed = ["HOME/ROS/old.mod", "SYS.cfg", "manifest.json"]
+    assert [c.path for c in compare(output, folder)] == changed
     write(output, folder)
     assert compare(output, folder) == []
     assert os.listdir(folder.parent) == ["irb120"]
