@@ -267,6 +267,12 @@ def _heartbeats(bench: Bench) -> None:
         if not 0.45 < bench.now - last < 2.5 or told_stop.reason != Reason.CLIENT_LOST:
             raise Broken(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
         bench.stays(3, "a heartbeat is missing")
+        # It is missed once.
+        bench.moves_through(link, bench.wave(6))
+        link.send(bench.download(bench.wave(30)))
+        bench.wait_until_moving()
+        control.ask(beat)
+        bench.wait_until_standing(3)
         told = control.ask(messages.Heartbeat(0))
         if not isinstance(told, messages.HeartbeatReply) or told.state != TrajectoryState.FAILED:
             raise Broken(f"a heartbeat after one was missing is answered by {told}")
@@ -380,7 +386,7 @@ def _old_end(bench: Bench) -> None:
 
 def _control_client_leaves(bench: Bench) -> None:
     """Without heartbeats it is no loss; with them it is."""
-    for heartbeats in (False, True):
+    for heartbeats in (True, False, True):
         control, link = bench.control(), bench.motion()
         points = bench.wave(12)
         link.send(bench.download(points))
@@ -402,9 +408,11 @@ def _control_client_leaves(bench: Bench) -> None:
 
 def _newest_control_client(bench: Bench) -> None:
     """Whoever comes can stop the robot, whatever hangs on the port."""
-    bench.control()
+    old = bench.control()
     for _ in range(2):
         control = bench.control()
+        bench.until(partial(_is_lost, old), 1, "the client before gives way")
+        old = control
         bench.run(0.5)
         link = bench.motion()
         bench.run(1.2)
@@ -420,6 +428,8 @@ def _control_hello(bench: Bench) -> None:
     told = control.ask(HELLO)
     if not isinstance(told, messages.HelloReply) or told.build_id != bench.system.build_id:
         raise Broken(f"HELLO on the control port is answered by {told}")
+    if bench.state().ask(HELLO) != told:
+        raise Broken(f"HELLO on the state port is not answered by {told}")
     _done(control.ask(messages.Ping()), "PING")
     control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
     if not isinstance(_failure(control), messages.Failure):

@@ -243,7 +243,8 @@ def _idle_costs_nothing(bench: Bench) -> None:
     idle, start = kernel.idle, kernel.now
     bench.run(20)
     share = 1 - (kernel.idle - idle) / (kernel.now - start)
-    if share > 0.25:
+    # The state server has some 3 ms of work in each period.
+    if share > len(bench.config.groups) * (0.06 + 0.004 / bench.config.state_period):
         raise Broken(f"an idle driver takes {share:.0%} of the controller's processor")
     bench.status(state)
     link.close()
