@@ -2,7 +2,8 @@
 
 Fenced blocks: `console` (lines starting with `$ `, run in order in one scratch folder for each
 document; a command ending in ` &` is waited for until it says `ready`), `python` (all blocks of
-a document are one program). `sh` blocks set a machine up, `text` blocks are output: not run.
+a document are one program). `sh` blocks set a machine up, `text` blocks are output: not run, but
+the commands and options that stand anywhere as code exist.
 A comment `# exit N` behind a command states its exit code.
 """
 
@@ -11,9 +12,14 @@ import re
 import shlex
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
+import typer
+
+from rapidgen.cli.app import VERBS, _app
+from rapidgen.virtual.faults import read_plan
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
@@ -78,3 +84,66 @@ def test_python(path, tmp_path, environment):
         timeout=100,
     )
     assert done.returncode == 0, done.stderr
+
+
+def mentioned(text):
+    """(verb, options) of every `rapidgen VERB ...` that stands as code, run or not."""
+    code = [block for _, block in FENCE.findall(text)]
+    code += re.findall(r"^    \S.*$", text, re.MULTILINE)
+    code += re.findall(r"`(rapidgen [^`]+)`", re.sub(FENCE, "", text))
+    for line in re.sub(r"\\\n", "", "\n".join(code)).splitlines():
+        for command in re.findall(r"(?:^|\s)rapidgen ([a-z]+\b[^#|]*)", line):
+            verb, *words = command.split()
+            yield verb, [w.strip("[],.;:").partition("=")[0] for w in words if w.startswith("--")]
+
+
+@pytest.mark.parametrize("path", PAGES, ids=lambda p: p.name)
+def test_every_command_that_is_named_exists(path):
+    for verb, options in mentioned(path.read_text(encoding="utf-8")):
+        assert verb in VERBS, (path.name, verb)
+        known = {name for option in options_of(verb) for name in option}
+        for option in options:
+            assert option in known, (path.name, verb, option)
+
+
+@pytest.mark.parametrize(
+    ("page", "verb"),
+    [("testing.md", "test"), ("simulation.md", "sim"), ("virtual-controller.md", "run")],
+)
+def test_a_table_of_options_names_all_there_are(page, verb):
+    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    rows = [line.split("|")[1] for line in text.splitlines() if line.startswith("| `--")]
+    told = {name for row in rows for name in re.findall(r"--[a-z-]+", row)}
+    for names in options_of(verb):
+        assert names & told or names & {"--help"}, (page, names)
+    assert told <= {name for names in options_of(verb) for name in names}
+
+
+def test_plans_of_faults_and_secrets_can_be_read(tmp_path):
+    simulation, security = (
+        (ROOT / "docs" / name).read_text(encoding="utf-8")
+        for name in ("simulation.md", "security.md")
+    )
+    (tmp_path / "faults.yaml").write_text(
+        next(text for kind, text in FENCE.findall(simulation) if kind == "yaml")
+    )
+    plan = read_plan(tmp_path / "faults.yaml")
+    assert (len(plan.network), len(plan.controller)) == (2, 2)
+    block = re.search(r"```toml\n(.*?)```", security, re.DOTALL)[1]
+    secrets = tomllib.loads(re.sub(r"^   ", "", block, flags=re.MULTILINE))
+    assert set(secrets["default"]) == {"user", "password"}
+
+
+def options_of(verb):
+    """The names of each option of a verb, long ones."""
+    command = typer.main.get_command(_app([verb])).commands[verb]
+    return [
+        {name for name in (*option.opts, *option.secondary_opts) if name.startswith("--")}
+        for option in command.params
+        if option.param_type_name == "option"
+    ]
+
+
+def test_the_readme_names_every_page():
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert [p.name for p in PAGES[1:] if f"docs/{p.name}" not in readme] == []
