@@ -82,9 +82,9 @@ def mutants(data: bytes, path: str) -> Iterator[Mutant]:
     for node in _inside_routines(module):
         start, end = of(node)
         if isinstance(node, NumberLiteral):
+            more = f"{node.value + 1:.9g}"
             # A num that is too large to count one more would stay what it is.
-            if single(node.value + 1) != single(node.value):
-                more = f"{node.value + 1:.9g}"
+            if single(float(more)) != single(node.value):
                 yield mutant(start, end, more, f"{node.text} -> {more}", node.first)
         elif isinstance(node, Branch | While | CompactIf):
             first, last = of(node.condition)

@@ -52,12 +52,14 @@ def _refused_while_not_executing(bench: Bench) -> None:
         ("motors-off", (Reason.MOTORS_OFF, Reason.NOT_EXECUTING)),
         ("e-stop", (Reason.EMERGENCY_STOP, Reason.MOTORS_OFF)),
     ):
-        state, link = bench.state(), bench.motion()
+        state, link = bench.watcher(), bench.motion()
         bench.controller.perform(action)
         bench.run(1)
         link.send(bench.download(bench.wave(4)))
         bench.stays(5, f"the controller is in {action}")
-        status = bench.status(state)
+        status, told = bench.status(state), bench.progress(state)
+        if (told.state, told.point, told.joint) != (spec.TrajectoryState.REFUSED, -1, 0):
+            raise Broken(f"after {action} a trajectory is refused for no point, PROGRESS: {told}")
         reason, _ = spec.split_error_code(status.error_code)
         if status.in_error != 1 or reason not in reasons:
             raise Broken(f"after {action} a trajectory is answered by {status}")

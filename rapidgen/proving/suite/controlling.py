@@ -210,6 +210,11 @@ def _nobody_answers(bench: Bench) -> None:
     bench.controller.perform("start")
     bench.stays(3, "the program was stopped and started")
     bench.moves_through(link, bench.wave(3))
+    link.send(bench.download(bench.wave(12)))
+    bench.wait_until_moving()
+    bench.fails("ROS_motion", "SpeedRefresh", "ERR_ARGVALERR")
+    _not_done(control.ask(messages.Speed(50)), Reason.INTERNAL, "SPEED that is not set")
+    _done(control.ask(messages.Speed(50)), "SPEED")
 
 
 def _own_stop(bench: Bench) -> None:
@@ -245,6 +250,7 @@ def _own_stop(bench: Bench) -> None:
 
 def _heartbeats(bench: Bench) -> None:
     """While they come nothing happens; when one is missing the robot stops."""
+    watcher = bench.watcher()
     for before in (False, True):
         control, link = bench.control(), bench.motion()
         beat = messages.Heartbeat(0.5)
@@ -259,6 +265,8 @@ def _heartbeats(bench: Bench) -> None:
             told = control.ask(beat)
             if not isinstance(told, messages.HeartbeatReply):
                 raise Broken(f"HEARTBEAT is answered by {told}")
+            if told.trajectory != bench.progress(watcher).trajectory:
+                raise Broken(f"HEARTBEAT is answered for another trajectory: {told}")
             if bench.standing or told.state != TrajectoryState.MOVING:
                 raise Broken(f"the robot does not move although heartbeats come: {told}")
         last = bench.now
@@ -351,6 +359,19 @@ def _supervisor_is_gone(bench: Bench) -> None:
                 raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
         _not_done(control.ask(messages.Pause(1), 3), Reason.INTERNAL, "PAUSE")
         other.stays(1, "the supervisor does not answer")
+    finally:
+        other.close()
+    other = bench.beside(bench.system)
+    try:
+        control, link = other.control(), other.motion()
+        link.send(other.download(other.wave(30)))
+        other.wait_until_moving()
+        other.fails("ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        other.run(0.5)
+        control.send(STOP)
+        control.reply(_TRAJ, 3)
+        other.wait_until_standing(1)
+        other.stays(3, "it was stopped, the supervisor does not answer")
     finally:
         other.close()
 
