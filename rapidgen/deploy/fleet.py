@@ -79,8 +79,10 @@ def connected(target: Target, access: Access) -> Iterator[Transport]:
 def _lines(path: str) -> list[str]:
     try:
         text = Path(path).read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise _bad(f"{path}: {error}") from error
+    except OSError as error:
+        raise _bad(f"{path}: {error.strerror}") from error
+    except UnicodeDecodeError as error:
+        raise _bad(f"{path} is not text in UTF-8") from error
     lines = (line.partition("#")[0].strip() for line in text.splitlines())
     return [line for line in lines if line]
 

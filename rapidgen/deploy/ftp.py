@@ -202,7 +202,8 @@ class FtpTransport:
             raise TransportFault(kind, f"{place}: the server says: {text}") from None
         except (EOFError, OSError) as error:
             self.close()
-            reason = redact(str(error), self._login) or "the connection was closed"
+            words = getattr(error, "strerror", None) or str(error)
+            reason = redact(words, self._login) or "the connection was closed"
             raise TransportFault("lost", f"{place}: {reason}") from None
         except (ftplib.Error, ValueError, IndexError, OverflowError) as error:
             # After an answer that makes no sense the next one may belong to any command.

@@ -40,6 +40,10 @@ UTF-8); the others are what paramiko's indexing and unpacking could raise, and w
 """
 
 
+_NOTHING_TO_SHOW = "No authentication methods available"
+"""paramiko's words for a login without password, key and agent; it has no exception for it."""
+
+
 class SftpTransport:
     """One SFTP session. `home` is absolute on the server; '' is where the login ends."""
 
@@ -106,6 +110,10 @@ class SftpTransport:
         except (paramiko.SSHException, EOFError, OSError, *_GARBLED) as error:
             if isinstance(error, TransportFault):
                 raise
+            if str(error) == _NOTHING_TO_SHOW:
+                raise TransportFault(
+                    "login", f"{self.shown}: there is neither a password nor a key to log in with"
+                ) from None
             raise TransportFault(
                 "lost",
                 f"cannot reach {self.shown}: {redact(str(error), login)[:300]}",

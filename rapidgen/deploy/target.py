@@ -60,7 +60,9 @@ def parse_target(url: str) -> Target:
     if scheme in _LATER:
         raise _bad(url, "Robot Web Services are not a transport yet", "use ftp:// or sftp://")
     if scheme not in _PORTS:
-        raise _bad(url, f"unknown scheme {scheme!r}", suggest(scheme, list(_PORTS)))
+        known = ", ".join(f"{name}://" for name in _PORTS)
+        meant = suggest(scheme, list(_PORTS)) or f"there are {known}"
+        raise _bad(url, f"unknown scheme {scheme!r}", meant)
     try:
         parts = urlsplit(url.replace(" ", "%20"))
         host, port = parts.hostname or "", parts.port

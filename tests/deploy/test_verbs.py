@@ -13,7 +13,7 @@ from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import parse_target
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.diagnostics import DiagnosticError, render
-from rapidgen.services import serve_ftp
+from rapidgen.services import serve_ftp, serve_sftp
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 VERBS = (plan, deploy, rollback, uninstall, doctor)
@@ -206,3 +206,30 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
     with pytest.raises(DiagnosticError) as caught:
         find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
     assert "s3cret" not in render(caught.value.diagnostics)
+
+
+def test_a_login_without_password_and_key_says_so(run, home, built, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.delenv("SSH_AUTH_SOCK", raising=False)
+    monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
+    server = serve_sftp(home)
+    try:
+        known = tmp_path / "known"
+        known.write_text(server.host_key + "\n")
+        code, _, err = run(
+            "plan", built(OLD), "--to", f"sftp://127.0.0.1:{server.port}", "--known-hosts", known
+        )
+    finally:
+        server.close()
+    assert code == 1
+    assert "error[RG502]" in err
+    assert "neither a password nor a key" in err
+
+
+@pytest.mark.parametrize("url", ["http://robot", "ftq://robot", "@nowhere"])
+def test_a_url_that_leads_nowhere_tells_what_there_is(run, built, url):
+    code, _, err = run("plan", built(OLD), "--to", url)
+    assert code == 2
+    assert "error[RG509]" in err
+    assert "help:" in err
+    assert "Errno" not in err
