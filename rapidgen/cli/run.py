@@ -138,7 +138,9 @@ def run(
 
 
 def _print(_task: str, text: str) -> None:
-    sys.stdout.write(text.replace("\n", " ") + "\n")
+    from rapidgen.cli.terminal import letters
+
+    sys.stdout.write(letters(text).replace("\n", " ") + "\n")
 
 
 def _system(files: list[Path], tasks: list[str], entry: str) -> "System":

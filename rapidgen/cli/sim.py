@@ -125,6 +125,8 @@ def _serve(
     import json
     import signal
 
+    from rapidgen.cli.terminal import letters
+
     ended = False
 
     def end(*_: object) -> None:
@@ -136,7 +138,9 @@ def _serve(
 
     before = {s: signal.signal(s, end) for s in (signal.SIGINT, signal.SIGTERM)}
     controller.log.subscribe(lambda event: typer.echo(event, err=True))
-    controller.operator.subscribe(lambda task, text: typer.echo(f"{task}: {text}", err=True))
+    controller.operator.subscribe(
+        lambda task, text: typer.echo(f"{task}: {letters(text)}", err=True)
+    )
     for event in controller.log:
         typer.echo(event, err=True)
     kernel = controller.kernel

@@ -64,6 +64,13 @@ def test_letters_that_the_terminal_lacks_are_written_as_codes(folder):
     assert (done.returncode, done.stdout) == (0, "\\xe9\n")
 
 
+@pytest.mark.parametrize("encoding", ["utf-8", "latin-1"])
+def test_letters_are_shown_as_the_file_has_them(folder, encoding):
+    (folder / "letters.mod").write_text(GOOD.replace("hi", "é ü"), encoding=encoding)
+    done = shell("$RG run letters.mod", folder, PYTHONIOENCODING="utf-8")
+    assert (done.returncode, done.stdout) == (0, "é ü\n")
+
+
 def test_a_file_name_that_is_no_text_builds(folder):
     Path(os.fsdecode(b"cell\xff.yaml")).write_text("name: cell\nmodel: irb120\n")
     done = shell("$RG build $'cell\\xff.yaml' -o out", folder)
