@@ -5,7 +5,7 @@ import sys
 
 
 def letters(text: str) -> str:
-    """A RAPID string as people read it: its characters are bytes, in a UTF-8 file those of UTF-8."""
+    """A RAPID string as people read it: its characters are bytes, of UTF-8 where the file is."""
     try:
         return text.encode("latin-1").decode("utf-8")
     except UnicodeError:
