@@ -56,23 +56,41 @@ def test_three_clients_get_the_same_at_once(bench):
     assert len(told[0]) == pytest.approx(100, abs=2)
 
 
-def test_the_newest_takes_the_place_of_the_oldest(bench):
+def test_a_fourth_takes_the_place_of_the_one_that_came_before_it(bench):
     b = bench()
     clients = []
     for _ in range(4):
         clients.append(b.state_client())
         b.vc.run_for(1)
-    assert [served(b, client) for client in clients] == [False, True, True, True]
-    assert clients[0].closed
+    assert [served(b, client) for client in clients] == [True, True, False, True]
+    assert clients[2].closed
     # A place that was left is taken first, nobody has to go.
-    clients[2].close()
+    clients[1].close()
     b.vc.run_for(1)
     fifth = b.state_client()
     b.vc.run_for(1)
-    assert [served(b, client) for client in (clients[1], clients[3], fifth)] == [True] * 3
-    b.state_client()
+    assert [served(b, client) for client in (clients[0], clients[3], fifth)] == [True] * 3
+    sixth = b.state_client()
     b.vc.run_for(1)
-    assert [served(b, client) for client in (clients[1], clients[3], fifth)] == [False, True, True]
+    served_now = [served(b, client) for client in (clients[0], clients[3], fifth, sixth)]
+    assert served_now == [True, True, False, True]
+
+
+def test_standard_nodes_that_come_again_do_not_disturb_the_first(bench):
+    """A node that was dropped connects again within 5 s, and the action that waits for the first
+    one's states gives its goal up after a second without any."""
+    b = bench()
+    first, second = b.state_client(), b.state_client()
+    b.vc.run_for(1)
+    b.state_client()
+    first.frames()
+    for _ in range(12):
+        b.state_client()
+        b.vc.run_for(2.5)
+        assert len(first.frames()) == pytest.approx(50, abs=4)
+        assert served(b, second, 0.3)
+        first.frames()
+    assert b.healthy()
 
 
 def test_many_come_and_go(bench):

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "fe8e72e6919a";
+    CONST string ROS_BUILD_STATE_SERVER := "3629875e7f27";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;
@@ -28,12 +28,13 @@ MODULE ROS_stateServer
 
     LOCAL VAR socketdev server;
     LOCAL VAR socketdev client{SLOTS};
-    ! Of each slot: whether it serves a client, for how many newer ones, what that has asked
-    ! for (bits of ROS_FEATURE).
+    ! Of each slot: whether it serves a client, and what that has asked for (bits of
+    ! ROS_FEATURE).
     LOCAL VAR bool served{SLOTS};
-    LOCAL VAR num newer{SLOTS};
     LOCAL VAR num wants{SLOTS};
     LOCAL VAR num clients := 0;
+    ! Slot of the client that came last.
+    LOCAL VAR num latest := 1;
     LOCAL VAR bool progress_wanted := FALSE;
     LOCAL VAR bool feedback_wanted := FALSE;
     LOCAL VAR bool look_for_clients := FALSE;
@@ -120,14 +121,11 @@ MODULE ROS_stateServer
         slot := free_slot();
         TEST ROS_accept(server, client{slot}, seconds)
         CASE ROS_ACCEPT_CLIENT:
-            FOR n FROM 1 TO SLOTS DO
-                newer{n} := newer{n} + 1;
-            ENDFOR
-            newer{slot} := 0;
             served{slot} := TRUE;
             clients := clients + 1;
-            ! The newest is served: the oldest may be a dead link.
-            IF clients = SLOTS drop oldest();
+            ! The newest is served, and those who came first are not disturbed.
+            IF clients = SLOTS drop latest;
+            latest := slot;
         CASE ROS_ACCEPT_BROKEN:
             ROS_listen server, PORT;
         ENDTEST
@@ -138,15 +136,6 @@ MODULE ROS_stateServer
             IF NOT served{slot} RETURN slot;
         ENDFOR
         RETURN SLOTS;
-    ENDFUNC
-
-    LOCAL FUNC num oldest()
-        VAR num found := 1;
-
-        FOR slot FROM 2 TO SLOTS DO
-            IF newer{slot} > newer{found} found := slot;
-        ENDFOR
-        RETURN found;
     ENDFUNC
 
     LOCAL PROC drop(num slot)
