@@ -20,9 +20,9 @@ class Cell:
         workspace: Workspace,
         target: str,
         *options: str,
-        robot: str = "irb120",
-        urdf: Path | None = None,
-        coupled: bool = False,
+        robot: str,
+        urdf: Path,
+        coupled: bool,
     ) -> None:
         from control_msgs.msg import FollowJointTrajectoryFeedback
         from industrial_msgs.msg import RobotStatus
@@ -35,7 +35,7 @@ class Cell:
         workspace.parameters(
             robot_ip_address=HOST, J23_coupled=coupled, controller_joint_names=self.names
         )
-        workspace.parameters(robot_description=urdf.read_text() if urdf else "")
+        workspace.parameters(robot_description=urdf.read_text())
         self.sim = Simulated(target, *options)
         self.joints: list[tuple[float, JointState]] = []
         self.status: list[tuple[float, RobotStatus]] = []
