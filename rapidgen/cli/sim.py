@@ -177,13 +177,12 @@ def _files(
 
     from rapidgen.services import serve_ftp, serve_sftp
 
-    home = controller.files.path("HOME:")
     told: dict[str, dict[str, str | int]] = {}
     with ExitStack() as stack:
         for name, serve, port in (("ftp", serve_ftp, ftp), ("sftp", serve_sftp, sftp)):
             if port is None:
                 continue
-            service = serve(home, host, port)
+            service = serve(controller.files.path("HOME:"), host, port)
             stack.callback(service.close)
             # The login is new in every run and good on this machine only.
             told[name] = {

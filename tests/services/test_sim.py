@@ -38,9 +38,9 @@ def sim():
         assert line.startswith("ready "), process.communicate()[1]
         yield process, json.loads(line.removeprefix("ready "))
     finally:
-        if process.poll() is None:
-            process.kill()
-        process.communicate()
+        # A killed one could not remove its files.
+        process.terminate()
+        process.communicate(timeout=20)
 
 
 def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim, tmp_path):

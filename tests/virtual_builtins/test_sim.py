@@ -44,9 +44,9 @@ class Running:
         return self.process.returncode, out, err
 
     def close(self):
-        if self.process.poll() is None:
-            self.process.kill()
-        self.process.communicate()
+        """End it whatever a test has left; a killed one could not remove its files."""
+        self.process.terminate()
+        self.process.communicate(timeout=20)
 
 
 @pytest.fixture
