@@ -1,9 +1,9 @@
-"""Trial: a backup of createchaos/abb_communication: two robots on gantries, five tasks.
+"""Trial: two backups of createchaos/abb_communication: two robots on gantries, five tasks.
 
     python -m tests.foreign.rfl FOLDER
 
 FOLDER is a checkout. Its client is for Python 2 and a window; its bytes are written here by hand.
-The backup's master and its robots both write `bWaitForJob` behind the same synchronisation point,
+A backup's master and its robots both write `bWaitForJob` behind the same synchronisation point,
 so that it is a matter of time whether the master asks its operator at all: schedules are tried
 until it does.
 """
@@ -21,7 +21,7 @@ from rapidgen.system import read_system
 from rapidgen.virtual import VirtualController
 from rapidgen.virtual.mechanics import groups_for
 
-BACKUP = "src/abb_communication/robotstudio/C21_R21_R22_05-101052_BACKUP_2017-02-22_sp_01"
+BACKUPS = "src/abb_communication/robotstudio"
 JOB = "A009 Stefana"
 COMMAND, POSE, JOINTS, EXECUTED = 1, 5, 6, 15
 TO_JOINTS, TO_TARGET, BY_JOINTS = 1, 2, 5
@@ -29,9 +29,9 @@ ROBOT_3 = 3.0
 START = [0.0, 10.0, 20.0, 0.0, 40.0, 0.0, 5000.0, -2000.0, -1500.0]
 
 
-def started(folder: Path) -> VirtualController:
+def started(backup: Path) -> VirtualController:
     """The controller in real time, with the job that its operator has chosen."""
-    system = read_system(folder / BACKUP)
+    system = read_system(backup)
     one, two = groups_for(system, load_config(str(Path(__file__).with_name("gantry.yaml"))))
     (gantry,) = two.positioners
     other = replace(
@@ -131,9 +131,9 @@ def near(found: list[float], wanted: list[float], by: float) -> bool:
     return all(abs(a - b) <= by for a, b in zip(found, wanted, strict=True))
 
 
-def main(folder: Path) -> None:
-    """createchaos/abb_communication: joints, relative joints and targets on a gantry."""
-    controller = started(folder)
+def moved(backup: Path) -> None:
+    """Joints, relative joints and targets of a robot on a gantry."""
+    controller = started(backup)
     try:
         number = controller.call(lambda: controller.operator.questions[0].number)
         controller.call(lambda: controller.operator.answer(number, JOB))
@@ -158,8 +158,9 @@ def main(folder: Path) -> None:
         raise AssertionError("\n".join(where)) from error
     finally:
         controller.close()
-    print("moved by joints and targets, with the gantry")
+    print(f"{backup.name}: moved by joints and targets, with the gantry")
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]))
+    for place in sorted((Path(sys.argv[1]) / BACKUPS).glob("*_BACKUP_*")):
+        moved(place)
