@@ -24,6 +24,14 @@ def write_whole(path: Path, data: bytes) -> None:
         raise
 
 
+def check_writable(path: Path) -> None:
+    """Say before long work that its result has nowhere to go; leaves no file. Raises OSError."""
+    is_new = not path.exists()
+    path.open("ab").close()
+    if is_new:
+        path.unlink()
+
+
 def _status(target: Path) -> os.stat_result | None:
     try:
         return os.stat(target)

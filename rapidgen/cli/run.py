@@ -209,10 +209,11 @@ def _no_configuration(files: list[Path]) -> None:
 
 def _writable(path: Path) -> None:
     """Refuse, before anything runs, a file that cannot be written behind it."""
+    from rapidgen._writing import check_writable
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
     try:
-        path.open("a", encoding="utf-8").close()
+        check_writable(path)
     except OSError as error:
         message = f"cannot write {path}: {error.strerror}"
         raise DiagnosticError(

@@ -97,12 +97,13 @@ def _check_names(names: list[str]) -> None:
 
 def _check_writable(path: Path | None) -> None:
     """Say before a long run that its report has nowhere to go."""
+    from rapidgen._writing import check_writable
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
     if path is None:
         return
     try:
-        path.open("a").close()
+        check_writable(path)
     except OSError as error:
         raise DiagnosticError(
             Diagnostic(

@@ -131,6 +131,12 @@ def test_a_file_is_written_whole_or_not_at_all(folder):
     assert target.read_bytes() == b"after"
 
 
+def test_a_run_that_is_refused_leaves_no_report(folder):
+    (folder / "bad.mod").write_text("MODULE bad\n")
+    assert main(["run", "bad.mod", "--coverage", "x.lcov", "--profile=p.json"]) == 2
+    assert sorted(os.listdir()) == ["bad.mod", "good.mod"]
+
+
 def test_a_device_is_written_to_and_not_replaced(folder):
     write_whole(Path("/dev/null"), b"data")
     assert Path("/dev/null").is_char_device()
