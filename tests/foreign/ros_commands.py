@@ -131,10 +131,13 @@ def single(cell: Cell, found: Findings) -> None:
 # -- stops --------------------------------------------------------------------------------------
 
 
-def _halted(cell: Cell, found: Findings, begin: float) -> None:
+def _stands(cell: Cell, found: Findings, begin: float) -> None:
     until(cell.sim.standing, 15, "it never stood")
     took = time.monotonic() - begin
     found.must(took < 1, f"the robot stands {took:.2f} s later")
+
+
+def _halted(cell: Cell, found: Findings) -> None:
     where = cell.sim.positions()[0]
     found.must(cell.quiet(2), f"and stays (at {where:.2f} rad)")
     now = cell.next_status()
@@ -152,7 +155,8 @@ def stop(cell: Cell, found: Findings) -> None:
     begin = time.monotonic()
     took = cell.stop()
     found.must(took < 0.5, f"answered after {took * 1000:.0f} ms")
-    _halted(cell, found, begin)
+    _stands(cell, found, begin)
+    _halted(cell, found)
 
 
 @case("stop_motion while the robot stands, twice")
@@ -166,7 +170,8 @@ def stop_at_rest(cell: Cell, found: Findings) -> None:
 @case("an empty trajectory while the robot moves")
 def empty(cell: Cell, found: Findings) -> None:
     begin_moving(cell)
-    _halted(cell, found, cell.publish(cell.trajectory([])))
+    _stands(cell, found, cell.publish(cell.trajectory([])))
+    _halted(cell, found)
 
 
 @case("a goal cancelled while the robot moves")
@@ -181,19 +186,21 @@ def cancel(cell: Cell, found: Findings) -> None:
 
     client.wait_for_result(rospy.Duration(5))
     found.must(client.get_state() == PREEMPTED, "PREEMPTED")
-    _halted(cell, found, begin)
+    _stands(cell, found, begin)
+    _halted(cell, found)
 
 
 @case("the motion node ended by Ctrl-C while the robot moves")
 def interrupted_node(cell: Cell, found: Findings) -> None:
     begin_moving(cell)
     node = cell.nodes["motion_download_interface"]
-    begin = time.monotonic()
     ended = node.end(SIGINT, 5)
+    # From its end: the node sends its STOP some time after the signal.
+    _stands(cell, found, time.monotonic())
     found.must(ended is not None, "the node ends (its STOP is answered)")
     cell.start_node("abb_driver", "motion_download_interface")
     cell.ready()
-    _halted(cell, found, begin)
+    _halted(cell, found)
 
 
 # -- replaced -----------------------------------------------------------------------------------
