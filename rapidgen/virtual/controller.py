@@ -46,6 +46,8 @@ from rapidgen.virtual.values import Type
 
 _NS = 1_000_000_000
 Cycle = Literal["once", "forever"]
+_THREAD_LOOK = 0.1
+"""s between two looks whether the controller's thread is still there to answer."""
 
 
 class Deadlock(Exception):
@@ -495,14 +497,14 @@ class VirtualController(ControllerState):
         return lines
 
     def address(self, group: str = "", *, timeout: float = 10.0) -> str:
-        """Where a client finds a group's servers, once they listen: `HOST:MOTION,STATE`.
+        """Where a client finds a group's servers, once they listen: `HOST:MOTION,STATE[,CONTROL]`.
 
         For a controller that runs in a thread of its own (`start()`). TimeoutError when they do
         not listen within `timeout` s; KeyError for an unknown group.
         """
         name = group or next(iter(self.motion.groups))
         ports = self.motion.group(name).config.ports
-        wanted = (ports.motion, ports.state)
+        wanted = [port for port in (ports.motion, ports.state, ports.control) if port]
         listeners = self.network.listeners
         listening = threading.Event()
 
@@ -519,13 +521,15 @@ class VirtualController(ControllerState):
         self.call(lambda: self.network.listening.remove(look))
         if not came:
             raise TimeoutError(f"no server listens on {wanted}: {'; '.join(self.where())}")
-        host, motion = listeners[ports.motion][:2]
-        return f"{host}:{motion},{listeners[ports.state][1]}"
+        numbers = ",".join(str(listeners[port][1]) for port in wanted)
+        return f"{listeners[ports.motion][0]}:{numbers}"
 
     # -- real time -------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Run in a thread of its own from now on (real clock)."""
+        """Run in a thread of its own from now on. ValueError: the clock is not the real one."""
+        if self.kernel.clock != "real":
+            raise ValueError('only clock="real" runs by itself; else use run_for and run_until')
         if self._thread is not None:
             return
         self._stopping = False
@@ -566,7 +570,10 @@ class VirtualController(ControllerState):
                 done.set()
 
         self.kernel.post(run)
-        done.wait()
+        while not done.wait(_THREAD_LOOK):
+            if not thread.is_alive() and not done.is_set():
+                # A fault has ended the thread: nobody else runs anything any more.
+                return function()
         if not result:
             raise RuntimeError("the controller's thread could not carry out the request")
         return result[0]

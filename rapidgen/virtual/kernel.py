@@ -19,7 +19,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable
 from itertools import count
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, get_args
 
 import greenlet
 
@@ -34,6 +34,8 @@ QUANTUM = 2 * MS
 # recursion is found before it costs much memory.
 _LARGEST_BUDGET = 50 * MS
 _SERVE_EVERY = 2 * MS
+_LAG = 200 * MS
+"""Real ns by which a busy machine may be behind, and catches up."""
 
 
 class Timer:
@@ -193,6 +195,8 @@ class Kernel:
         quantum: int = QUANTUM,
         schedule: Schedule = "round-robin",
     ) -> None:
+        if clock not in get_args(ClockKind):
+            raise ValueError(f"clock={clock!r} is none of {', '.join(get_args(ClockKind))}")
         self.clock: ClockKind = clock
         self.speed = speed
         self.quantum = quantum
@@ -330,13 +334,14 @@ class Kernel:
         until, stop = self._until, self._stop
         while True:
             if self._posted:
+                self._come_up(self._wall())
                 self._run_posted()
             if self._stopping or (stop is not None and stop()):
                 return "stop"
             if until is not None and self._now >= until:
                 return "time"
-            wall = self._wall()
             busy = self._front is not None or bool(self.ready)
+            wall = self._wall_behind(self._now if busy else self.next_event())
             if busy and self._now <= wall + MS:
                 if wall - self._served_at > _SERVE_EVERY:
                     self._serve(0.0)
@@ -357,6 +362,17 @@ class Kernel:
         start, wall = self._origin
         return start + int((time.monotonic_ns() - wall) * self.speed)
 
+    def _wall_behind(self, due: int | None) -> int:
+        """The real clock. What this machine could not do in time makes it later, not faster: a
+        burst would be time that the outside never had."""
+        wall = self._wall()
+        latest = wall if due is None else due + int(_LAG * self.speed)
+        if wall <= latest:
+            return wall
+        self._origin = (latest, time.monotonic_ns())
+        self._served_at -= wall - latest
+        return latest
+
     def rebase(self) -> None:
         """Tie the real clock to `now`: after a pause nothing is caught up."""
         self._origin = (self._now, time.monotonic_ns())
@@ -365,13 +381,15 @@ class Kernel:
         events = self.selector.select(timeout)
         self._served_at = self._wall()
         if events:
-            # What comes from outside comes now, not when the last event was.
-            if self._front is None and not self.ready:
-                ahead = self.next_event()
-                seen = self._served_at if ahead is None else min(self._served_at, ahead)
-                self._now = max(self._now, seen)
+            self._come_up(self._served_at)
             for key, mask in events:
                 key.data(mask)
+
+    def _come_up(self, wall: int) -> None:
+        """What comes from outside comes now, not when the last event was."""
+        if self._front is None and not self.ready:
+            ahead = self.next_event()
+            self._now = max(self._now, wall if ahead is None else min(wall, ahead))
 
     def _drain(self, _mask: int) -> None:
         assert self._pipe is not None

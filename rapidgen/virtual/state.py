@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
 from rapidgen.rapid import nodes as n
 from rapidgen.system.model import System
@@ -193,7 +193,12 @@ class ControllerState:
         self._report()
 
     def set_mode(self, mode: Mode) -> None:
-        """Change the operating mode; a running program stops, the motors go off."""
+        """Change the operating mode; a running program stops, the motors go off.
+
+        ValueError: there is no such mode.
+        """
+        if mode not in get_args(Mode):
+            raise ValueError(f"{mode!r} is none of {', '.join(get_args(Mode))}")
         if mode == self.mode:
             return
         self.stop_program()
