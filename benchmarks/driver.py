@@ -1,13 +1,15 @@
 """The generated driver on the reference cost model, beside abb_driver's modules where they are.
 
-    python benchmarks/driver.py [FOLDER with abb_driver's six modules]
+    python benchmarks/driver.py [FOLDER with abb_driver's six modules] [--ramp S]
 
 Simulated time per point (from the slope over two lengths of a download whose points all pass every
 check, ended by a STOP whose reply marks the time), time from STOP to deceleration, and time
-and path error on the trajectories beside this file, the approach left out. These compare algorithms
-in our cost and motion model; no controller was measured.
+and path error on the trajectories beside this file, the approach left out, also with
+`trajectory.corners: tight`. S is the motion model's time in which acceleration builds up (0: no
+limit of jerk). These compare algorithms in our cost and motion model; no controller was measured.
 """
 
+import argparse
 import csv
 import sys
 from dataclasses import replace
@@ -20,17 +22,20 @@ from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import Bench, off
 from rapidgen.proving.link import STOP, point_frame
+from rapidgen.virtual.motion import MotionSettings
 from tests.foreign.abb_driver import read_system
 
 TRAJECTORIES = Path(__file__).resolve().parent / "trajectories"
 
 
-def drivers():
+def drivers(folder):
     config = load_config("irb120")
     yield "rapidgen", config, make_system(config, build(config))
-    if len(sys.argv) > 1:
+    tight = load_config("irb120", overrides=["trajectory.corners=tight"])
+    yield "rapidgen, corners: tight", tight, make_system(tight, build(tight))
+    if folder is not None:
         foreign = replace(config, trajectory=replace(config.trajectory, capacity=100))
-        yield "abb_driver", foreign, read_system(Path(sys.argv[1]))
+        yield "abb_driver", foreign, read_system(folder)
 
 
 def per_point(config, system):
@@ -78,10 +83,11 @@ def read(path):
     return times, list(zip(joints, steps, strict=True))
 
 
-def follow(config, system, path):
+def follow(config, system, path, ramp):
     """(time error s, path error rad): of the end, and largest distance from the polyline."""
     times, points = read(path)
     bench = Bench(config, system)
+    bench.controller.motion.settings = MotionSettings(ramp_time=ramp)
     bench.run(1)
     link = bench.motion()
     link.send(bench.download(points))
@@ -108,16 +114,14 @@ def follow(config, system, path):
     return abs((ended - began) - last), max(apart, lost)
 
 
-def main():
+def main(folder, ramp):
     results = {}
-    for name, config, system in drivers():
+    for name, config, system in drivers(folder):
         median, worst = stopping(config, system)
-        results[name] = {
+        results[name] = own = {
             "point": per_point(config, system),
-            "stop": median,
-            **{p.stem: follow(config, system, p) for p in sorted(TRAJECTORIES.glob("*.csv"))},
+            **{p.stem: follow(config, system, p, ramp) for p in sorted(TRAJECTORIES.glob("*.csv"))},
         }
-        own = results[name]
         print(
             f"{name}: {own['point'] * 1e3:.3f} ms a point, STOP {median * 1e3:.1f} ms "
             f"(worst {worst * 1e3:.1f})"
@@ -128,10 +132,20 @@ def main():
                 print(f"  {path.stem:6} not moved")
             else:
                 print(f"  {path.stem:6} time {found[0]:8.3f} s  path {found[1]:.5f} rad")
-    if len(results) == 2:
-        ours, theirs = results["rapidgen"], results["abb_driver"]
-        print(f"point: {ours['point'] / theirs['point']:.2f} x abb_driver's")
+    if folder is None:
+        return
+    theirs = results.pop("abb_driver")
+    for name, own in results.items():
+        paths = [f"{p} {own[p][1] / theirs[p][1]:.2f}" for p in own if p != "point"]
+        print(
+            f"{name}, share of abb_driver's: point {own['point'] / theirs['point']:.2f}, "
+            f"path {', '.join(paths)}"
+        )
 
 
 if __name__ == "__main__":
-    main()
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path, nargs="?")
+    parser.add_argument("--ramp", type=float, default=MotionSettings().ramp_time)
+    given = parser.parse_args()
+    main(given.folder, given.ramp)

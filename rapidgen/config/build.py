@@ -62,6 +62,7 @@ def build(
             approach_speed=settings.approach_speed,
             ring=settings.ring,
             preload=settings.preload,
+            corners=settings.corners,
         ),
         state_period=1 / configuration.state.rate,
         bind=configuration.network.bind,

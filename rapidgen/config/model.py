@@ -149,6 +149,7 @@ class TrajectoryPolicy:
     """Places for points between motion server and motion task; one stays free."""
     preload: float = 0.5
     """s of points of a stream that wait in the ring before the robot moves."""
+    corners: Literal["zone", "tight"] = field(default="zone", metadata=SPARSE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -280,6 +280,10 @@ class Trajectory(_Part):
         int, Rule("Points of one trajectory; more are refused whole.", ge=2, le=100000)
     ] = 1000
     zone: Annotated[Zone, Rule("Zone of the points between the first and the last.")] = "z10"
+    corners: Annotated[
+        Literal["zone", "tight"],
+        Rule("Corners as large as `zone`, or smaller where the axes follow without slowing down."),
+    ] = "zone"
     start_tolerance: Annotated[
         float, Rule("Distance of the first point from the robot, deg.", ge=0.001, le=20)
     ] = 0.5

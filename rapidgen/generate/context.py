@@ -21,6 +21,9 @@ _HEADER_AND_PREFIX = spec.PREFIX_BYTES + spec.HEADER_BYTES
 # Speed that rounding to single on the way must not push a point over.
 _SPEED_MARGIN = 1.001
 _DEFAULT_TCP_SPEED = 5.0
+# Part of an axis' acceleration that a tight corner may take: ABB publishes none, so those of the
+# configuration are estimates.
+_TURN_SHARE = 0.3
 _MM = 1000.0
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
@@ -70,6 +73,7 @@ def group_context(
         "ports": asdict(group.ports),
         "capacity": config.trajectory.capacity,
         "zone": config.trajectory.zone,
+        "tight": config.trajectory.corners == "tight" and config.trajectory.zone != "fine",
         "min_segment": config.trajectory.min_segment,
         "approach": config.trajectory.approach_speed,
         "slow_down": config.trajectory.too_fast == "slow_down",
@@ -182,6 +186,7 @@ def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]
         "low": literal(inward(to_rapid(joint, joint.lower), up=True)),
         "high": literal(inward(to_rapid(joint, joint.upper), up=False)),
         "speed": literal(round(to_rapid(joint, joint.speed) * _SPEED_MARGIN, 4)),
+        "turn": literal(round(to_rapid(joint, joint.acceleration) * _TURN_SHARE, 4)),
         "lower": literal(joint.lower),
         "upper": literal(joint.upper),
         "arm": layout.arm(group, joint),

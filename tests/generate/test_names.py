@@ -91,6 +91,7 @@ def test_the_checker_finds_nothing(name):
         "tcp_speed_limit=250",
         "trajectory.capacity=2",
         "trajectory.zone=fine",
+        "trajectory.corners=tight",
     ],
 )
 def test_the_checker_finds_nothing_in_variants(override):

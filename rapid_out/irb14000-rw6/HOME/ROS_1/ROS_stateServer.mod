@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "3629875e7f27";
+    CONST string ROS_BUILD_STATE_SERVER := "dbf43022965d";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.05;
@@ -400,7 +400,7 @@ MODULE ROS_stateServer
             due := now;
         ENDIF
         IF due < CLOCK_LIMIT RETURN;
-        now := ClkRead(schedule);
+        now := ClkRead(schedule \HighRes);
         ClkReset schedule;
         ClkStart schedule;
         offset := due - now;
