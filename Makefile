@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
 
-.PHONY: demo test lint types contract unit wheel foreign mutants bench motion-campaign runtime-mutants clean
+.PHONY: demo test lint types contract unit wheel foreign mutants bench motion-campaign driver-days runtime-mutants clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
@@ -63,6 +63,10 @@ bench: $(STAMP)
 # 10,000 random programs with random stops: some 5 minutes. The tests run a few of them.
 motion-campaign: $(STAMP)
 	$(BIN)/python -m tests.motion.campaign
+
+# The generated driver for 24 simulated hours, with traffic: some minutes.
+driver-days: $(STAMP)
+	$(BIN)/python benchmarks/campaign.py days
 
 # A mutant of the runtime for each of its conformance files: some 15 minutes. The tests run a sample.
 runtime-mutants: $(STAMP)
