@@ -195,7 +195,9 @@ class Tracker:
         if self.samples < _PACED:
             return None
         span = self._times[-1] - self._first
-        return (self.samples - 1) * period / span if span > 0 else None
+        whole = (self.samples - 1) / span if span > 0 else 0.0
+        # It may have been slower when it began.
+        return max(whole, self.rate) * period or None
 
     @property
     def state(self) -> State | None:

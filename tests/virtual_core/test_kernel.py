@@ -120,6 +120,21 @@ def test_real_clock_keeps_to_the_wall_and_posts_from_other_threads() -> None:
     kernel.close()
 
 
+def test_a_machine_that_falls_behind_does_not_make_up_for_it_in_a_burst() -> None:
+    kernel = Kernel(clock="real")
+
+    def stall() -> None:
+        start, wall = kernel._origin
+        kernel._origin = (start, wall - 10_000 * MS)
+
+    kernel.after(1 * MS, stall)
+    kernel.after(2 * MS, lambda: None)
+    started = time.monotonic()
+    kernel.advance(until=500 * MS)
+    assert time.monotonic() - started > 0.2
+    kernel.close()
+
+
 def test_speed() -> None:
     kernel = Kernel(clock="real", speed=100)
     started = time.monotonic()
