@@ -17,6 +17,7 @@ from rapidgen.client import (
     MotionFailed,
     MotionStopped,
     Robot,
+    Timeouts,
     Trajectory,
     TrajectoryRefused,
 )
@@ -27,6 +28,8 @@ from rapidgen.protocol.spec import Feature, Reason, TrajectoryState, TriState
 from rapidgen.virtual.controller import VirtualController
 
 SPEED = 10
+PATIENT = Timeouts(state=20, ready=10, silence=20, send=20, reply=20, stop=20, heartbeat=10)
+"""This machine may have more to do."""
 
 
 @pytest.fixture
@@ -84,7 +87,7 @@ def wiggle(robot, size=0.05):
 def test_every_robot_kind_moves(boot, name):
     _, config, addresses = boot(name)
     for group, address in addresses.items():
-        with Robot(config, address=address, group=group) as robot:
+        with Robot(config, address=address, group=group, timeouts=PATIENT) as robot:
             assert robot.driver.is_rapidgen
             assert Feature.PROGRESS in robot.driver.features
             path = wiggle(robot)
@@ -99,7 +102,9 @@ def test_async_client(boot):
     _, config, addresses = boot("irb120")
 
     async def run():
-        async with AsyncRobot(config, address=addresses[config.groups[0].name]) as robot:
+        async with AsyncRobot(
+            config, address=addresses[config.groups[0].name], timeouts=PATIENT
+        ) as robot:
             execution = await robot.execute(wiggle(robot))
             seen = []
             async for state in robot.states():
@@ -115,7 +120,7 @@ def test_async_client(boot):
 
 def test_a_stream(boot):
     _, config, addresses = boot("irb120")
-    with Robot(config, address=addresses[config.groups[0].name]) as robot:
+    with Robot(config, address=addresses[config.groups[0].name], timeouts=PATIENT) as robot:
         assert robot.driver.cannot == ()
         with robot.stream() as stream:
             stream.extend((n * 0.1, [0.3 * np.sin(n * 0.02)] * 6) for n in range(400))
@@ -137,7 +142,7 @@ def test_a_stream(boot):
 
 def test_stop_and_go_on(boot):
     _, config, addresses = boot("irb120")
-    with Robot(config, address=addresses[config.groups[0].name]) as robot:
+    with Robot(config, address=addresses[config.groups[0].name], timeouts=PATIENT) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.5] * 6], seconds=10)
         execution = robot.execute(path)
         robot.wait_until(lambda s: s.joints[0] > 0.05, timeout=10)
@@ -153,7 +158,7 @@ def test_stop_and_go_on(boot):
 def test_the_driver_refuses_what_the_client_would_not_send(boot):
     """The client's checks taken away: the driver has its own, and says which."""
     _, config, addresses = boot("irb120")
-    with Robot(config, address=addresses[config.groups[0].name]) as robot:
+    with Robot(config, address=addresses[config.groups[0].name], timeouts=PATIENT) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.2] * 6], seconds=1)
         plan = robot._core.plan
         for column, value, reason in ((2, 9.0, "JOINT_LIMIT"), (0, float("nan"), "NOT_FINITE")):
@@ -170,7 +175,7 @@ def test_the_driver_refuses_what_the_client_would_not_send(boot):
 
 def test_too_many_points_are_refused_before_they_are_sent(boot):
     _, config, addresses = boot("irb120", **{"trajectory.capacity": 20})
-    with Robot(config, address=addresses[config.groups[0].name]) as robot:
+    with Robot(config, address=addresses[config.groups[0].name], timeouts=PATIENT) as robot:
         still = Trajectory.from_points([[0.0] * 6] * 21, seconds=0.2)
         with pytest.raises(InvalidTrajectory, match="holds 20"):
             robot.execute(still)
@@ -178,7 +183,7 @@ def test_too_many_points_are_refused_before_they_are_sent(boot):
 
 def test_emergency_stop_while_moving(boot):
     controller, config, addresses = boot("irb120")
-    with Robot(config, address=addresses[config.groups[0].name]) as robot:
+    with Robot(config, address=addresses[config.groups[0].name], timeouts=PATIENT) as robot:
         execution = robot.execute(Trajectory.from_points([[0.0] * 6, [0.5] * 6], seconds=10))
         robot.wait_until(lambda s: s.joints[0] > 0.05, timeout=10)
         controller.call(lambda: controller.set_e_stop(True))
@@ -196,7 +201,8 @@ def test_emergency_stop_while_moving(boot):
 def test_both_arms_of_a_cell(boot):
     _, config, addresses = boot("irb14000")
     robots = {
-        name: Robot(config, address=address, group=name) for name, address in addresses.items()
+        name: Robot(config, address=address, group=name, timeouts=PATIENT)
+        for name, address in addresses.items()
     }
     assert len(robots) == 2
     with Cell(robots) as cell:
