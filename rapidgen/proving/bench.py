@@ -116,6 +116,9 @@ class Bench:
             tracing=self.setting.coverage,
         )
         controller.motion.settings = self.setting.motion
+        if self.setting.motion.settle > 0:
+            # The motion task begins when the robot has settled, and drops what came before.
+            controller.run_for(2 * self.setting.motion.settle)
         return controller
 
     def beside(
