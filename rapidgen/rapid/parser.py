@@ -262,23 +262,40 @@ class ModuleParser(RoutineParser):
         return AliasDeclaration(first, end, scope, type_name, name)
 
 
-@contextmanager
-def _collector_paused() -> Iterator[None]:
+class _Collector:
     """No garbage collection while a tree grows: it would cost more than the parse.
 
     The tree then goes to the oldest generation as it is: going through all its nodes at the
-    next young collection would cost a third of the parse, and find nothing.
+    next young collection would cost a third of the parse, and find nothing. That takes Python its
+    own reason to look through the oldest generation, so this does it: when as many tokens have
+    gone there as it has objects.
     """
-    running = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if running:
-            if gc.get_freeze_count() == 0:
-                gc.freeze()
-                gc.unfreeze()
-            gc.enable()
+
+    LEAST = 1_000_000
+
+    def __init__(self) -> None:
+        self.promoted = 0
+        self.limit = self.LEAST
+
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        running = gc.isenabled()
+        gc.disable()
+        try:
+            yield
+        finally:
+            if running:
+                if gc.get_freeze_count() == 0:
+                    gc.freeze()
+                    gc.unfreeze()
+                gc.enable()
+        if running and self.promoted > self.limit:
+            self.promoted = 0
+            gc.collect()
+            self.limit = max(self.LEAST, len(gc.get_objects()))
+
+
+_COLLECTOR = _Collector()
 
 
 def parse(
@@ -296,8 +313,9 @@ def parse(
     if refused:
         return _empty(refused, name)
     decoded, encoding = lexer.decode(source) if isinstance(source, bytes) else (source, "utf-8")
-    with _collector_paused():
+    with _COLLECTOR.paused():
         tokens = lexer.tokenize(decoded, name, encoding, radix=(dialect or Dialect()).has_radix)
+        _COLLECTOR.promoted += len(tokens.source.tokens)
         parser = ModuleParser(tokens)
         return _run(parser, tokens)
 

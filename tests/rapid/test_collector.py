@@ -1,0 +1,43 @@
+"""Parsing keeps the collector away from trees that grow, not from what is garbage."""
+
+import gc
+import weakref
+
+import pytest
+
+from rapidgen.rapid import parse, parser
+
+
+class Cycle:
+    def __init__(self):
+        self.itself = self
+
+
+@pytest.fixture
+def small(monkeypatch):
+    """A collector that looks through everything after some hundred tokens."""
+    monkeypatch.setattr(parser._COLLECTOR, "LEAST", 300)
+    monkeypatch.setattr(parser._COLLECTOR, "limit", 300)
+    monkeypatch.setattr(parser._COLLECTOR, "promoted", 0)
+
+
+def test_who_parses_again_and_again_gets_his_memory_back(small):
+    gc.collect()
+    gone = weakref.ref(Cycle())
+    for _ in range(100):
+        parse("MODULE m\n  VAR num x := 1;\nENDMODULE\n")
+        if gone() is None:
+            return
+    raise AssertionError("a cycle outlived a hundred modules")
+
+
+def test_a_collector_that_was_off_stays_off(small):
+    gc.disable()
+    try:
+        gone = weakref.ref(Cycle())
+        for _ in range(100):
+            parse("MODULE m\n  VAR num x := 1;\nENDMODULE\n")
+        assert gone() is not None
+        assert not gc.isenabled()
+    finally:
+        gc.enable()
