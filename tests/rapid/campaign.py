@@ -27,8 +27,10 @@ def _hang(number, frame):
 def red(file):
     """Whether a file finds something else than it announces; None for a hang or a crash."""
     before = signal.signal(signal.SIGVTALRM, _hang)
-    collecting = gc.isenabled()
-    gc.disable()  # raised inside a callback of the collector, Hung would be lost
+    # Raised inside a callback of the collector, which a mutant may call, Hung would be lost.
+    collecting, callbacks = gc.isenabled(), gc.callbacks[:]
+    gc.disable()
+    gc.callbacks.clear()
     # Again and again: a mutant may swallow the first.
     signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS, SECONDS)
     try:
@@ -37,6 +39,7 @@ def red(file):
         return None
     finally:
         signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+        gc.callbacks[:] = callbacks
         if collecting:
             gc.enable()
         signal.signal(signal.SIGVTALRM, before)
