@@ -228,6 +228,11 @@ class Reader:
                     self._read(key.data)
         for channel in self._selector_channels():
             self._forget(channel)
+        with self._lock:
+            coming, self._coming = self._coming, []
+        for channel in coming:
+            # It came and the end came, both since the last look.
+            channel.close()
         self._selector.close()
 
     def _selector_channels(self) -> list[Channel]:
