@@ -26,6 +26,7 @@ MODULE ROS_probe
         ask_wait_until;
         ask_unpack_ulint;
         ask_unpack_beyond;
+        ask_pack_beyond;
         ask_find_behind;
         ask_byte_to_str;
         ask_alias_by_name;
@@ -151,6 +152,21 @@ MODULE ROS_probe
     ERROR
         SkipWarn;
         answer "unpack_beyond=error";
+        RETURN;
+    ENDPROC
+
+    ! May a message be packed with a gap, and what lies in it?
+    LOCAL PROC ask_pack_beyond()
+        VAR num nothing := 1;
+
+        ClearRawBytes bytes;
+        PackRawBytes FIRST, bytes, 1 \IntX:=DINT;
+        PackRawBytes SECOND, bytes, 9 \IntX:=DINT;
+        UnpackRawBytes bytes, 5, nothing \IntX:=DINT;
+        IF nothing = 0 answer "pack_beyond=zero";
+    ERROR
+        SkipWarn;
+        answer "pack_beyond=error";
         RETURN;
     ENDPROC
 

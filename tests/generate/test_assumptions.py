@@ -59,6 +59,7 @@ DIALECTS = [
     {"after_error": "main"},
     {"receive_timeout": "drop"},
     {"unpack_beyond": "zero"},
+    {"pack_beyond": "error"},
     {"send_attends": False},
     {"axis_limits_told": False},
     {"error_reach": "own"},

@@ -20,6 +20,7 @@ ASKED = {
     "wait_until": ("polled", "event"),
     "unpack_ulint": ("exact", "single", "error"),
     "unpack_beyond": ("error", "zero"),
+    "pack_beyond": ("zero", "error"),
     "find_behind": ("none", "error"),
     "byte_to_str": ("character", "code"),
     "axis_limits_told": (True, False),

@@ -108,6 +108,24 @@ def test_unpacking_text(bench):
     assert target.get() == "hello"
 
 
+def test_packing_with_a_gap(bench):
+    """3HAC16581-1: the new valid length reaches to the last byte packed; the gap is in no source."""
+    raw = RawBytes(b"ab")
+    bench("PackRawBytes", bench.box(513), raw, 5, IntX=DINT)
+    assert bytes(raw.data) == b"ab\0\0\1\2\0\0"
+
+
+def test_packing_with_a_gap_in_the_other_dialect(bench):
+    bench.controller.dialect = Dialect(pack_beyond="error")
+    raw = RawBytes(b"ab")
+    with pytest.raises(RapidError) as caught:
+        bench("PackRawBytes", bench.box(1), raw, 4, IntX=DINT)
+    assert caught.value.name == "ERR_OUTOFBND"
+    assert bytes(raw.data) == b"ab"
+    bench("PackRawBytes", bench.box(513), raw, 3, IntX=DINT)
+    assert bytes(raw.data) == b"ab\1\2\0\0"
+
+
 def test_unpacking_beyond_the_valid_length(bench):
     """[mem]"""
     with pytest.raises(RapidError) as caught:

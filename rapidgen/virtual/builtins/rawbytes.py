@@ -29,7 +29,7 @@ _ULINT = 8
 
 @builtin("PackRawBytes", cost="string")
 def pack_raw_bytes(
-    _task: Task,
+    task: Task,
     datum: object,
     raw: RawBytes,
     network: bool | None,
@@ -42,6 +42,8 @@ def pack_raw_bytes(
     """Write one value into a container."""
     value, _ = value_of(datum)
     index = whole(start, "ERR_OUTOFBND")
+    if index > len(raw.data) + 1 and task.controller.dialect.pack_beyond == "error":
+        raise RapidError("ERR_OUTOFBND", f"{index} lies behind a gap after {len(raw.data)} bytes")
     if isinstance(value, str):
         if not ascii_ or not value:
             raise RapidError("ERR_ARGVALERR", "a string is packed with \\ASCII, and not empty")

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "c35c037dfa0c";
+    CONST string ROS_BUILD_CONTROL := "1220ac462525";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -67,7 +67,6 @@ MODULE ROS_control
         ENDIF
         taken_over := FALSE;
         linked := TRUE;
-        heartbeat := 0;
         told_dead := ROS_dead;
         ROS_begin_frames;
         WHILE linked AND (NOT taken_over) DO

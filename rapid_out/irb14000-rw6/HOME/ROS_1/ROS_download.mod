@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "dbf43022965d";
+    CONST string ROS_BUILD_DOWNLOAD := "f106b8bcab29";
 
     LOCAL CONST dnum NO_BITS := 0;
 
@@ -26,7 +26,6 @@ MODULE ROS_download
             IF sequence = ROS_SEQ_END skipping := FALSE;
         ELSEIF NOT ROS_receiving THEN
             ROS_new_trajectory;
-            ROS_receiving := TRUE;
             ROS_refuse_download ROS_REASON_NO_START, 0, sequence = ROS_SEQ_END;
         ELSEIF sequence = ROS_count OR sequence = ROS_SEQ_END OR ROS_count = 0 THEN
             ROS_add_point data, at, sequence;
