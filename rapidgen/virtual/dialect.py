@@ -77,8 +77,8 @@ class Dialect:
     """UnpackRawBytes behind the valid length: ERR_OUTOFBND, or the bytes count as 0. No source."""
 
     pack_beyond: Literal["zero", "error"] = "zero"
-    """PackRawBytes that leaves a gap behind the valid length: the bytes between are 0 (the new length
-    of 3HAC16581-1 covers them), or ERR_OUTOFBND."""
+    """PackRawBytes that leaves a gap behind the valid length: the bytes between are 0 (the new
+    length of 3HAC16581-1 covers them), or ERR_OUTOFBND."""
 
     unpack_ulint: Literal["exact", "single", "error"] = "exact"
     """A ULINT read into a dnum: exact as far as a dnum counts (3HAC16581-1 lists the type, and
