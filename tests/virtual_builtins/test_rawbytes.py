@@ -109,7 +109,7 @@ def test_unpacking_text(bench):
 
 
 def test_packing_with_a_gap(bench):
-    """3HAC16581-1: the valid length reaches to the last byte; what lies in a gap it does not say."""
+    """3HAC16581-1: the valid length reaches to the last byte; of a gap it does not speak."""
     raw = RawBytes(b"ab")
     bench("PackRawBytes", bench.box(513), raw, 5, IntX=DINT)
     assert bytes(raw.data) == b"ab\0\0\1\2\0\0"

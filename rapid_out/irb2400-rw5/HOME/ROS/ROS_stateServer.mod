@@ -9,10 +9,11 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "8f9b3af06224";
+    CONST string ROS_BUILD_STATE_SERVER := "f647956f0844";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
+    LOCAL CONST num RATE := 10;
     ! A num of this many seconds still tells a tenth of a millisecond from the next.
     LOCAL CONST num CLOCK_LIMIT := 1000;
     ! Sockets for clients: one more than are served, so that the newest has a place to come to.
@@ -48,9 +49,10 @@ MODULE ROS_stateServer
     LOCAL VAR num message_wants := 0;
     LOCAL VAR num message_bytes := 0;
 
-    ! Messages are due at ticks x PERIOD + offset on this clock. Adding up periods in a 32-bit
-    ! float would drift.
-    LOCAL VAR clock schedule;
+    ! Messages are due at ticks / RATE + offset on the clock that runs: adding up periods in a
+    ! 32-bit float would drift. The other clock is the next one.
+    LOCAL VAR clock schedule{2};
+    LOCAL VAR num running := 1;
     LOCAL VAR num ticks := 0;
     LOCAL VAR num offset := 0;
     ! The time stamp of feedback counts CLOCK_LIMIT exactly: by what the clock had run over.
@@ -106,8 +108,8 @@ MODULE ROS_stateServer
         ENDWHILE
         ticks := 0;
         offset := 0;
-        ClkReset schedule;
-        ClkStart schedule;
+        ClkReset schedule{running};
+        ClkStart schedule{running};
         ClkReset since_look;
         ClkStart since_look;
         told_started := ROS_started;
@@ -155,7 +157,7 @@ MODULE ROS_stateServer
         VAR num possible := ROS_TRI_FALSE;
 
         joints := CJointT();
-        stamp := ClkRead(schedule) + overrun;
+        stamp := ClkRead(schedule{running}) + overrun;
         IF stamp >= CLOCK_LIMIT stamp := stamp - CLOCK_LIMIT;
         ROS_pack_joints state, joints;
 
@@ -388,8 +390,8 @@ MODULE ROS_stateServer
         VAR num due;
 
         ticks := ticks + 1;
-        due := ticks * PERIOD + offset;
-        now := ClkRead(schedule);
+        due := ticks / RATE + offset;
+        now := ClkRead(schedule{running});
         IF clients = 0 RETURN;
         IF now < due THEN
             WaitTime due - now;
@@ -399,9 +401,12 @@ MODULE ROS_stateServer
             due := now;
         ENDIF
         IF due < CLOCK_LIMIT RETURN;
-        now := ClkRead(schedule);
-        ClkReset schedule;
-        ClkStart schedule;
+        ! The next clock begins between two looks at this one: nothing is lost from one to the other.
+        ClkReset schedule{3 - running};
+        now := ClkRead(schedule{running});
+        ClkStart schedule{3 - running};
+        now := (now + ClkRead(schedule{running})) / 2;
+        running := 3 - running;
         offset := due - now;
         overrun := overrun + now - CLOCK_LIMIT;
         IF overrun >= CLOCK_LIMIT overrun := overrun - CLOCK_LIMIT;
