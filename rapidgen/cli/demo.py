@@ -87,7 +87,7 @@ def _report(
     table = Table("joint", "commanded", "reached", "difference", box=None)
     stands = robot.group.from_wire(reached)
     for name, asked, stood in zip(robot.group.names, trajectory.positions[-1], stands, strict=True):
-        table.add_row(name, f"{asked:.4f}", f"{stood:.4f}", f"{abs(asked - stood):.1e}")
+        table.add_row(name, f"{asked:.4f}", f"{stood:.4f}", f"{abs(asked - stood):.4f}")
     console = Console(highlight=False)
     console.print(table)
     times = recording.times
