@@ -1,0 +1,199 @@
+"""Points one by one, each as a request: what becomes of the trajectory is in its reply."""
+
+import math
+from collections.abc import Sequence
+
+from rapidgen.config.model import Joint
+from rapidgen.protocol import decode, messages, spec
+from rapidgen.protocol.spec import Reason, TrajectoryState
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import STOP, Position, raw_point
+from rapidgen.proving.model import Broken, Case
+
+_BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
+_TAKEN = messages.Acknowledged()
+_LONGEST = 3600.0
+_ROUNDING = 0.0005
+"""deg or mm outside a limit that count as rounding."""
+_SLOW = 60.0
+"""s for a segment that no axis is too slow for."""
+
+
+class Table:
+    """Points and the replies that they must get. They are sent in one piece."""
+
+    def __init__(self, bench: Bench) -> None:
+        self.bench = bench
+        self.link = bench.motion()
+        self.watcher = bench.watcher()
+        self.number = bench.progress(self.watcher).trajectory
+        """Of the newest trajectory, as far as the rows say."""
+        self._rows: list[tuple[bytes, messages.Content, str]] = []
+
+    def row(
+        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.Content
+    ) -> None:
+        """One more point. A trajectory begins with -1, and with a point that has no start."""
+        without = wanted == messages.Refused(Reason.NO_START, 0, 0)
+        if sequence == _BEGIN or without:
+            self.number += 1
+        frame = raw_point(sequence, joints, seconds, spec.Comm.REQUEST)
+        shown = ", ".join(f"{value:.9g}" for value in joints)
+        self._rows.append((frame, wanted, f"point {sequence} ({shown}) in {seconds:.9g} s"))
+
+    def accepted(self, joints: Sequence[float], seconds: float) -> None:
+        """An end frame with which the trajectory is handed over."""
+        self.row(_END, joints, seconds, messages.Accepted(self.number))
+
+    def ask(self) -> None:
+        """Send the rows. Broken when a reply is another one."""
+        self.link.send(b"".join(frame for frame, _, _ in self._rows))
+        for _, wanted, what in self._rows:
+            told = decode(self.link.expect_reply(5, f"{what} is answered"))
+            if type(told) is not type(wanted) or told != wanted:
+                raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
+        self._rows.clear()
+
+    def stop(self) -> None:
+        """STOP, and its reply."""
+        self.link.send(STOP)
+        told = decode(self.link.expect_reply(2, "STOP is answered"))
+        if not isinstance(told, messages.Acknowledged):
+            raise Broken(f"STOP is answered by {told}")
+
+    def shows(self, state: TrajectoryState, received: int, told: messages.Refused) -> None:
+        """Broken unless PROGRESS says so of the newest trajectory."""
+        self.bench.run(2 * self.bench.config.state_period)
+        seen = self.bench.progress(self.watcher)
+        if (seen.trajectory, seen.state, seen.received, *seen[5:]) != (
+            self.number,
+            state,
+            received,
+            *told,
+        ):
+            raise Broken(
+                f"trajectory {self.number}, {state.name} with {received} points and {told}: "
+                f"PROGRESS says {seen}"
+            )
+
+
+_NOTHING = messages.Refused(0, -1, 0)
+"""As PROGRESS tells it of a trajectory that nothing is wrong with."""
+
+
+def changed(position: Position, axis: int, value: float) -> Position:
+    """The position with another value for one axis."""
+    return (*position[:axis], value, *position[axis + 1 :])
+
+
+def unit_of(joint: Joint) -> float:
+    """One degree or one millimetre."""
+    return 1e-3 if joint.kind == "prismatic" else math.radians(1)
+
+
+def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float] | None:
+    """Two places of an axis that are `share` of what it can do in a time apart, about zero."""
+    way = share * seconds * joint.speed
+    margin = 2 * unit_of(joint)
+    low = max(joint.lower + margin, min(-way / 2, joint.upper - margin - way))
+    return (low, low + way) if low + way <= joint.upper - margin else None
+
+
+def _each_value(bench: Bench) -> None:
+    """Limits, speeds and numbers that are none, of each joint alone; what is padding."""
+    table, here = Table(bench), bench.position
+    policy = bench.config.trajectory
+    seconds = max(0.1, policy.min_segment)
+    fault = policy.too_fast == "refuse"
+    for axis, joint in enumerate(bench.group.joints):
+        unit = unit_of(joint)
+        for value, reason in (
+            (joint.lower - 0.0012 * unit, Reason.JOINT_LIMIT),
+            (joint.upper + 0.0012 * unit, Reason.JOINT_LIMIT),
+            (1e6, Reason.JOINT_LIMIT),
+            (math.nan, Reason.NOT_FINITE),
+            (math.inf, Reason.NOT_FINITE),
+            (-math.inf, Reason.NOT_FINITE),
+        ):
+            wrong = messages.Refused(reason, 0, axis + 1)
+            table.row(_BEGIN, changed(here, axis, value), _SLOW, wrong)
+            table.row(1, here, _SLOW, wrong)
+        table.row(_BEGIN, changed(here, axis, joint.lower), _SLOW, _TAKEN)
+        table.row(1, changed(here, axis, joint.upper), _SLOW, _TAKEN)
+        table.row(2, changed(here, axis, joint.lower), _SLOW, _TAKEN)
+        for share in (0.999, 1.01):
+            ends = fast_ends(joint, seconds, share)
+            if ends is None:
+                continue
+            places = [changed(here, axis, value) for value in ends]
+            wrong = messages.Refused(Reason.TOO_FAST, 2, axis + 1)
+            for one, other in (places, places[::-1]):
+                table.row(_BEGIN, one, seconds, _TAKEN)
+                table.row(1, one, seconds, _TAKEN)
+                table.row(2, other, seconds, wrong if share > 1 and fault else _TAKEN)
+                if share < 1:
+                    table.row(3, one, seconds, _TAKEN)
+        table.ask()
+    missing = len(here)
+    for axis in range(missing, spec.MAX_JOINTS):
+        zeros = (*here, *[0.0] * (axis - missing))
+        for value in (0.5, 1e-45, math.nan):
+            wrong = messages.Refused(Reason.BAD_PADDING, 1, axis + 1)
+            table.row(_BEGIN, here, _SLOW, _TAKEN)
+            table.row(1, (*zeros, value), _SLOW, wrong)
+        table.row(_BEGIN, (*zeros, -0.0), _SLOW, _TAKEN)
+    # The first fault counts.
+    first, last = bench.group.joints[0], bench.group.joints[-1]
+    both = (first.upper + 1, *here[1:-1], last.upper + 1)
+    table.row(_BEGIN, both, _SLOW, messages.Refused(Reason.JOINT_LIMIT, 0, 1))
+    table.row(_BEGIN, both, math.nan, messages.Refused(Reason.NOT_FINITE, 0, 0))
+    table.row(_BEGIN, here, _SLOW, _TAKEN)
+    table.ask()
+    bench.stays(0.1, "no trajectory was sent whole")
+
+
+def _each_duration(bench: Bench) -> None:
+    """Of the first point, of one in between, and of the last one."""
+    table, here = Table(bench), bench.position
+    policy = bench.config.trajectory
+    wrong: tuple[tuple[float, Reason], ...] = (
+        (-1e-3, Reason.BAD_DURATION),
+        (_LONGEST + 0.5, Reason.BAD_DURATION),
+        (1e9, Reason.BAD_DURATION),
+        (-1e9, Reason.BAD_DURATION),
+        (math.nan, Reason.NOT_FINITE),
+        (math.inf, Reason.NOT_FINITE),
+        (-math.inf, Reason.NOT_FINITE),
+        (2e9, Reason.NOT_FINITE),
+    )
+    for seconds, reason in wrong:
+        table.row(_BEGIN, here, seconds, messages.Refused(reason, 0, 0))
+        table.row(_BEGIN, here, 0.0, _TAKEN)
+        table.row(1, here, seconds, messages.Refused(reason, 1, 0))
+    for seconds in (0.0, -0.0, 1e-3, 0.9, 1.0, _LONGEST):
+        table.row(_BEGIN, here, seconds, _TAKEN)
+    for seconds in (0.0, -0.0):
+        table.row(1, here, 1.0, _TAKEN)
+        table.row(2, here, seconds, messages.Refused(Reason.BAD_DURATION, 2, 0))
+        table.row(_BEGIN, here, 1.0, _TAKEN)
+    for number, seconds in enumerate((_LONGEST, 1.0, max(0.9, policy.min_segment)), 1):
+        table.row(number, here, seconds, _TAKEN)
+    table.row(4, here, policy.min_segment, _TAKEN)
+    shorter = 0.999 * policy.min_segment
+    if policy.min_segment > 0.005:
+        short = messages.Refused(Reason.SEGMENT_TOO_SHORT, 5, 0)
+        table.row(5, here, shorter, short if policy.too_fast == "refuse" else _TAKEN)
+        # The last one has no successor that would have to be planned in time.
+        table.row(_BEGIN, here, shorter, _TAKEN)
+        table.row(1, here, 1.0, _TAKEN)
+        table.accepted(here, shorter / 2)
+    table.ask()
+    table.stop()
+    bench.stays(0.2, "it was asked to stay where it is")
+
+
+CASES = (
+    Case("each-value", "each value of a point at its bounds and beyond", "taking", _each_value,
+         "R10, R11"),
+    Case("each-duration", "durations at their bounds and beyond", "taking", _each_duration, "R10"),
+)  # fmt: skip
