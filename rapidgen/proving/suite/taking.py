@@ -4,6 +4,7 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.config.model import Joint
+from rapidgen.generate.layout import suffix
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
@@ -33,9 +34,8 @@ class Table:
     def row(
         self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.Content
     ) -> None:
-        """One more point. A trajectory begins with -1, and with a point that has no start."""
-        without = wanted == messages.Refused(Reason.NO_START, 0, 0)
-        if sequence == _BEGIN or without:
+        """One more point. A trajectory begins with -1."""
+        if sequence == _BEGIN:
             self.number += 1
         frame = raw_point(sequence, joints, seconds, spec.Comm.REQUEST)
         shown = ", ".join(f"{value:.9g}" for value in joints)
@@ -192,8 +192,111 @@ def _each_duration(bench: Bench) -> None:
     bench.stays(0.2, "it was asked to stay where it is")
 
 
+def _each_number(bench: Bench) -> None:
+    """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
+    table, here = Table(bench), bench.position
+
+    def row(sequence: int, wanted: messages.Content, joints: Position = here) -> None:
+        table.row(sequence, joints, _SLOW, wanted)
+
+    alone = messages.Refused(Reason.NO_START, 0, 0)
+    far = changed(here, 0, bench.group.joints[0].upper + 1)
+    beyond = messages.Refused(Reason.JOINT_LIMIT, 0, 1)
+
+    def without_a_start(sequence: int) -> None:
+        table.number += 1
+        row(sequence, alone)
+
+    without_a_start(5)
+    for sequence in (6, 0, _END):
+        row(sequence, alone)
+    # Behind the end of what was refused nothing is skipped any more.
+    without_a_start(_END)
+    without_a_start(1)
+    for taken in (1, 2, 3):
+        gap = messages.Refused(Reason.SEQUENCE_GAP, taken, 0)
+        for wrong in (taken - 1, taken + 1, -2, -5):
+            row(_BEGIN, _TAKEN)
+            for sequence in range(1, taken):
+                row(sequence, _TAKEN)
+            for sequence in (wrong, taken, _END):
+                row(sequence, gap)
+    without_a_start(1)
+    row(_BEGIN, _TAKEN)
+    row(_END, messages.Refused(Reason.JOINT_LIMIT, 1, 1), far)
+    without_a_start(2)
+    row(_BEGIN, beyond, far)
+    row(_END, beyond)
+    without_a_start(1)
+    # A new beginning counts whatever was before it.
+    row(_BEGIN, beyond, far)
+    row(_BEGIN, _TAKEN)
+    row(_BEGIN, _TAKEN)
+    row(1, _TAKEN)
+    table.ask()
+    table.shows(TrajectoryState.RECEIVING, 2, _NOTHING)
+    table.stop()
+    table.shows(TrajectoryState.STOPPED, 2, messages.Refused(Reason.STOPPED, -1, 0))
+    without_a_start(2)
+    row(_BEGIN, beyond, far)
+    table.ask()
+    table.shows(TrajectoryState.REFUSED, 0, beyond)
+    table.stop()
+    without_a_start(1)
+    row(_BEGIN, _TAKEN)
+    row(1, messages.Refused(Reason.JOINT_LIMIT, 1, 1), far)
+    table.ask()
+    table.shows(TrajectoryState.REFUSED, 1, messages.Refused(Reason.JOINT_LIMIT, 1, 1))
+    row(_BEGIN, _TAKEN)
+    table.ask()
+    table.shows(TrajectoryState.RECEIVING, 1, _NOTHING)
+    _full(bench, table)
+    _of_other_builds(bench, table)
+    for sequence in (_BEGIN, 1):
+        row(sequence, _TAKEN)
+    table.accepted(here, _SLOW)
+    table.ask()
+    table.stop()
+    bench.stays(0.2, "it was asked to stay where it is")
+
+
+def _full(bench: Bench, table: Table) -> None:
+    """The last point that there is room for, and the first that there is none for."""
+    here, capacity = bench.position, bench.config.trajectory.capacity
+    for last in (capacity, _END):
+        table.row(_BEGIN, here, _SLOW, _TAKEN)
+        table.ask()
+        # As if all the others had come: a thousand points that are like each other say nothing.
+        bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_count"] = (
+            capacity - 1
+        )
+        full = messages.Refused(Reason.CAPACITY, capacity, 0)
+        table.row(capacity - 1, here, _SLOW, _TAKEN)
+        table.row(last, here, _SLOW, full)
+        if last == _END:
+            table.number += 1
+            full = messages.Refused(Reason.NO_START, 0, 0)
+        table.row(1, here, _SLOW, full)
+        table.ask()
+
+
+def _of_other_builds(bench: Bench, table: Table) -> None:
+    """While any task shows another build each beginning is refused, whatever is wrong with it."""
+    task = bench.controller.task(bench.task("ROS_motionServer"))
+    name = f"ROS_common:ROS_shown_state{suffix(bench.config, bench.group)}"
+    mixed = messages.Refused(Reason.BUILD_MISMATCH, -1, 0)
+    own, task[name] = task[name], "000000000000"
+    for sequence in (_BEGIN, 1, 1, _END, _BEGIN):
+        table.row(sequence, bench.position, math.nan, mixed)
+    table.ask()
+    table.shows(TrajectoryState.REFUSED, 0, mixed)
+    task[name] = own
+
+
 CASES = (
     Case("each-value", "each value of a point at its bounds and beyond", "taking", _each_value,
          "R10, R11"),
     Case("each-duration", "durations at their bounds and beyond", "taking", _each_duration, "R10"),
+    Case("each-number", "numbers of points, STOP among them, and what is skipped", "taking",
+         _each_number, "C4"),
 )  # fmt: skip
