@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rapidgen.config.model import Joint, MotionGroup
+from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol import decode, messages
 from rapidgen.protocol.spec import Reason, TriState
-from rapidgen.proving.bench import HELLO, Bench, Setting, distance
+from rapidgen.proving.bench import Bench, distance
 from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
@@ -89,113 +89,6 @@ def _joints_of_a_stream(bench: Bench) -> None:
     bench.run(2.5)
     if not bench.standing or distance(bench.position, here) > 1e-4:
         raise Broken("the way to the first point of a stream took as long as its duration says")
-
-
-def _told_limits(bench: Bench) -> messages.HelloReply:
-    told = bench.state().ask(HELLO)
-    if not isinstance(told, messages.HelloReply):
-        raise Broken(f"HELLO is answered by {told}")
-    return told
-
-
-def _changed(bench: Bench, change: dict[int, Joint]) -> tuple[MotionGroup, ...]:
-    """The configuration's groups, some joints of the one that is driven being different."""
-    joints = tuple(change.get(n, joint) for n, joint in enumerate(bench.group.joints))
-    return tuple(
-        replace(g, joints=joints) if g.name == bench.group.name else g for g in bench.config.groups
-    )
-
-
-def _wider_limits(bench: Bench) -> None:
-    """Where a controller lets its axes go farther, or does not tell, the configuration counts."""
-    joints = bench.group.joints
-    wider = {n: replace(j, lower=j.lower - 0.3, upper=j.upper + 0.3) for n, j in enumerate(joints)}
-    silent = replace(bench.setting.dialect, axis_limits_told=False)
-    for setting in (bench.setting, replace(bench.setting, dialect=silent)):
-        other = bench.beside(bench.system, _changed(bench, wider), setting)
-        try:
-            told = _told_limits(other)
-            for axis, joint in enumerate(joints):
-                off = abs(told.lower[axis] - joint.lower) + abs(told.upper[axis] - joint.upper)
-                if off > 1e-5:
-                    raise Broken(f"joint {axis + 1} may go farther, HELLO says {told}")
-            blame = _Blame(other)
-            blame.limits()
-            blame.close()
-            _says_wider(other, setting)
-        finally:
-            other.close()
-
-
-def _says_wider(bench: Bench, setting: Setting) -> None:
-    for axis in range(len(bench.group.joints)):
-        said = [e for e in bench.controller.log if f"limits of joint {axis + 1} are" in str(e)]
-        wanted = 1 if setting.dialect.axis_limits_told else 0
-        if len(said) != wanted or any("are wider" not in str(e) for e in said):
-            raise Broken(f"joint {axis + 1} may go farther, the event log says {said}")
-
-
-def _limits_by_little(bench: Bench) -> None:
-    """Limits that differ in their last digits are the same; half a degree is a difference."""
-    if not bench.setting.dialect.axis_limits_told:
-        return
-    for lower, upper, said in (
-        (0.0004, -0.0004, ""),
-        (-0.0004, 0.0004, ""),
-        (0.0, -0.01, "are narrower"),
-        (0.01, 0.0, "are narrower"),
-        (0.0, 0.01, "are wider"),
-        (-0.01, 0.0, "are wider"),
-    ):
-        joints = bench.group.joints
-        others = [replace(j, lower=j.lower + lower, upper=j.upper + upper) for j in joints]
-        beside = bench.beside(bench.system, _changed(bench, dict(enumerate(others))))
-        try:
-            told = _told_limits(beside)
-            valid = [
-                replace(j, lower=max(j.lower, o.lower), upper=min(j.upper, o.upper))
-                for j, o in zip(joints, others, strict=True)
-            ]
-            for n, joint in enumerate(valid):
-                if abs(told.lower[n] - joint.lower) + abs(told.upper[n] - joint.upper) > 1e-5:
-                    raise Broken(f"joint {n + 1} may go to {joint.upper}, HELLO says {told}")
-                found = [
-                    str(e) for e in beside.controller.log if f"limits of joint {n + 1} " in str(e)
-                ]
-                if len(found) != bool(said) or any(said not in text for text in found):
-                    raise Broken(f"limits {lower} and {upper} off, the event log says {found}")
-            blame = _Blame(beside)
-            blame.limits(valid, _BEYOND / 2)
-            blame.close()
-        finally:
-            beside.close()
-
-
-def _limits_without_sense(bench: Bench) -> None:
-    """Nothing is left of a joint's range: nobody knows what is right, so all is refused."""
-    if not bench.setting.dialect.axis_limits_told:
-        return
-    joint = bench.group.joints[0]
-    for lower, upper in (
-        (joint.upper + 0.1, joint.upper + 0.2),
-        (joint.lower - 0.2, joint.lower - 0.1),
-    ):
-        odd = replace(joint, lower=lower, upper=upper)
-        other = bench.beside(bench.system, _changed(bench, {0: odd}))
-        try:
-            told = _told_limits(other)
-            if told.lower[0] <= told.upper[0]:
-                raise Broken(f"nothing is left of the range of joint 1, HELLO says {told}")
-            here = bench.position
-            for value in (here[0], joint.lower, joint.upper, lower, upper):
-                points = [(_with(here, 0, value), 1.0), (_with(here, 0, value), 30.0)]
-                _Blame(other)(points, Reason.JOINT_LIMIT, 0, 0)
-                other.run(1.5)
-            said = [e for e in other.controller.log if "joint 1 make no sense" in str(e)]
-            if len(said) != 1:
-                raise Broken(f"nothing is left of joint 1, the event log says so {len(said)} times")
-        finally:
-            other.close()
 
 
 def _moved_by_others(bench: Bench) -> None:
@@ -304,12 +197,6 @@ def _shown(
 CASES = (
     Case("stream-joints", "limits, speed and start of each joint of a stream", "joints",
          _joints_of_a_stream, "R10, R11"),
-    Case("wider-limits", "a controller that lets axes go farther, or does not tell", "joints",
-         _wider_limits, "R11"),
-    Case("limits-by-little", "limits that differ by digits, and by half a degree", "joints",
-         _limits_by_little),
-    Case("limits-without-sense", "a joint of which no range is left", "joints",
-         _limits_without_sense),
     Case("moved-by-others", "movements that no signal shows", "joints", _moved_by_others, "R16"),
     Case("away-from-zero", "short ways where no joint is near zero", "joints", _away_from_zero),
     Case("controller-error", "an error of the controller is in STATUS", "joints",
