@@ -12,9 +12,11 @@ from rapidgen.proving.suite import (
     failing,
     faults,
     framing,
+    handing,
     joints,
     limits,
     links,
+    moving,
     paired,
     refusals,
     stopping,
@@ -31,6 +33,7 @@ _ALL: tuple[Case, ...] = (
     *edges.CASES,
     *framing.CASES,
     *taking.CASES,
+    *handing.CASES,
     *joints.CASES,
     *limits.CASES,
     *stopping.CASES,
@@ -43,6 +46,7 @@ _ALL: tuple[Case, ...] = (
     *controller.CASES,
     *failing.CASES,
     *faults.CASES,
+    *moving.CASES,
 )
 
 # They boot many controllers, or let hours pass.

@@ -8,7 +8,7 @@ from rapidgen.generate.layout import suffix
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Position, raw_point
+from rapidgen.proving.link import STOP, Link, Position, raw_point
 from rapidgen.proving.model import Broken, Case
 
 _BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
@@ -54,10 +54,11 @@ class Table:
                 raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
         self._rows.clear()
 
-    def stop(self) -> None:
-        """STOP, and its reply."""
-        self.link.send(STOP)
-        told = decode(self.link.expect_reply(2, "STOP is answered"))
+    def stop(self, link: Link | None = None) -> None:
+        """STOP, here or over another connection, and its reply."""
+        chosen = link if link is not None else self.link
+        chosen.send(STOP)
+        told = chosen.reply(spec.JOINT_TRAJ_PT.number)
         if not isinstance(told, messages.Acknowledged):
             raise Broken(f"STOP is answered by {told}")
 
