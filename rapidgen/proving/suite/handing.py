@@ -5,7 +5,7 @@ from itertools import pairwise
 from rapidgen.protocol import messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import SETTLED, Bench, distance
-from rapidgen.proving.link import Point, Position
+from rapidgen.proving.link import Point, Position, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.taking import Table, changed
 
@@ -216,10 +216,72 @@ def _while_moving(bench: Bench, table: Table) -> None:
     bench.followed([here, away, here], since=since - 0.6 * seconds)
 
 
+def _long(bench: Bench, count: int) -> list[Point]:
+    """`count` points in little time; more of them than the ring takes at once."""
+    seconds = max(0.1, 1.02 * bench.config.trajectory.min_segment)
+    return [(p, seconds) for p, _ in bench.wave(count, duration=seconds, size=0.02)]
+
+
+def _fed(bench: Bench) -> None:
+    """More points than the ring takes are all executed, in time, and the server goes on reading."""
+    table, points, since = Table(bench), _long(bench, bench.config.trajectory.ring + 25), bench.now
+    table.number += 1
+    table.link.send(bench.download(points))
+    bench.wait_until_moving(1)
+    for silence in (0.1, 0.1, 1.25):
+        bench.run(silence)
+        if not isinstance(table.link.ask(messages.Ping(), 0.05), messages.Acknowledged):
+            raise Broken("PING is not confirmed while a trajectory is fed")
+    asked = sum(d for _, d in points[1:])
+    bench.wait_until_at(points[-1][0], asked + 5)
+    # How closely axes follow dense points depends on their accelerations.
+    if bench.now - since > 1.4 * asked + 1:
+        raise Broken(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
+    _done(bench, table, len(points), 0.1)
+    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+
+
+def _ends_while_fed(bench: Bench) -> None:
+    """Nothing of what had not found room yet is ever executed."""
+    table, points = Table(bench), _long(bench, bench.config.trajectory.ring + 60)
+    link, data = table.link, bench.download(points)
+    for action in ("STOP", "stop", "another"):
+        if action == "stop" and bench.config.commissioning:
+            continue
+        since, start = bench.now, bench.position
+        # From wherever it stood to where the way begins.
+        table.number += 2
+        link.send(point_frame(0, 2, points[0][0], 0.2) + point_frame(1, 2, points[0][0], 0.2))
+        bench.wait_until_at(points[0][0], 5)
+        link.send(data)
+        bench.wait_until_moving(2)
+        bench.run(0.7)
+        if action == "STOP":
+            table.stop()
+        elif action == "another":
+            break
+        else:
+            bench.controller.perform(action)
+        bench.wait_until_standing(3)
+        bench.followed([start, *(p for p, _ in points)], since=since)
+        bench.controller.perform("start")
+        bench.stays(1, f"a long trajectory was ended by {action}")
+    goal = points[0][0]
+    for sequence, wanted in ((_BEGIN, _TAKEN), (_END, messages.Accepted(table.number + 1))):
+        table.row(sequence, goal, 0.3, wanted)
+    table.ask()
+    bench.wait_until_at(goal, 5)
+    _done(bench, table, 2, 0.1)
+    bench.stays(0.3, "the one before was superseded")
+
+
 CASES = (
     Case("one-place", "one point, sent twice, in its time", "taking", _one_place, "R8"),
     Case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "taking",
          _start, "R8, R10"),
     Case("not-now", "an end frame while no motion is possible, or another one moves", "taking",
          _not_now, "R7a"),
+    Case("fed", "more points than the ring takes", "taking", _fed, "R1"),
+    Case("ends-while-fed", "the end of a trajectory that is still fed", "taking",
+         _ends_while_fed, "R5"),
 )  # fmt: skip

@@ -1,10 +1,13 @@
 """Connections that come, go, hang and take each other's place."""
 
-from rapidgen.protocol import decode, messages, spec
+from functools import partial
+
+from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason
-from rapidgen.proving.bench import Bench, distance
-from rapidgen.proving.link import raw_point
+from rapidgen.proving.bench import SETTLED, Bench, distance
+from rapidgen.proving.link import Link, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.stream import BEGIN, END, Streamer
 
 
 def _leaves_in_a_download(bench: Bench) -> None:
@@ -94,6 +97,89 @@ def _many_come_and_go(bench: Bench) -> None:
     _moves(bench)
 
 
+def _pings(bench: Bench, link: Link, seconds: float = 0.1, *, slowly: bool = False) -> None:
+    """PING and its reply; `slowly`: in single bytes."""
+    data = encode(messages.Ping(), spec.Comm.REQUEST)
+    for byte in data[:-1] if slowly else b"":
+        link.send(bytes([byte]))
+        bench.run(0.012)
+    link.send(data[-1:] if slowly else data)
+    if not isinstance(link.reply(spec.PING.number, seconds), messages.Acknowledged):
+        raise Broken("PING is not confirmed")
+
+
+def _patience(bench: Bench) -> None:
+    """A newer client waits until the one before has been silent for a second, whatever moves."""
+    policy = bench.config.trajectory
+    seconds = max(0.1, 1.02 * policy.min_segment)
+    place = bench.position
+    long = bench.wave(policy.ring + 60, duration=seconds, size=0.02)
+    few = bench.wave(20)
+    old = bench.motion()
+    # At rest, with a stream, while a trajectory is fed, while one moves that was fed, at rest.
+    for points in ([], few[:4], long, few, []):
+        stream = Streamer(bench, old)
+        _pings(bench, old)
+        if points == few[:4]:
+            stream.put(points, BEGIN)
+        elif points:
+            old.send(bench.download(points))
+            bench.wait_until_moving(2)
+        new = bench.motion()
+        for slowly in (True, False, False):
+            bench.run(0.7)
+            _pings(bench, old, slowly=slowly)
+        if points == few[:4]:
+            # Its batches may come far apart, until it has ended.
+            bench.run(3)
+            stream.put((), END)
+            bench.run(0.8)
+            _pings(bench, old)
+        last = bench.now
+        bench.until(partial(_is_lost, old), 3, "a silent client gives way")
+        if not 0.9 < bench.now - last < 1.4:
+            raise Broken(f"a client gave way after {bench.now - last:.2f} s of silence")
+        bench.wait_until_standing(3)
+        if len(points) > 4 and distance(bench.position, points[-1][0]) < SETTLED:
+            raise Broken("the robot went on for a client that gave way")
+        _pings(bench, new, 0.3)
+        bench.stays(0.3, "the client before gave way")
+        new.send(point_frame(0, 2, place, 0.3) + point_frame(1, 2, place, 0.3))
+        bench.wait_until_at(place, 5)
+        bench.run(0.2)
+        old = new
+
+
+def _is_lost(link: Link) -> bool:
+    return link.lost
+
+
+def _server_breaks(bench: Bench) -> None:
+    """A server socket that breaks is opened again."""
+    network, ports = bench.controller.network, bench.group.ports
+    bench.run(1)
+    for module, port in (
+        ("ROS_motionServer", ports.motion),
+        ("ROS_control", ports.control),
+        ("ROS_stateServer", ports.state),
+    ):
+        if not port:
+            continue
+        for _ in range(2):
+            server = bench.controller.task(bench.task(module))[f"{module}:server"]
+            network.close(server.endpoint)
+            bench.run(1.2)
+            link = bench.state() if port == ports.state else bench.motion()
+            if port == ports.state:
+                bench.status(link)
+            elif port == ports.motion:
+                _pings(bench, link, 0.3)
+            else:
+                _pings(bench, bench.control(), 0.3)
+            link.close()
+            bench.run(0.2)
+
+
 CASES = (
     Case("leaves-in-download", "a client that leaves in its download moves nothing", "links",
          _leaves_in_a_download),
@@ -105,4 +191,6 @@ CASES = (
     Case("state-comes-back", "a state client that comes back is served", "links",
          _state_client_comes_back, "R13"),
     Case("come-and-go", "many short connections", "links", _many_come_and_go),
+    Case("patience", "a newer client waits for a second of silence", "links", _patience, "R12"),
+    Case("server-breaks", "a server socket that breaks is opened again", "links", _server_breaks),
 )  # fmt: skip
