@@ -8,9 +8,10 @@ fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `-
 mutant is judged by the cases of `rapidgen test` that execute its statement, until one notices it
 or `--budget` s of CPU are spent: what no case has noticed by then counts as a survivor.
 
-Verdicts go to FILE (JSON lines) as they come; a run that was broken off goes on there. Survivors
-are listed: each is a missing case, or the same program in other words. `--again` judges the
-survivors of FILE once more, for cases that have been added since.
+Verdicts go to FILE (JSON lines) as they come; a run that was broken off goes on there, as long as
+nothing but the modules' build id has changed. Survivors are listed: each is a missing case, or the
+same program in other words. `--again` goes on with the survivors of FILE, with cases that were
+not tried or did not exist.
 """
 
 import argparse
@@ -34,35 +35,45 @@ from rapidgen.proving.suite import CASES
 
 
 def key_of(mutant):
-    """The same for the same mutant of the same modules."""
-    content = b"\0".join((SYSTEM.build_id.encode(), mutant.path.encode(), mutant.text))
-    return hashlib.sha256(content).hexdigest()[:20]
+    """The same for the same mutant of the same modules, whatever their build id."""
+    texts = [text for path, text in sorted(FILES.items()) if path != mutant.path]
+    content = b"\0".join((mutant.path.encode(), mutant.text, *texts))
+    return hashlib.sha256(content.replace(SYSTEM.build_id.encode(), b"")).hexdigest()[:20]
 
 
-def judged(number):
+def judged(number, already):
     mutant = FOUND[number]
-    return number, JUDGE.judge(mutant, ARGUMENTS.budget)
+    return number, JUDGE.judge(mutant, ARGUMENTS.budget, already)
 
 
 def known():
-    """Verdicts of an earlier run, by key."""
+    """Verdicts of earlier runs, by key; `tried` and `seconds` are of all of them."""
     if ARGUMENTS.output is None or not ARGUMENTS.output.exists():
         return {}
-    rows = [json.loads(r) for r in ARGUMENTS.output.read_text(encoding="utf-8").splitlines()]
-    for row in rows:
+    found = {}
+    for line in ARGUMENTS.output.read_text(encoding="utf-8").splitlines():
+        row = json.loads(line)
         JUDGE.learn(row["path"], row["line"], row["by"])
-    return {r["key"]: r for r in rows if r["by"] or not ARGUMENTS.again}
+        found[row["key"]] = row
+    return found
 
 
 def main():
     verdicts = known()
     keys = {number: key_of(mutant) for number, mutant in enumerate(FOUND)}
     chosen = list(range(ARGUMENTS.offset, len(FOUND), ARGUMENTS.every))
-    left = [number for number in chosen if keys[number] not in verdicts]
+    none = {"by": "", "tried": [], "seconds": 0}
+    before = {number: verdicts.get(keys[number], none) for number in chosen}
+    left = [
+        number
+        for number in chosen
+        if keys[number] not in verdicts or (ARGUMENTS.again and not before[number]["by"])
+    ]
     print(f"{len(chosen)} of {len(FOUND)} mutants, {len(left)} to be judged", flush=True)
     started = time.monotonic()
     with ProcessPoolExecutor(ARGUMENTS.jobs, mp_context=get_context("fork")) as pool:
-        for done in as_completed([pool.submit(judged, number) for number in left]):
+        jobs = [pool.submit(judged, number, before[number]["tried"]) for number in left]
+        for done in as_completed(jobs):
             number, verdict = done.result()
             mutant = FOUND[number]
             row = {
@@ -71,8 +82,8 @@ def main():
                 "line": mutant.line,
                 "change": " ".join(mutant.change.split()),
                 "by": verdict.by,
-                "seconds": round(verdict.seconds, 3),
-                "tried": verdict.tried,
+                "seconds": round(before[number]["seconds"] + verdict.seconds, 3),
+                "tried": [*before[number]["tried"], *verdict.tried],
                 "left": verdict.left,
             }
             verdicts[row["key"]] = row

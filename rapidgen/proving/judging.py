@@ -8,7 +8,7 @@ import math
 import os
 import signal
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from types import FrameType
@@ -45,12 +45,12 @@ class _Hung(Exception):
 class Verdict:
     """What became of a mutant: `by` names the case that noticed it, empty: none did.
 
-    `left`: cases that execute it and were not tried any more.
+    `tried`: the cases that were; `left`: how many more execute it and were not.
     """
 
     by: str
     seconds: float
-    tried: int
+    tried: tuple[str, ...]
     left: int = 0
 
 
@@ -104,10 +104,15 @@ class Judge:
         names.sort(key=lambda n: -worth[n] / self._usual[n])
         return [self._cases[name] for name in names]
 
-    def judge(self, mutant: Mutant, budget: float = math.inf) -> Verdict:
-        """Try one case after another until one notices it, or `budget` s of CPU are spent."""
+    def judge(
+        self, mutant: Mutant, budget: float = math.inf, already: Collection[str] = ()
+    ) -> Verdict:
+        """Try one case after another until one notices it, or `budget` s of CPU are spent.
+
+        `already`: cases that have been tried, and did not notice it.
+        """
         started = _spent()
-        by, tried, left = in_a_fork(partial(self._try, mutant, budget))
+        by, tried, left = in_a_fork(partial(self._try, mutant, budget, already))
         self.learn(mutant.path, mutant.line, by)
         return Verdict(by, _spent() - started, tried, left)
 
@@ -115,24 +120,28 @@ class Judge:
         """Give the controller back."""
         self._bench.close()
 
-    def _try(self, mutant: Mutant, budget: float) -> tuple[str, int, int]:
-        """Who notices the mutant, how many were tried, and how many were left out."""
+    def _try(
+        self, mutant: Mutant, budget: float, already: Collection[str]
+    ) -> tuple[str, tuple[str, ...], int]:
+        """Who notices the mutant, who was tried, and how many were left out."""
         started = _spent()
         try:
             self._bench.exchange(mutant.path, mutant.text)
         except DiagnosticError:
-            return "(not loaded)", 0, 0
-        concerned = self.concerned(mutant)
-        for tried, case in enumerate(concerned):
+            return "(not loaded)", (), 0
+        concerned = [case for case in self.concerned(mutant) if case.name not in already]
+        tried: tuple[str, ...] = ()
+        for case in concerned:
             if _spent() - started >= budget:
-                return "", tried, len(concerned) - tried
+                return "", tried, len(concerned) - len(tried)
+            tried = (*tried, case.name)
             try:
                 by = in_a_fork(partial(self._noticed_by, case))
             except STUMBLES:
                 by = case.name + FAILS
             if by:
-                return by, tried + 1, 0
-        return "", len(concerned), 0
+                return by, tried, 0
+        return "", tried, 0
 
     def _noticed_by(self, case: Case) -> str:
         least, times = PATIENCE

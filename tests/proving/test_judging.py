@@ -44,7 +44,7 @@ def test_a_mutant_is_noticed_by_a_case_that_reaches_it(judge):
     assert [case.name for case in judge.concerned(mutant)] == ["whole-trajectory"]
     verdict = judge.judge(mutant)
     assert verdict.by == "whole-trajectory"
-    assert verdict.tried == 1
+    assert len(verdict.tried) == 1
 
 
 def test_a_mutant_that_no_case_reaches_survives(judge):
@@ -94,3 +94,12 @@ def test_what_was_not_tried_for_want_of_time_is_counted(judge):
     mutant = changed("ROS_socket", b"part_bytes := 0;\n        RETURN", b"RETURN")
     every = replace(mutant, statement=0)
     assert judge.judge(every, budget=0).left == len(FEW)
+
+
+def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
+    mutant = changed("ROS_socket", b"IF part_bytes > 0 RETURN", b"IF part_bytes >= 0 RETURN")
+    every = replace(mutant, statement=0)
+    names = tuple(case.name for case in judge.concerned(every))
+    verdict = judge.judge(every, budget=0, already=names[:1])
+    assert verdict.left == len(FEW) - 1
+    assert judge.judge(every, already=names).tried == ()
