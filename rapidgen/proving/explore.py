@@ -24,6 +24,8 @@ from rapidgen.proving.bench import FAILURES, Bench, Setting, distance, off
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
+from rapidgen.rapid import parse
+from rapidgen.rapid.nodes import DataDeclaration
 from rapidgen.system.model import System
 from rapidgen.virtual.faults import Direction, FaultPlan, NetworkRule
 from rapidgen.virtual.tracing import Trace
@@ -58,18 +60,18 @@ def explore(
     """
     chance = random.Random(f"{seed} walk")
     # Half of the histories have stops at statements, which needs code that reports them.
-    statements = _statements(config, system) if seed % 4 < 2 else ()
+    places = _places(config, system) if seed % 4 < 2 else ()
     setting = Setting(
         seed=seed,
         random_schedule=True,
         switch_at_pers=seed % 2 == 0,
-        coverage=trace is not None or bool(statements),
+        coverage=trace is not None or bool(places),
         faults=FaultPlan(network=_weather(config, chance)),
     )
     bench = Bench(config, system, setting)
     if trace is not None:
         Trace(bench.controller, trace)
-    walk = _Walk(bench, chance, only or tuple(STEPS), silence, statements, trace)
+    walk = _Walk(bench, chance, only or tuple(STEPS), silence, places, trace)
     finding = None
     try:
         walk.go()
@@ -97,9 +99,19 @@ def _weather(config: RobotConfig, chance: random.Random) -> tuple[NetworkRule, .
     return (NetworkRule("split", port, direction, bytes=size, seconds=size * 2e-6),)
 
 
+@dataclass(frozen=True, slots=True)
+class _Place:
+    """A line that a driver executes; `shared`: it names a persistent of several tasks."""
+
+    task: str
+    module: str
+    line: int
+    shared: bool
+
+
 @lru_cache(maxsize=4)
-def _statements(config: RobotConfig, system: System) -> tuple[tuple[str, str, int], ...]:
-    """Task, module and line of what a driver executes while it works and is stopped."""
+def _places(config: RobotConfig, system: System) -> tuple[_Place, ...]:
+    """What a driver executes while it works and is stopped."""
     bench = Bench(config, system, Setting(coverage=True))
     try:
         bench.run(0.5)
@@ -112,13 +124,34 @@ def _statements(config: RobotConfig, system: System) -> tuple[tuple[str, str, in
         reached = bench.lines()
     finally:
         bench.close()
+    shared = _shared_lines(system)
     return tuple(
-        (task.name, module.name, line)
+        _Place(task.name, module.name, line, (module.path, line) in shared)
         for task in system.tasks
         for module in task.modules
         for line, hits in sorted(reached.get(module.path, {}).items())
         if hits
     )
+
+
+def _shared_lines(system: System) -> set[tuple[str, int]]:
+    """Where tasks meet: path and line of each mention of a persistent that they may share."""
+    texts = {module.path: module.data for task in system.tasks for module in task.modules}
+    trees = {path: parse(data, path=path) for path, data in texts.items()}
+    names = {
+        declaration.name.casefold()
+        for tree in trees.values()
+        for declaration in tree.declarations
+        if isinstance(declaration, DataDeclaration)
+        and declaration.kind == "PERS"
+        and not declaration.scope
+    }
+    return {
+        (path, tree.source.line(number))
+        for path, tree in trees.items()
+        for number, token in enumerate(tree.source.tokens)
+        if token.casefold() in names
+    }
 
 
 class _Walk:
@@ -130,14 +163,14 @@ class _Walk:
         chance: random.Random,
         steps: Sequence[str],
         silence: float,
-        statements: Sequence[tuple[str, str, int]],
+        places: Sequence[_Place],
         trace: TextIO | None,
     ) -> None:
         self.bench = bench
         self.chance = chance
         self.steps = steps
         self.silence = silence
-        self.statements = statements
+        self.places = places
         self.trace = trace
         self.plan: list[str] = []
         self.streams = 0
@@ -190,7 +223,7 @@ class _Walk:
 
         `behind`: not before all of `data` was sent.
         """
-        if not self.statements or self.chance.random() < 0.4:
+        if not self.places or self.chance.random() < 0.4:
             wait = self.chance.choice(
                 (0.0, self.chance.uniform(0, 0.15), self.chance.uniform(0, 2))
             )
@@ -219,19 +252,22 @@ class _Walk:
 
     def _at_a_statement(self, act: Callable[[], None], what: str) -> None:
         """Do something before some statement of the driver, which then may take its time."""
-        moving = [s for s in self.statements if s[0] == self.bench.group.task]
-        task, module, line = self.chance.choice(self.chance.choice((moving, self.statements)))
+        moving = [place for place in self.places if place.task == self.bench.group.task]
+        # Races are where tasks meet.
+        meeting = [place for place in moving if place.shared] or moving
+        place = self.chance.choice(self.chance.choice((meeting, meeting, moving, self.places)))
         count = self.chance.choice((1, 1, 1, 2, 3, 8))
         busy = self.chance.choice((0, 0, 5, 40))
-        self._say(f"... and {what} at {module}:{line} in {task}, pass {count}, {busy} ms there")
+        where = f"{place.module}:{place.line} in {place.task}"
+        self._say(f"... and {what} at {where}, pass {count}, {busy} ms there")
 
         def reached() -> None:
             act()
             for _ in range(busy):
                 # The task gets on slowly while the others go on.
-                self.bench.controller.rapid_tasks[task].charge(1_000_000)
+                self.bench.controller.rapid_tasks[place.task].charge(1_000_000)
 
-        self.bench.controller.before_statement(task, module, line, count, reached)
+        self.bench.controller.before_statement(place.task, place.module, place.line, count, reached)
 
     def _on_the_way(self, path: Sequence[Position], since: float) -> None:
         self.bench.followed(path, since=since, corner=CORNER)
@@ -243,7 +279,7 @@ class _Walk:
         link = self._connect()
         points = self._points(self.chance.randrange(3, 15))
         self._say(f"send {len(points)} points")
-        if self.statements and self.chance.random() < 0.7:
+        if self.places and self.chance.random() < 0.7:
             self._at_a_statement(lambda: None, "a pause")
         self._executed_or_refused(link, points)
 
