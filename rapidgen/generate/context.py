@@ -77,6 +77,7 @@ def group_context(
         "min_segment": config.trajectory.min_segment,
         "approach": config.trajectory.approach_speed,
         "slow_down": config.trajectory.too_fast == "slow_down",
+        "commissioning": config.commissioning,
         "state_period": config.state_period,
         "tcp_speed": group.tcp_speed_limit * _MM,
         "tcp_check": group.tcp_speed_limit < _DEFAULT_TCP_SPEED,

@@ -158,10 +158,24 @@ def make_system(config: RobotConfig, build_id: str) -> System:
                 ("STOP", "ROS_on_stop"),
                 ("QSTOP", "ROS_on_stop"),
             )
-        ),
+        )
+        + _restarts(config),
         groups=_unit_groups(config),
         robotware=config.robotware,
         build_id=build_id,
+    )
+
+
+def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
+    """Who takes messages has to know when it was stopped, where the program stops it, too."""
+    if not config.commissioning:
+        return ()
+    return tuple(
+        EventRoutine("ROS_on_restart", event, task_name(config, group, role))
+        for group in config.groups
+        for role in roles(group)
+        if role.name in ("motion_server", "control")
+        for event in ("START", "RESTART")
     )
 
 

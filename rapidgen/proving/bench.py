@@ -222,6 +222,11 @@ class Bench:
             "the robot reaches the last point",
         )
 
+    def start_again(self) -> None:
+        """What an operator does after a stop of any kind: automatic mode, motors on, Start."""
+        for action in ("reset-e-stop", "auto", "motors-on", "start"):
+            self.controller.perform(action)
+
     def stays(self, seconds: float, why: str) -> None:
         """Let time pass; Broken when the robot moved meanwhile."""
         before, start = self.position, len(self.track)

@@ -17,6 +17,8 @@ class Case:
     """One behaviour of the driver. `answers` names what upstream gets wrong here, if anything.
 
     `once`: it takes too long for every setting, and runs under the default ones alone.
+    `background`: it needs background tasks that go on when the program is stopped, which those of
+    a driver that is being commissioned do not.
     """
 
     name: str
@@ -25,6 +27,7 @@ class Case:
     prove: "Callable[[Bench], None]"
     answers: str = ""
     once: bool = False
+    background: bool = False
 
 
 @dataclass(frozen=True, slots=True)

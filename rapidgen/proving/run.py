@@ -114,7 +114,8 @@ def prove(
         _Job(number, name, setting)
         for name, setting in chosen.items()
         for number, case in enumerate(CASES)
-        if cases and (case.name in only or (not only and (setting.coverage or not case.once)))
+        if cases and not (config.commissioning and case.background)
+        if case.name in only or (not only and (setting.coverage or not case.once))
     ]
     report.outcomes = each(work, _attempt, jobs, "cases", progress)
     if not only:

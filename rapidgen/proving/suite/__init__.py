@@ -19,6 +19,7 @@ from rapidgen.proving.suite import (
     moving,
     paired,
     refusals,
+    restarts,
     stopping,
     streaming,
     taking,
@@ -44,6 +45,7 @@ _ALL: tuple[Case, ...] = (
     *watching.CASES,
     *links.CASES,
     *controller.CASES,
+    *restarts.CASES,
     *failing.CASES,
     *faults.CASES,
     *moving.CASES,
@@ -62,4 +64,25 @@ _ONCE = {
     "stream",
 }
 
-CASES = tuple(replace(case, once=case.name in _ONCE) for case in _ALL)
+# They are answered, or keep their link, while the program is stopped.
+_BACKGROUND = {
+    "batch-not-now",
+    "e-stop-status",
+    "ends-while-fed",
+    "manual-speed",
+    "manual-status",
+    "nobody-answers",
+    "not-executing",
+    "one-signal-missing",
+    "patience",
+    "pause-ends",
+    "progress-ended",
+    "stop-pp-to-main",
+    "stopped-unseen",
+    "stream-ended",
+    "supervisor-gone",
+}
+
+CASES = tuple(
+    replace(case, once=case.name in _ONCE, background=case.name in _BACKGROUND) for case in _ALL
+)

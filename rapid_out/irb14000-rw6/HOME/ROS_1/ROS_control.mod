@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "2865b73f76f7";
+    CONST string ROS_BUILD_CONTROL := "7b4d6efb9479";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -24,6 +24,8 @@ MODULE ROS_control
     ! The other socket already holds the next client.
     LOCAL VAR bool taken_over := FALSE;
     LOCAL VAR bool linked := FALSE;
+    ! This task was stopped with the program, and runs again: what came meanwhile, nobody may take.
+    LOCAL VAR bool restarted := FALSE;
     LOCAL VAR clock since_look;
 
     ! The message at hand, by itself.
@@ -46,13 +48,27 @@ MODULE ROS_control
         ROS_read_limits;
         ROS_speed_of_1 := -1;
         ClkStart since_look;
-        ROS_listen server, PORT;
+        begin_anew;
         WHILE TRUE DO
             serve client_1, client_2;
             lost_client;
             serve client_2, client_1;
             lost_client;
         ENDWHILE
+    ENDPROC
+
+    ! Event routine (SYS.cfg).
+    PROC ROS_on_restart()
+        restarted := TRUE;
+    ENDPROC
+
+    ! Nobody who has come so far is served.
+    LOCAL PROC begin_anew()
+        restarted := FALSE;
+        taken_over := FALSE;
+        SocketClose client_1;
+        SocketClose client_2;
+        ROS_listen server, PORT;
     ENDPROC
 
     ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`:
@@ -63,14 +79,16 @@ MODULE ROS_control
         IF NOT taken_over THEN
             WHILE NOT welcome(client, 1) DO
                 take_back_stop;
+                IF restarted RETURN;
             ENDWHILE
         ENDIF
         taken_over := FALSE;
         linked := TRUE;
         told_dead := ROS_dead_1;
         ROS_begin_frames;
-        WHILE linked AND (NOT taken_over) DO
+        WHILE linked AND (NOT taken_over) AND (NOT restarted) DO
             received := ROS_receive(client, ROS_chunk, patience());
+            IF restarted received := -1;
             IF received > 0 THEN
                 take_chunk client, received;
             ELSEIF received < 0 THEN
@@ -111,6 +129,7 @@ MODULE ROS_control
     LOCAL PROC lost_client()
         IF heartbeat > 0 ask_stop ROS_REASON_CLIENT_LOST;
         heartbeat := 0;
+        IF restarted begin_anew;
     ENDPROC
 
     ! s to wait for bytes: never beyond the next heartbeat.
@@ -127,7 +146,7 @@ MODULE ROS_control
 
     LOCAL PROC take_chunk(VAR socketdev client, num received)
         ROS_take_bytes received;
-        WHILE linked DO
+        WHILE linked AND (NOT restarted) DO
             TEST ROS_next_frame()
             CASE ROS_FRAME_IN_CHUNK:
                 take_request client, ROS_chunk, ROS_frame_at;

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "2865b73f76f7";
+    CONST string ROS_BUILD_MOTION_SERVER := "7b4d6efb9479";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -27,6 +27,8 @@ MODULE ROS_motionServer
     ! The other socket already holds the next client.
     LOCAL VAR bool taken_over := FALSE;
     LOCAL VAR bool linked := FALSE;
+    ! This task was stopped with the program, and runs again: what came meanwhile, nobody may take.
+    VAR bool ROS_restarted := FALSE;
     LOCAL VAR rawbytes answer;
     ! Of the message at hand: what it asks for, and the number of a point.
     LOCAL VAR dnum kind := 0;
@@ -49,13 +51,28 @@ MODULE ROS_motionServer
         ROS_phase_1 := ROS_TRAJ_NONE;
         ROS_phase_of_1 := ROS_trajectory_1;
         ROS_end_session ROS_REASON_CLIENT_LOST;
-        ROS_listen server, PORT;
+        begin_anew;
         WHILE TRUE DO
             serve client_1, client_2;
             lost_client;
             serve client_2, client_1;
             lost_client;
         ENDWHILE
+    ENDPROC
+
+    ! Event routine (SYS.cfg).
+    PROC ROS_on_restart()
+        ROS_restarted := TRUE;
+    ENDPROC
+
+    ! Nobody who has come so far is served: the robot must not move for what was sent while the
+    ! program was stopped.
+    LOCAL PROC begin_anew()
+        ROS_restarted := FALSE;
+        taken_over := FALSE;
+        SocketClose client_1;
+        SocketClose client_2;
+        ROS_listen server, PORT;
     ENDPROC
 
     ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`.
@@ -65,14 +82,14 @@ MODULE ROS_motionServer
         VAR num silence := PATIENCE;
 
         IF NOT taken_over THEN
-            WHILE NOT welcome(client, WAIT_MAX) DO
-                ! A stranger, or the server socket broke and was opened again.
+            WHILE NOT welcome(client, PATIENCE) DO
+                IF ROS_restarted RETURN;
             ENDWHILE
         ENDIF
         taken_over := FALSE;
         linked := TRUE;
         ROS_begin_frames;
-        WHILE linked AND (NOT taken_over) DO
+        WHILE linked AND (NOT taken_over) AND (NOT ROS_restarted) DO
             IF ROS_is_feeding() THEN
                 ROS_feed;
                 received := short_look(client);
@@ -83,6 +100,7 @@ MODULE ROS_motionServer
                 received := ROS_receive(client, ROS_chunk, silence);
                 quiet := silence;
             ENDIF
+            IF ROS_restarted received := -1;
             IF received <> 0 THEN
                 quiet := 0;
             ELSEIF quiet >= PATIENCE THEN
@@ -122,6 +140,7 @@ MODULE ROS_motionServer
         ROS_lose_download;
         ROS_lose_stream;
         ROS_end_session ROS_REASON_CLIENT_LOST;
+        IF ROS_restarted begin_anew;
     ENDPROC
 
     ! While the ring is being fed, look for bytes without waiting for them.
@@ -136,7 +155,7 @@ MODULE ROS_motionServer
 
     LOCAL PROC take_chunk(VAR socketdev client, num received)
         ROS_take_bytes received;
-        WHILE linked DO
+        WHILE linked AND (NOT ROS_restarted) DO
             TEST ROS_next_frame()
             CASE ROS_FRAME_IN_CHUNK:
                 take_message client, ROS_chunk, ROS_frame_at;

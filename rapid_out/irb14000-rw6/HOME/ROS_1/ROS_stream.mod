@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "2865b73f76f7";
+    CONST string ROS_BUILD_STREAM := "7b4d6efb9479";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -238,6 +238,7 @@ MODULE ROS_stream
     ENDPROC
 
     LOCAL PROC announce()
+        IF ROS_restarted RETURN;
         holding := FALSE;
         ROS_head_1 := written;
     ENDPROC

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "2865b73f76f7";
+    CONST string ROS_BUILD_SUPERVISOR := "7b4d6efb9479";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -107,7 +107,12 @@ MODULE ROS_supervisor
             IF ROS_executing() = ROS_TRI_FALSE reason := ROS_REASON_PROGRAM_STOPPED;
         ENDIF
         mode := OpMode();
-        IF reason > 0 AND under_way() halt reason;
+        IF reason > 0 THEN
+            ! What is being received now does not move later, either.
+            ROS_hindrance_1 := reason;
+            ROS_hindered_1 := ROS_trajectory_1;
+            IF under_way() halt reason;
+        ENDIF
         IF ROS_interrupts_seen_1 <> ROS_interrupts_1 THEN
             ROS_interrupts_seen_1 := ROS_interrupts_1;
             halt ROS_REASON_PROGRAM_STOPPED;

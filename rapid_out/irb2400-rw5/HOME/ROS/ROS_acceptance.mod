@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "f647956f0844";
+    CONST string ROS_BUILD_ACCEPTANCE := "e8c66093f2db";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -187,10 +187,13 @@ MODULE ROS_acceptance
     FUNC num ROS_what_hinders()
         ! A stop that came while it was received is for this trajectory, too.
         IF ROS_control_asked <> stops_seen RETURN ROS_control_reason;
+        ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
             ROS_look_asked := ROS_next(ROS_look_asked);
             IF NOT ROS_answered() RETURN ROS_REASON_INTERNAL;
-            IF ROS_not_ready >= ROS_REASON_NONE RETURN ROS_not_ready;
+            IF ROS_not_ready > ROS_REASON_NONE RETURN ROS_not_ready;
+            IF ROS_hindered = ROS_trajectory RETURN ROS_hindrance;
+            IF ROS_not_ready = ROS_REASON_NONE RETURN ROS_REASON_NONE;
             WaitTime 0.1;
         ENDFOR
         RETURN ROS_REASON_NOT_EXECUTING;
