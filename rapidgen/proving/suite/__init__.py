@@ -12,6 +12,7 @@ from rapidgen.proving.suite import (
     failing,
     faults,
     framing,
+    halting,
     handing,
     joints,
     limits,
@@ -49,6 +50,7 @@ _ALL: tuple[Case, ...] = (
     *failing.CASES,
     *faults.CASES,
     *moving.CASES,
+    *halting.CASES,
 )
 
 # They boot many controllers, or let hours pass.

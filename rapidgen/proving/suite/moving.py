@@ -12,7 +12,7 @@ from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.virtual.log import EventType
 
-_SOON = 0.15
+SOON = 0.15
 """s in which the driver does what nothing hinders."""
 _CLOSE = 0.06
 """s between a change and the moment in which it can be read, at most."""
@@ -30,7 +30,7 @@ class _Step:
     state: TrajectoryState = TrajectoryState.MOVING
 
 
-def _unit(bench: Bench) -> float:
+def unit_of(bench: Bench) -> float:
     """s for a segment that is long for whoever looks once a state period."""
     return max(0.5, 5 * bench.config.state_period, 1.1 * bench.config.trajectory.min_segment)
 
@@ -65,7 +65,7 @@ def _in_order(
         raise Broken(f"it is never told that {missing}")
 
 
-def _watched(link: Link, since: float) -> list[tuple[float, messages.Progress, messages.Status]]:
+def watched(link: Link, since: float) -> list[tuple[float, messages.Progress, messages.Status]]:
     """PROGRESS from `since` on, each with its time and the STATUS that came with it."""
     found: list[tuple[float, messages.Progress, messages.Status]] = []
     status: messages.Status | None = None
@@ -82,7 +82,7 @@ def _goes_by(
     bench: Bench, link: Link, begun: float, trajectory: int, count: int, steps: Sequence[_Step]
 ) -> None:
     """Broken unless PROGRESS and STATUS told each step of a good trajectory of `count` points."""
-    told = _watched(link, begun + _CLOSE)
+    told = watched(link, begun + _CLOSE)
     _in_order(bench, begun, [(t, p.state, p.planned, p.reached) for t, p, _ in told], steps)
     before: int = steps[0].state
     for when, progress, status in told:
@@ -96,10 +96,10 @@ def _goes_by(
             raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
-def _begins(bench: Bench, sent: float) -> float:
+def begins(bench: Bench, sent: float) -> float:
     """When the motion begins that was asked for at `sent`: soon."""
     bench.wait_until_moving(2)
-    if bench.now - sent > _SOON + 2 * bench.setting.motion.settle:
+    if bench.now - sent > SOON + 2 * bench.setting.motion.settle:
         raise Broken(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
     return bench.now
 
@@ -127,7 +127,7 @@ class _Meter:
 
 def _step_by_step(bench: Bench) -> None:
     """Zones, stop points and stays: what is planned, what is reached, and when it is over."""
-    watcher, link, unit = bench.watcher(), bench.motion(), _unit(bench)
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number, done = bench.progress(watcher).trajectory, TrajectoryState.DONE
     meter = _Meter(bench)
     for last in (True, False):
@@ -144,7 +144,7 @@ def _step_by_step(bench: Bench) -> None:
         meter.end("while points are awaited")
         sent = bench.now
         link.send(frames[68:])
-        begun = _begins(bench, sent)
+        begun = begins(bench, sent)
         number += 1
         bench.run(8 * unit)
         meter.end("while the robot moves")
@@ -164,7 +164,7 @@ def _step_by_step(bench: Bench) -> None:
         # One point, sent twice, from wherever the robot stands.
         target, sent = bench.wave(2, duration=2 * unit)[1][0], bench.now
         link.send(bench.download([(target, 2 * unit)] * 2))
-        begun = _begins(bench, sent)
+        begun = begins(bench, sent)
         number += 1
         bench.run(3 * unit)
         steps = _scaled(unit, _Step(0, 2, 1, 0), _Step(2, _EVER, 2, 2, done))
@@ -173,7 +173,7 @@ def _step_by_step(bench: Bench) -> None:
 
 def _stream_by_step(bench: Bench) -> None:
     """A stream that starves twice, and one that is cut."""
-    watcher, unit = bench.watcher(), _unit(bench)
+    watcher, unit = bench.watcher(), unit_of(bench)
     stream, meter = Streamer(bench), _Meter(bench)
     starved, done = TrajectoryState.STARVED, TrajectoryState.DONE
     points = bench.wave(4, duration=unit)
@@ -188,7 +188,7 @@ def _stream_by_step(bench: Bench) -> None:
             bench.run(0.03)
 
     stream.put(points[:3], BEGIN | FLUSH)
-    begun = _begins(bench, bench.now)
+    begun = begins(bench, bench.now)
     ask(2.5 * unit)
     meter.begin()
     bench.run(0.5)
@@ -219,7 +219,7 @@ def _stream_by_step(bench: Bench) -> None:
     stream.number, stream.sent = 2, 0
     points = bench.wave(3, duration=unit)
     stream.put(points[:2], BEGIN | FLUSH)
-    begun = _begins(bench, bench.now)
+    begun = begins(bench, bench.now)
     bench.run(0.5 * unit)
     beyond = (bench.group.joints[0].upper + 1, *points[2][0][1:])
     stream.put([(beyond, 30.0)])
@@ -236,7 +236,7 @@ def _speed_by_step(bench: Bench) -> None:
     """Half the speed from the reply on, for this trajectory alone."""
     if not bench.group.ports.control:
         return
-    control, link, unit = bench.control(), bench.motion(), _unit(bench)
+    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
     # Some controllers do not slow down what was given its time.
     slower = 2.0 if bench.setting.motion.refresh_timed else 1.0
 
@@ -253,18 +253,18 @@ def _speed_by_step(bench: Bench) -> None:
         points = bench.wave(3, duration=unit)
         sent = bench.now
         link.send(bench.download(points))
-        begun = _begins(bench, sent)
+        begun = begins(bench, sent)
         if percent:
             for _ in range(2):
                 asked = bench.now
                 told = control.ask(messages.Speed(percent))
-                if told != messages.Acknowledged() or bench.now - asked > _SOON:
+                if told != messages.Acknowledged() or bench.now - asked > SOON:
                     raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.3f} s")
         takes(slower if percent == 50 else 1.0)
         bench.run(0.3)
 
 
-def _hangs(bench: Bench) -> bool:
+def hangs(bench: Bench) -> bool:
     """Whether a move does not return when its path is cleared, so that main has to begin anew."""
     return bench.setting.motion.cleared_move == "hang"
 
@@ -282,9 +282,10 @@ def _begins_anew(bench: Bench) -> None:
         raise Broken(f"main of the motion task began anew after {bench.now - asked:.2f} s")
 
 
-def _patience(bench: Bench) -> float:
-    """s in which a robot that stops has come to rest, and STATUS has said so."""
-    return _SOON + 2 * (bench.config.state_period + bench.setting.motion.settle)
+def patience(bench: Bench) -> float:
+    """s in which a halt is over, and STATUS has said so."""
+    needed = SOON + 2 * (bench.config.state_period + bench.setting.motion.settle)
+    return needed + (2 if hangs(bench) else 0)
 
 
 def _over_soon(bench: Bench, watcher: Link, since: float, what: str) -> messages.Progress:
@@ -292,46 +293,46 @@ def _over_soon(bench: Bench, watcher: Link, since: float, what: str) -> messages
     bench.until(
         lambda: any(
             p.state == TrajectoryState.STOPPED and s.motion_possible == 1
-            for _, p, s in _watched(watcher, since)
+            for _, p, s in watched(watcher, since)
         ),
-        _patience(bench) + (2 if _hangs(bench) else 0),
+        patience(bench),
         f"{what}: PROGRESS tells of it",
     )
-    return _watched(watcher, since)[-1][1]
+    return watched(watcher, since)[-1][1]
 
 
 def _halts(bench: Bench) -> None:
     """Stops at a standstill, in a stay and in a zone; then of a path that cannot be cleared."""
-    watcher, link, unit = bench.watcher(), bench.motion(), _unit(bench)
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     cycles = _cycles(bench)
     for _ in range(7):
         link.send(STOP)
-        link.expect_reply(_SOON, "STOP at a standstill is answered")
+        link.expect_reply(SOON, "STOP at a standstill is answered")
     link.send(bench.download(bench.wave(4, duration=unit)))
-    _begins(bench, bench.now)
+    begins(bench, bench.now)
     bench.run(1.6 * unit)
     since = bench.now
     link.send(STOP)
-    link.expect_reply(_SOON, "STOP on the way is answered")
+    link.expect_reply(SOON, "STOP on the way is answered")
     told = _over_soon(bench, watcher, since, "STOP on the way")
     if (told.planned, told.reached) != (4, 2):
         raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
     way = bench.wave(3, duration=unit)
     link.send(bench.download([*way[:2], (way[1][0], 5.0), way[2]]))
-    _begins(bench, bench.now)
+    begins(bench, bench.now)
     bench.wait_until_at(way[1][0], 5)
     bench.run(0.5)
     since = bench.now
     link.send(STOP)
-    link.expect_reply(_SOON, "STOP in a stay is answered")
+    link.expect_reply(SOON, "STOP in a stay is answered")
     told = _over_soon(bench, watcher, since, "STOP in a stay")
     if (told.planned, told.reached) != (3, 2):
         raise Broken(f"STOP came in the stay behind two points, PROGRESS says {told}")
-    if not _hangs(bench) and _cycles(bench) != cycles:
+    if not hangs(bench) and _cycles(bench) != cycles:
         raise Broken("main of the motion task began anew although it answers")
     for _ in range(2):
         link.send(bench.download(bench.wave(5, duration=unit)))
-        _begins(bench, bench.now)
+        begins(bench, bench.now)
         bench.run(1.6 * unit)
         bench.fails("ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
         link.send(STOP)
@@ -343,20 +344,20 @@ def _halts(bench: Bench) -> None:
         bench.stays(1, "it was stopped, and main of the motion task began anew")
 
 
-def _datum(bench: Bench, name: str) -> str:
+def datum(bench: Bench, name: str) -> str:
     """Full name of a PERS of this group: with several groups they end in its number."""
     task = bench.controller.rapid_tasks[bench.task("ROS_motion")]
     declared = task.program.modules["ros_common"].declarations
     return next(f"ROS_common:{key}" for key in declared if re.fullmatch(rf"{name}(_\d+)?", key))
 
 
-def _last_event(bench: Bench) -> int:
+def last_event(bench: Bench) -> int:
     return max((e.sequence for e in bench.controller.log), default=0)
 
 
 def _gives_up(bench: Bench) -> None:
     """A move that fails, and a hole in the ring: the robot stops where it is, and says where."""
-    watcher, link, unit = bench.watcher(), bench.motion(), _unit(bench)
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number = bench.progress(watcher).trajectory
     task = bench.controller.task(bench.task("ROS_motion"))
     for error, reason in (
@@ -364,14 +365,14 @@ def _gives_up(bench: Bench) -> None:
         ("ERR_PATH_STOP", Reason.MOTION_ERROR),
         ("", Reason.INTERNAL),
     ):
-        points, last = bench.wave(6, duration=unit), _last_event(bench)
+        points, last = bench.wave(6, duration=unit), last_event(bench)
         link.send(bench.download(points))
         number += 1
-        begun = _begins(bench, bench.now)
+        begun = begins(bench, bench.now)
         if error:
             bench.fails("ROS_motion", "MoveAbsJ", error, after=1)
         else:
-            ring = task[_datum(bench, "ros_ring")].values()
+            ring = task[datum(bench, "ros_ring")].values()
             next(p for p in ring if (p.session, p.index) == (number, 4)).index = 5.0
         bench.wait_until_standing(5)
         if bench.now - begun > 2 * unit + 0.1 or distance(bench.position, points[2][0]) < 5e-4:
@@ -386,7 +387,7 @@ def _gives_up(bench: Bench) -> None:
         points = bench.wave(2, duration=unit)
         link.send(bench.download(points))
         number += 1
-        _begins(bench, bench.now)
+        begins(bench, bench.now)
         bench.wait_until_at(points[1][0], 2 * unit)
         said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
         if len(said) != 1 or said[0].texts[:2] != (

@@ -1,0 +1,323 @@
+"""The supervisor seen from outside: how soon it answers, why a trajectory ended, pauses."""
+
+from collections.abc import Callable
+from typing import Any
+
+from rapidgen.protocol import decode, messages, spec
+from rapidgen.protocol.spec import Reason, TrajectoryState
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import STOP, Link, point_frame
+from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.suite.moving import (
+    SOON,
+    begins,
+    datum,
+    hangs,
+    last_event,
+    patience,
+    unit_of,
+)
+from rapidgen.virtual.log import Event, EventType
+
+_PROMPT = 0.055
+"""s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
+_TRAJ = spec.JOINT_TRAJ_PT.number
+
+
+def at_call(
+    bench: Bench, module: str, instruction: str, number: int, act: Callable[[], None]
+) -> None:
+    """Call `act` once, when a module's task is just about to execute an instruction.
+
+    `number`: how many times from now, this one included.
+    """
+    task = bench.controller.rapid_tasks[bench.task(module)]
+    routine = task.program.find_routine(None, instruction.casefold())
+    assert routine is not None
+    space, left = task.program.space, number
+    as_before = space[routine.code]
+
+    def called(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
+        nonlocal left
+        left -= 1
+        if left == 0:
+            act()
+            task.attend()
+        return as_before(*arguments)
+
+    space[routine.code] = called
+
+
+def _prompt(bench: Bench, asked: float, what: str) -> None:
+    late = bench.now - asked
+    # Some controllers let a program go on behind StopMove only when the robot stands.
+    if late > _PROMPT + (0.3 if bench.setting.motion.stop_waits else 0):
+        raise Broken(f"{what} is answered after {late:.3f} s")
+
+
+def _end_as_request(bench: Bench, count: int, duration: float) -> bytes:
+    """A trajectory whose end frame is a request."""
+    points = bench.wave(count, duration=duration)
+    frames = [point_frame(n, count, *p) for n, p in enumerate(points[:-1])]
+    return b"".join((*frames, point_frame(count - 1, count, *points[-1], spec.Comm.REQUEST)))
+
+
+def _answers_soon(bench: Bench) -> None:
+    """Whatever the supervisor is asked, whenever: it does not wait for its next look."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    control = bench.control() if bench.group.ports.control else None
+    period = bench.config.state_period
+    for phase in range(5):
+        # Not at the same moment of the supervisor's round each time.
+        bench.run(0.3 + 0.021 * phase)
+        link.send(_end_as_request(bench, 5, unit))
+        asked = bench.now
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        if not isinstance(content, messages.Accepted):
+            raise Broken(f"a good trajectory is answered by {content}")
+        _prompt(bench, asked, "the end frame of a trajectory")
+        begins(bench, asked)
+        if control is not None:
+            for paused in (1, 0):
+                asked = bench.now
+                if control.ask(messages.Pause(paused)) != messages.Acknowledged():
+                    raise Broken(f"PAUSE {paused} is refused")
+                _prompt(bench, asked, f"PAUSE {paused}")
+                bench.run(0.1)
+        # The reply comes just before a STATUS, which then tells of the stop.
+        bench.status(watcher)
+        bench.run(2 * period - 0.045)
+        port = link if control is None or phase % 2 else control
+        port.read()
+        port.send(STOP)
+        asked = bench.now
+        if port.reply(_TRAJ) != messages.Acknowledged():
+            raise Broken("STOP is not confirmed")
+        _prompt(bench, asked, "STOP")
+        status = bench.status(watcher)
+        if bench.now - asked < 0.06 and status.motion_possible:
+            raise Broken(f"STOP came {bench.now - asked:.3f} s ago, STATUS says {status}")
+        bench.wait_until_standing(3)
+        bench.run(2 if hangs(bench) else 0)
+        if control is not None:
+            asked = bench.now
+            control.send(STOP)
+            control.reply(_TRAJ)
+            _prompt(bench, asked, "STOP at a standstill")
+        # What comes right behind a stop of the program is refused, where somebody is left to.
+        if bench.config.commissioning:
+            continue
+        bench.run(0.4)
+        bench.controller.perform("stop")
+        link.send(_end_as_request(bench, 3, unit))
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.Refused(Reason.NOT_EXECUTING, -1, 0):
+            raise Broken(f"right behind a stop of the program a trajectory is answered: {content}")
+        bench.controller.perform("start")
+
+
+def _warnings(bench: Bench, since: int) -> list[Event]:
+    return [
+        e
+        for e in bench.controller.log.since(since)
+        if e.type is not EventType.INFO and e.title.startswith("ROS")
+    ]
+
+
+def _why_it_ended(bench: Bench) -> None:
+    """Each event by its own reason, at once; what comes meanwhile is refused for it."""
+    if bench.config.commissioning:
+        # The driver stops with the program, and tells nobody.
+        return
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    number = bench.progress(watcher).trajectory
+    auto, failed = spec.Mode.AUTO, TrajectoryState.FAILED
+    for action, reason, later, status in (
+        ("e-stop", Reason.EMERGENCY_STOP, Reason.EMERGENCY_STOP, (0, 1, auto)),
+        ("motors-off", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, auto)),
+        ("stop", Reason.PROGRAM_STOPPED, Reason.NOT_EXECUTING, (1, 0, auto)),
+        ("manual", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, spec.Mode.MANUAL)),
+        ("leaves", Reason.CLIENT_LOST, Reason.NONE, (1, 0, auto)),
+    ):
+        last, points = last_event(bench), bench.wave(5, duration=unit)
+        link.send(bench.download(points))
+        number += 1
+        begins(bench, bench.now)
+        bench.run(1.6 * unit)
+        if action == "leaves":
+            link.close()
+        else:
+            bench.controller.perform(action)
+        bench.wait_until_standing(3)
+        bench.run(patience(bench))
+        told, seen = bench.progress(watcher), bench.status(watcher)
+        if told != (number, failed, 5, 4, 2, reason, 2, 0):
+            raise Broken(f"{action} came between points 1 and 2, PROGRESS says {told}")
+        powered, e_stopped, mode = status
+        possible = int(action == "leaves")
+        wanted = messages.Status(powered, e_stopped, reason, 1, 0, mode, possible)
+        # An emergency stop is an error of the controller's own, too.
+        if seen != wanted:
+            raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
+        said = [e.texts[0] for e in _warnings(bench, last)]
+        if said != ([spec.REASON_TEXTS[reason]] if action == "leaves" else []):
+            raise Broken(f"after {action} the event log says {said}")
+        if action == "leaves":
+            bench.run(0.3)
+            link = bench.motion()
+            continue
+        link.send(_end_as_request(bench, 3, unit))
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        number += 1
+        if content != messages.Refused(later, -1, 0):
+            raise Broken(f"after {action} a trajectory is answered by {content}")
+        for again in ("reset-e-stop", "auto", "motors-on", "start"):
+            bench.controller.perform(again)
+        bench.stays(patience(bench), f"the program was started again after {action}")
+        if bench.status(watcher).motion_possible != 1:
+            raise Broken(f"after {action} and a start of the program no motion is possible")
+
+
+def _is_paused(bench: Bench, watcher: Link, planned: int, reached: int) -> None:
+    bench.wait_until_standing(0.1 + SOON + bench.setting.motion.servo_lag)
+    bench.run(2 * bench.config.state_period)
+    told, status = bench.progress(watcher), bench.status(watcher)
+    if (told.state, told.planned, told.reached, told.reason) != (
+        TrajectoryState.PAUSED,
+        planned,
+        reached,
+        0,
+    ):
+        raise Broken(f"a trajectory is paused, PROGRESS says {told}")
+    if status != (1, 0, 0, 0, 0, spec.Mode.AUTO, 0):
+        raise Broken(f"a trajectory is paused, STATUS says {status}")
+    bench.stays(0.3, "it is paused")
+
+
+def _pause_by_step(bench: Bench) -> None:
+    """Each answer to PAUSE, what is told of it, and what becomes of a paused trajectory."""
+    if not bench.group.ports.control:
+        return
+    control, watcher, link, unit = bench.control(), bench.watcher(), bench.motion(), unit_of(bench)
+
+    def ask(paused: int, reason: Reason = Reason.NONE) -> None:
+        told = control.ask(messages.Pause(paused))
+        if told != (messages.NotDone(reason) if reason else messages.Acknowledged()):
+            raise Broken(f"PAUSE {paused} is answered by {told}")
+
+    def goes_on() -> None:
+        ask(0)
+        bench.wait_until_moving(_PROMPT + bench.setting.motion.servo_lag)
+
+    for paused in (1, 0):
+        ask(paused, Reason.IDLE)
+    way = bench.wave(4, duration=unit)
+    link.send(bench.download([*way, (way[3][0], 3 * unit)]))
+    begun = begins(bench, bench.now)
+    bench.run(1.15 * unit)
+    ask(1)
+    _is_paused(bench, watcher, 3, 1)
+    bench.fails("ROS_supervisor", "StartMove", "ERR_PATHDIST")
+    ask(0, Reason.INTERNAL)
+    _is_paused(bench, watcher, 3, 1)
+    ask(1)
+    goes_on()
+    bench.fails("ROS_supervisor", "StopMove", "ERR_PATH_STOP")
+    ask(1, Reason.INTERNAL)
+    ask(0)
+    bench.run(2 * bench.config.state_period)
+    if bench.standing or bench.status(watcher)[3:] != (0, 1, spec.Mode.AUTO, 1):
+        raise Broken("a pause that was refused, and the end of none, stop the robot")
+    bench.wait_until_at(way[3][0], 5)
+    bench.followed([p for p, _ in way], since=begun)
+    # The stay at its end goes on in a pause, and then there is nothing left to be paused.
+    bench.run(0.5 * unit)
+    ask(1)
+    _is_paused(bench, watcher, 5, 4)
+    bench.run(3 * unit)
+    told, status = bench.progress(watcher), bench.status(watcher)
+    if (told.state, status.motion_possible) != (TrajectoryState.DONE, 1):
+        raise Broken(f"a paused trajectory has come to its end: {told}, {status}")
+    ask(0, Reason.IDLE)
+    for stopped in (True, False):
+        link.send(bench.download(bench.wave(3, duration=unit)))
+        begins(bench, bench.now)
+        bench.run(0.5 * unit)
+        ask(1)
+        bench.wait_until_standing(1)
+        if stopped:
+            link.send(STOP)
+            link.reply(_TRAJ)
+            bench.run(patience(bench))
+            ask(0, Reason.IDLE)
+        points = bench.wave(3, duration=unit)
+        link.send(bench.download(points))
+        bench.wait_until_at(points[2][0], 3 * unit + 2)
+
+
+def _builds_differ(bench: Bench) -> None:
+    """A task that shows another build: said once after two seconds, and nothing is taken."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    task = bench.controller.task(bench.task("ROS_supervisor"))
+    shown, last = datum(bench, "ros_shown_state"), last_event(bench)
+    good = task[shown]
+
+    def mix() -> None:
+        task[shown] = "0123456789ab"
+
+    for seconds, times in ((1.5, 0), (1.5, 0), (3.0, 1), (2.5, 2)):
+        # Just behind a look of the supervisor.
+        at_call(bench, "ROS_supervisor", "WaitTime", 1, mix)
+        bench.until(lambda: task[shown] != good, 0.2, "the supervisor looks")
+        mixed = bench.now
+        link.send(_end_as_request(bench, 3, unit))
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.Refused(Reason.BUILD_MISMATCH, -1, 0):
+            raise Broken(f"tasks show different builds, a trajectory is answered by {content}")
+        bench.run(seconds)
+        if bench.status(watcher).motion_possible:
+            raise Broken("tasks show different builds, STATUS says that motion is possible")
+        task[shown] = good
+        bench.run(patience(bench))
+        if not bench.status(watcher).motion_possible:
+            raise Broken("tasks show one build again, STATUS says that no motion is possible")
+        said = [e for e in _warnings(bench, last) if "different builds" in e.title]
+        if len(said) != times or (said and not 1.95 < said[-1].time - mixed < 2.08):
+            raise Broken(
+                f"builds differed for {seconds} s from {mixed:.3f} s on, the event log says "
+                f"{[str(e) for e in said]}"
+            )
+    # What the motion task shows counts from when its program runs.
+    shown = datum(bench, "ros_shown_motion")
+    for text, stopped, reason in (
+        ("", False, Reason.NOT_EXECUTING),
+        ("mixed", True, Reason.NOT_EXECUTING),
+        ("mixed", False, Reason.BUILD_MISMATCH),
+    ):
+        if stopped and bench.config.commissioning:
+            continue
+        if stopped:
+            bench.controller.perform("stop")
+        task[shown] = text
+        link.send(_end_as_request(bench, 3, unit))
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        if not isinstance(content, messages.Refused) or content.reason != reason:
+            raise Broken(f"the motion task shows {text!r}, a trajectory is answered by {content}")
+        task[shown] = good
+        if stopped:
+            bench.controller.perform("start")
+        bench.run(0.3)
+    link.send(bench.download(bench.wave(3, duration=unit)))
+    begins(bench, bench.now)
+
+
+CASES = (
+    Case("answers-soon", "the supervisor answers by interrupts", "halting", _answers_soon,
+         "R7a"),
+    Case("why-it-ended", "the reason for each early end, at once", "halting", _why_it_ended,
+         "R11, R14"),
+    Case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", "halting",
+         _pause_by_step),
+    Case("builds-differ", "a task that shows another build, at a time", "halting",
+         _builds_differ),
+)  # fmt: skip
