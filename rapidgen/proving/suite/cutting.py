@@ -164,12 +164,12 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
         stream.reply()
         recovers()
         streams.strange(0, Reason.CHECKSUM, "a head that cannot be read")
+    _said(bench, Reason.CHECKSUM)
     head = stream.frame(points, _NONE)
     stream.link.send(head[:16] + b"\xff" * 8 + head[24:])
     stream.reply()
     if not isinstance(stream.last, messages.PointsRefused) or stream.last.stream:
         raise Broken(f"a damaged head is answered by {stream.last}")
-    _said(bench, Reason(stream.last.reason))
     # Nor does a beginning that cannot be read end anything.
     last = _HEAD + 2 + 2 * spec.point_pairs(len(bench.position))
     for after in (_HEAD + 2, _HEAD + 3, last):
@@ -340,8 +340,12 @@ def _room(bench: Bench) -> None:
     stream.put(goal[sent : sent + 1])
     streams.refused(Reason.OVERRUN, sent, "a point behind a stream that was cut")
     # What is there in the ring is found behind the end of the counters, too.
+    streams.begin()
+    while streams.taken(0, "a stream behind one that was stopped").room < ring - 1:
+        bench.run(0.1)
+        streams.stream.put(())
     points, since = way(bench, 12), bench.now
-    streams.begin(points, END)
+    streams.stream.put(points, END)
     streams.taken(12, "a stream behind one that was stopped")
     bench.wait_until_at(points[-1][0], 5)
     bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)

@@ -5,7 +5,7 @@ from functools import partial
 from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import SETTLED, Bench, distance
-from rapidgen.proving.link import Link, point_frame, raw_point
+from rapidgen.proving.link import STOP, Link, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
 
@@ -110,40 +110,49 @@ def _pings(bench: Bench, link: Link, seconds: float = 0.1, *, slowly: bool = Fal
 
 def _patience(bench: Bench) -> None:
     """A newer client waits until the one before has been silent for a second, whatever moves."""
-    policy = bench.config.trajectory
+    policy, place = bench.config.trajectory, bench.position
     seconds = max(0.1, 1.02 * policy.min_segment)
-    place = bench.position
-    long = bench.wave(policy.ring + 60, duration=seconds, size=0.02)
     few = bench.wave(20)
+    long = bench.wave(policy.ring + 60, duration=seconds, size=0.02)
     old = bench.motion()
-    # At rest, with a stream, while a trajectory is fed, while one moves that was fed, at rest.
-    for points in ([], few[:4], long, few, []):
+    for what, points in (
+        ("nothing", []),
+        ("stream", few[:4]),
+        ("download that is fed", long),
+        ("stopped stream", few[:4]),
+        ("download", few),
+        ("nothing", []),
+    ):
         stream = Streamer(bench, old)
         _pings(bench, old)
-        if points == few[:4]:
+        if "stream" in what:
             stream.put(points, BEGIN)
         elif points:
             old.send(bench.download(points))
             bench.wait_until_moving(2)
+        if what == "stopped stream":
+            old.send(STOP)
         new = bench.motion()
         for slowly in (True, False, False):
             bench.run(0.7)
             _pings(bench, old, slowly=slowly)
-        if points == few[:4]:
-            # Its batches may come far apart, until it has ended.
+        if what == "stream":
+            # Its batches may come far apart, until it has ended, although it moves on.
             bench.run(3)
-            stream.put((), END)
+            stream.put([(place, 6.0)], END)
+            stream.accepted("a slow last point")
+            points = [(place, 6.0)]
             bench.run(0.8)
             _pings(bench, old)
         last = bench.now
-        bench.until(partial(_is_lost, old), 3, "a silent client gives way")
+        bench.until(partial(_is_lost, old), 3, f"a silent client gives way: {what}")
         if not 0.9 < bench.now - last < 1.4:
-            raise Broken(f"a client gave way after {bench.now - last:.2f} s of silence")
+            raise Broken(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
         bench.wait_until_standing(3)
-        if len(points) > 4 and distance(bench.position, points[-1][0]) < SETTLED:
-            raise Broken("the robot went on for a client that gave way")
+        if points and distance(bench.position, points[-1][0]) < SETTLED:
+            raise Broken(f"{what}: the robot went on for a client that gave way")
         _pings(bench, new, 0.3)
-        bench.stays(0.3, "the client before gave way")
+        bench.stays(0.3, f"the client before gave way: {what}")
         new.send(point_frame(0, 2, place, 0.3) + point_frame(1, 2, place, 0.3))
         bench.wait_until_at(place, 5)
         bench.run(0.2)
