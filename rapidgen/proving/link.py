@@ -44,6 +44,10 @@ class Link:
         if self.endpoint.connected:
             self._receive()
 
+    def stop_reading(self) -> None:
+        """Leave what comes from now on where it is."""
+        self.endpoint.changed.remove(self._receive)
+
     def send(self, data: bytes) -> None:
         """Write all of `data`, letting time pass while the controller has no room."""
         while data and not self.lost:

@@ -1,11 +1,9 @@
-"""Each joint by itself: in streams, against a controller's own limits, moved by others."""
+"""Each joint by itself, in streams and away from zero; each signal by itself."""
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
-from rapidgen.protocol import decode, messages
 from rapidgen.protocol.spec import Reason, TriState
 from rapidgen.proving.bench import Bench, distance
 from rapidgen.proving.link import Link, Point, Position, point_frame
@@ -48,11 +46,11 @@ class _Blame:
             raise Broken(f"{reason.name} of joint {axis + 1}, point {point}: the reply is {told}")
         self._bench.stays(0.2, f"joint {axis + 1} is refused: {reason.name}")
 
-    def limits(self, joints: Sequence[Joint] = (), beyond: float = _BEYOND) -> None:
-        """Each joint beyond each of its limits, the configuration's where no others are given."""
+    def limits(self) -> None:
+        """Each joint beyond each of its limits."""
         here = self._bench.position
-        for axis, joint in enumerate(joints or self._bench.group.joints):
-            for value in (joint.lower - beyond, joint.upper + beyond):
+        for axis, joint in enumerate(self._bench.group.joints):
+            for value in (joint.lower - _BEYOND, joint.upper + _BEYOND):
                 points = [(here, 1.0), (_with(here, axis, value), 30.0), (here, 30.0)]
                 self(points, Reason.JOINT_LIMIT, 1, axis)
 
@@ -89,34 +87,6 @@ def _joints_of_a_stream(bench: Bench) -> None:
     bench.run(2.5)
     if not bench.standing or distance(bench.position, here) > 1e-4:
         raise Broken("the way to the first point of a stream took as long as its duration says")
-
-
-def _moved_by_others(bench: Bench) -> None:
-    """Somebody else moves an axis, and no signal shows it: STATUS does, once."""
-    other = bench.beside(replace(bench.system, signals=(), outputs=(), cross=()))
-    try:
-        link = other.state()
-        other.run(1)
-        group = other.controller.motion.group(other.group.name)
-        for axis, joint in enumerate(other.group.joints):
-            unit = 1e-3 if joint.kind == "prismatic" else 0.0174533
-            for size, times in ((0.2, 1), (0.03, 0)):
-                here = other.position
-                group.jump(_with(here, axis, _step(joint, here[axis], size * unit)))
-                seen = _in_motion(other, link)
-                if seen != times:
-                    raise Broken(
-                        f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so"
-                    )
-    finally:
-        other.close()
-
-
-def _in_motion(bench: Bench, link: Link) -> int:
-    before = len(link.frames)
-    bench.run(4 * bench.config.state_period)
-    told = [decode(frame) for _, frame in link.frames[before:]]
-    return sum(1 for t in told if isinstance(t, messages.Status) and t.in_motion == TriState.TRUE)
 
 
 def _away_from_zero(bench: Bench) -> None:
@@ -197,7 +167,6 @@ def _shown(
 CASES = (
     Case("stream-joints", "limits, speed and start of each joint of a stream", "joints",
          _joints_of_a_stream, "R10, R11"),
-    Case("moved-by-others", "movements that no signal shows", "joints", _moved_by_others, "R16"),
     Case("away-from-zero", "short ways where no joint is near zero", "joints", _away_from_zero),
     Case("controller-error", "an error of the controller is in STATUS", "joints",
          _controller_error),

@@ -1,5 +1,6 @@
 """Those who watch: several at once, some that do not read, feedback, events, read limits."""
 
+import struct
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
@@ -9,94 +10,158 @@ from rapidgen.protocol.spec import Feature
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import Link, Point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.suite.reading import PLAIN, on_turn, rounds, subscribe
 from rapidgen.proving.suite.refusals import refused
+from rapidgen.virtual.log import EventType
+from rapidgen.virtual.network.interface import BUFFER, NetworkFault
+from rapidgen.virtual.network.memory import MemoryEndpoint
 
 _CLIENTS = 3
 """Clients that the state port serves at a time, as docs/driver.md promises."""
-_BUFFERS = 262_144
-"""Bytes that lie on the way to a client that does not read, at most."""
-
-
-def _stamps(link: Link, since: float = 0.0) -> list[float]:
-    return [when for when, f in link.frames if f.number == spec.STATUS.number and when >= since]
-
-
-def _on_schedule(bench: Bench, link: Link, since: float, what: str) -> None:
-    """Broken unless STATUS came at the set rate, each within a period of its turn."""
-    stamps, period = _stamps(link, since), bench.config.state_period
-    wanted = (bench.now - since) / period
-    if abs(len(stamps) - wanted) > 3:
-        raise Broken(f"{what}: {len(stamps)} STATUS in {bench.now - since:.0f} s, not {wanted:.0f}")
-    for i, when in enumerate(stamps):
-        if abs(when - (stamps[0] + i * period)) > period:
-            raise Broken(f"{what}: STATUS at {when:.3f} s is more than a period off")
+_WAITING = 16
+"""Events that may wait to be told."""
 
 
 def _several_watch(bench: Bench) -> None:
+    """Three are served, a newer one takes the place of the one that came last, or a free one."""
     links: list[Link] = []
-    for _ in range(_CLIENTS):
+    for number in range(_CLIENTS + 3):
+        lost = [link.lost for link in links]
+        came = bench.now
+        links.append(bench.state())
+        soon = 0.2 + 2 * bench.config.state_period
+        bench.until(lambda: bool(links[-1].frames), soon, f"client {number + 1} is told")
+        bench.run(3 * bench.config.state_period)
+        if number >= _CLIENTS:
+            lost[-1] = True
+        if [link.lost for link in links[:-1]] != lost:
+            raise Broken(f"client {number + 1} came, lost are {[link.lost for link in links]}")
+        on_turn(bench, rounds(links[0], came - 1), f"client {number + 1} came")
+    for leaves, abort in ((1, False), (0, True)):
+        served = [link for link in links if not link.lost]
+        subscribe(bench, Feature.PROGRESS | Feature.FEEDBACK, served[leaves])
+        since = bench.now
+        served[leaves].close(abort=abort)
+        bench.run(1)
         links.append(bench.state())
         bench.run(1)
+        served = [link for link in links if not link.lost]
+        if len(served) != _CLIENTS:
+            raise Broken(f"one of {_CLIENTS} clients left, another came, {len(served)} are served")
+        on_turn(bench, rounds(served[0], since), "one left, another came")
+        if any(one.numbers != PLAIN for one in rounds(links[-1], since)):
+            raise Broken("who takes the place of another is told what that had asked for")
     since = bench.now
-    bench.run(5)
-    for number, link in enumerate(links, 1):
-        _on_schedule(bench, link, since, f"client {number} of {_CLIENTS}")
-    tails = [[f for _, f in link.frames[-20:]] for link in links]
+    bench.run(1)
+    tails = [[f for _, f in link.frames[-10:]] for link in links if not link.lost]
     if tails[1:] != tails[:-1]:
         raise Broken("clients at one time are told different things")
-    links.append(bench.state())
-    bench.run(2)
-    if [link.lost for link in links] != [False] * (_CLIENTS - 1) + [True, False]:
-        raise Broken(f"client {_CLIENTS + 1} came: {[link.lost for link in links]} are dropped")
-    links[1].close()
+
+
+def _fill(bench: Bench, link: Link, room: int = 0) -> None:
+    """Messages on the way to a client, as after minutes without reading, but for `room` bytes."""
+    end = link.endpoint
+    assert isinstance(end, MemoryEndpoint)
+    assert end.incoming is not None
+    network, pipe = bench.controller.network, end.incoming
+    left = 2 * BUFFER - len(pipe.arrived) - pipe.flying - len(pipe.waiting) - room
+    while left:
+        size = left if left <= 1024 else min(1024, left - 16)
+        # A reply, as nobody has asked for: it is in no round.
+        frame = struct.pack("<4i", size - 4, spec.PING.number, spec.Comm.REPLY, 0)
+        while len(pipe.waiting) + size > BUFFER:
+            bench.run(0.001)
+        try:
+            left -= network.send(pipe.sender, frame + bytes(size - 16))
+        except NetworkFault as fault:
+            raise Broken(f"a client was not served any more: {fault}") from fault
+
+
+def _held(bench: Bench) -> bool:
+    return bench.waits_in("ROS_stateServer", "SocketSend")
+
+
+def _until_held(bench: Bench) -> float:
+    """Let time pass until a send does not end; when it began."""
+    since = [bench.now]
+
+    def stuck() -> bool:
+        if not _held(bench):
+            since[0] = bench.now
+        return bench.now - since[0] > 0.01
+
+    bench.until(stuck, 1, "a send waits for a client that does not read")
+    return since[0]
+
+
+def _is_dropped(bench: Bench, link: Link, reader: Link) -> None:
+    """A client with full buffers is dropped in time; the other goes on from there."""
+    since = _until_held(bench)
+    bench.until(lambda: not _held(bench), 70, "a send ends")
+    held = bench.now - since
+    # Where no trap comes into a send it lasts until that gives up by itself.
+    if bench.setting.dialect.send_attends and not 0.1 <= held < 0.35:
+        raise Broken(f"a client that does not read has held up others for {held:.3f} s")
     bench.run(1)
-    links.append(bench.state())
-    bench.run(1)
-    since = bench.now
-    bench.run(5)
-    for link in (links[0], links[3], links[4]):
-        _on_schedule(bench, link, since, "after others came and went")
+    found = rounds(reader, since)
+    gaps = [b.time - a.time for a, b in pairwise(found)]
+    if any(a + b < 0.8 * bench.config.state_period for a, b in pairwise(gaps)):
+        raise Broken("what could not be sent in time comes in a burst")
+    on_turn(bench, found[1:], "behind a client that did not read")
+    link.read_on()
+    bench.until(lambda: link.lost, 5, "a client that does not read is dropped")
 
 
 def _does_not_read(bench: Bench) -> None:
-    """Others keep their rate, and it is dropped when nothing more fits on the way to it."""
+    """Others miss its time once, and it is dropped; who is only slow is not."""
     silent, reader = bench.state(reading=False), bench.state()
     bench.run(1)
+    _fill(bench, silent)
+    _is_dropped(bench, silent, reader)
+    for _ in range(2):
+        slow = bench.state(reading=False)
+        bench.run(0.5)
+        _fill(bench, slow)
+        bench.run(_until_held(bench) + 0.15 - bench.now)
+        slow.read_on()
+        since = bench.now + bench.config.state_period
+        bench.run(0.8)
+        if slow.lost:
+            raise Broken("a client that was slow for 0.15 s is dropped")
+        on_turn(bench, rounds(slow, since), "a client that was slow")
+    # It has room for all rounds until the next event, and for no event behind them.
+    slow.close()
+    bench.run(0.5)
+    silent = subscribe(bench, Feature.EVENTS)
+    silent.stop_reading()
+    subscribe(bench, Feature.EVENTS, reader)
     since = bench.now
-    link = bench.motion()
-    bench.run(_BUFFERS * bench.config.state_period / 72 + 10)
-    period = bench.config.state_period
-    stamps = _stamps(reader, since)
-    gaps = [b - a for a, b in pairwise(stamps)]
-    # Where no trap comes into a send it lasts until that gives up by itself.
-    longest = period + (1 if bench.setting.dialect.send_attends else 62)
-    if max(gaps) > longest or sum(gap > 1.6 * period for gap in gaps) > 3:
-        raise Broken(f"beside a client that does not read another one waited {max(gaps):.2f} s")
-    if any(a + b < 0.8 * period for a, b in pairwise(gaps)):
-        raise Broken("what could not be sent in time comes in a burst")
-    bench.moves_through(link, bench.wave(5))
-    silent.read_on()
-    bench.until(lambda: silent.lost, 5, "a client that does not read is dropped")
-    fresh = bench.state()
-    bench.status(fresh, 3)
+    _write(bench, 1, "First")
+    bench.until(lambda: bool(_events_of(reader, since)), 1, "an event is told")
+    bench.run(0.01)
+    times = max(1, round(0.1 / bench.config.state_period))
+    size = spec.JOINT_POSITION.length + spec.STATUS.length + 8
+    _fill(bench, silent, room=times * size + 50)
+    _write(bench, 2, "Second")
+    _is_dropped(bench, silent, reader)
+    bench.status(bench.state(), 1)
 
 
 def _breaks_in_a_send(bench: Bench) -> None:
     """A client that does not read is reset while the server has bytes for it."""
     silent, reader = bench.state(reading=False), bench.state()
-    bench.run(_BUFFERS * bench.config.state_period / 144)
-    silent.close(abort=True)
     bench.run(1)
+    _fill(bench, silent)
+    _until_held(bench)
+    silent.close(abort=True)
+    bench.run(0.2)
     since = bench.now
-    bench.run(5)
-    _on_schedule(bench, reader, since, "after another client was reset")
-
-
-def _hello(bench: Bench, features: Feature) -> Link:
-    link = bench.state()
-    link.send(encode(HELLO._replace(subscribe=int(features)), spec.Comm.REQUEST))
-    link.expect(messages.HelloReply, 2, "HELLO is answered")
-    return link
+    bench.run(2)
+    on_turn(bench, rounds(reader, since), "another client was reset")
+    # Nothing is known of what a send that failed has sent: its client is dropped.
+    bench.fails("ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED")
+    bench.until(lambda: reader.lost, 0.3, "a client is dropped when a send to it fails")
+    bench.status(bench.state(), 1)
 
 
 def _feedback_of(link: Link) -> list[tuple[float, messages.JointFeedback]]:
@@ -105,8 +170,8 @@ def _feedback_of(link: Link) -> list[tuple[float, messages.JointFeedback]]:
 
 
 def _feedback(bench: Bench) -> None:
-    first = _hello(bench, Feature.FEEDBACK)
-    link = _hello(bench, Feature.FEEDBACK | Feature.PROGRESS)
+    first = subscribe(bench, Feature.FEEDBACK)
+    link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
     motion = bench.motion()
     points: list[Point] = bench.wave(8)
     motion.send(bench.download(points))
@@ -149,42 +214,82 @@ def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.JointFeedback]
         raise Broken("no JOINT_FEEDBACK shows the motion")
 
 
+def _write(bench: Bench, number: int, title: str, kind: EventType = EventType.WARNING) -> None:
+    """An event of the state server's task: of others it may not be told on every controller."""
+    task = bench.task("ROS_stateServer")
+    bench.controller.log.write(10_000 * (number % 9 + 1) + number, kind, title, task=task)
+
+
+def _events_of(link: Link, since: float) -> list[tuple[float, messages.Event]]:
+    found = [(when, decode(frame)) for when, frame in link.frames if when >= since]
+    return [(when, told) for when, told in found if isinstance(told, messages.Event)]
+
+
+def _are_told(link: Link, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
+    """Broken unless just these events were told, in order, no more than ten a second."""
+    found = _events_of(link, since)
+    told = [(e.domain, e.number, e.type, e.title.rstrip("\0 ")) for _, e in found]
+    if told != list(wanted):
+        raise Broken(f"wanted are events {wanted}, EVENT told {told}")
+    if any(b - a < 0.08 for (a, _), (b, _) in pairwise(found)):
+        raise Broken(f"events come at {[when for when, _ in found]}")
+
+
+def _burst(bench: Bench, link: Link, count: int) -> tuple[float, list[tuple[int, int, int, str]]]:
+    """Write an event, and `count` others just when it is told; what is then to be told."""
+    since, kinds = bench.now, tuple(EventType)
+    before = len(_events_of(link, 0.0))
+    _write(bench, 100, "First")
+    bench.until(lambda: len(_events_of(link, 0.0)) > before, 1, "an event is told")
+    wanted = [(2, 100, 2, "First")]
+    for number in range(count):
+        # A title has room for 80 characters; one may be empty.
+        title = "" if number == 7 else f"Trial {number} " + number % 5 * "of a long row "
+        _write(bench, number, title * (1 + 9 * (number == 9)), kinds[number % 3])
+        text = (title * (1 + 9 * (number == 9)))[:80].rstrip()
+        wanted.append((number % 9 + 1, number, number % 3 + 1, text))
+    if count > _WAITING:
+        wanted[_WAITING + 1 :] = [(0, count - _WAITING, 2, "Events that were not told")]
+    return since, wanted
+
+
 def _events(bench: Bench) -> None:
-    link, plain = _hello(bench, Feature.EVENTS), bench.state()
-    bench.run(0.5)
-    write = bench.controller.log.warning
-    for number in range(3):
-        write(80_100 + number, f"Trial {number}")
-        bench.run(0.5)
-    told = [
-        content for _, frame in link.frames if isinstance(content := decode(frame), messages.Event)
-    ]
-    wanted = [(8, 100 + n, 2, f"Trial {n}") for n in range(3)]
-    if [(e.domain, e.number, e.type, e.title.rstrip("\0 ")) for e in told] != wanted:
-        raise Broken(f"three events were written, EVENT told {told}")
-    if any(f.number == spec.EVENT.number for _, f in plain.frames):
-        raise Broken("EVENT comes to a client that did not ask for it")
-    for number in range(25):
-        write(80_150 + number, "Flood")
-    bench.run(6)
-    bench.healthy()
-    floods = [
-        content
-        for _, frame in link.frames
-        if isinstance(content := decode(frame), messages.Event) and content.title.startswith("F")
-    ]
-    if not 8 <= len(floods) <= 25:
-        raise Broken(f"of 25 events at once {len(floods)} are told")
-    link.close()
-    bench.run(1)
+    links = [subscribe(bench, Feature.EVENTS), bench.state()]
+    links.append(subscribe(bench, Feature.EVENTS | Feature.PROGRESS))
+    server = bench.controller.task(bench.task("ROS_stateServer"))
+    for name in ("events_put", "events_taken"):
+        # The last values of counters come after years.
+        server[f"ROS_stateServer:{name}"] = 2**22 - 12
+    for count in (12, 16, 17, 21):
+        since, wanted = _burst(bench, links[0], count)
+        bench.run(0.12 * (len(wanted) + 2))
+        for link in (links[0], links[2]):
+            _are_told(link, since, wanted)
+        if _events_of(links[1], 0.0):
+            raise Broken("EVENT comes to a client that did not ask for it")
+    # Nobody wants those that still wait, nor the number of the others.
+    since, wanted = _burst(bench, links[0], 20)
+    subscribe(bench, Feature.PROGRESS, links[2])
+    subscribe(bench, Feature.PROGRESS, links[0])
+    bench.run(0.3)
+    seen, begun = len(_events_of(links[0], since)), since
     for number in range(100):
-        write(80_200 + number, "Nobody listens")
-    bench.run(1)
+        _write(bench, number, "Nobody listens")
+    bench.run(0.5)
     bench.healthy()
-    link = _hello(bench, Feature.EVENTS)
-    bench.run(1)
-    if any(f.number == spec.EVENT.number for _, f in link.frames):
+    since = bench.now
+    subscribe(bench, Feature.EVENTS, links[2])
+    bench.run(0.5)
+    if seen > 8 or len(_events_of(links[0], begun)) > seen or _events_of(links[2], since):
         raise Broken("events from before HELLO are told")
+    since, wanted = _burst(bench, links[2], 2)
+    bench.run(0.5)
+    _are_told(links[2], since, wanted)
+    links[2].close()
+    bench.run(0.5)
+    for number in range(100):
+        _write(bench, number, "Who listened has left")
+    bench.run(0.5)
 
 
 def _limits_of_the_controller(bench: Bench) -> None:
@@ -230,9 +335,9 @@ def _limits_of_the_controller(bench: Bench) -> None:
 
 
 CASES = (
-    Case("several-watch", "three clients at once, a fourth takes the third one's place", "watching",
+    Case("several-watch", "three clients at once, and who makes room for a fourth", "watching",
          _several_watch),
-    Case("does-not-read", "a state client that does not read holds nobody up", "watching",
+    Case("does-not-read", "a state client that does not read holds nobody up for long", "watching",
          _does_not_read, "R13"),
     Case("breaks-in-send", "a state client that is reset while the server sends", "watching",
          _breaks_in_a_send, "R13"),
