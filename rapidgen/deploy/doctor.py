@@ -215,7 +215,7 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
                     "warn",
                     f"{where} has a main routine too",
                     "a task has one main: keep this module out of the driver's tasks, or set "
-                    "`call_main: false` and call ROS_main from it",
+                    "`main: own` and call ROS_run from it",
                 )
     if not found:
         yield Check("names", "ok", "no module in HOME has a name of the driver's")

@@ -68,6 +68,10 @@ class DiagnosticError(Exception):
         self.diagnostics: tuple[Diagnostic, ...] = found
         self.exit_code = exit_code
 
+    def __reduce__(self) -> tuple[object, ...]:
+        # Worker processes hand it on; an Exception would take its text for the diagnostics.
+        return type(self), (self.diagnostics,), {"exit_code": self.exit_code}
+
 
 def suggest(word: str, known: Sequence[str]) -> str:
     """A "did you mean" sentence for `word`, or an empty text when nothing is close."""

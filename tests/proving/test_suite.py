@@ -14,7 +14,7 @@ from rapidgen.proving.explore import explore
 from rapidgen.proving.model import Broken
 from rapidgen.proving.mutation import mutants
 from rapidgen.proving.run import Starter, prove, settings
-from rapidgen.proving.suite import CASES
+from rapidgen.proving.suite import _BACKGROUND, CASES
 from rapidgen.rapid import parse
 
 KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
@@ -174,3 +174,31 @@ def test_every_case_has_a_name_of_its_own():
 
 def test_every_robot_has_settings_for_its_groups():
     assert "rob_r" in settings(load_config("irb14000"))
+
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "robots" / "examples").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_every_example_can_be_proven(path, capsys):
+    """One commissions, one has a main of its own, one several groups."""
+    words = ["test", str(path), "--quick", "--case", "ping", "--case", "sent-meanwhile"]
+    assert main([*words, "--jobs", "2"]) == 0, capsys.readouterr().out
+
+
+def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():
+    known = {case.name for case in CASES if case.background}
+    config = load_config("irb120", overrides=["commissioning=true"])
+    assert "not-executing" in known
+    assert prove(config, jobs=1, only=("not-executing",), every_setting=False).outcomes == []
+
+
+def test_the_cases_that_need_background_tasks_exist():
+    assert set(_BACKGROUND) == {case.name for case in CASES if case.background}
+
+
+def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):
+    monkeypatch.setattr("rapidgen.proving.run.in_its_cell", lambda system, _config: system)
+    words = ["test", "irb120", "--set", "main=own", "--quick", "--case", "ping", "--jobs", "2"]
+    assert main(words) == 2
+    assert "RG402" in capsys.readouterr().err
