@@ -5,6 +5,7 @@ from dataclasses import replace
 from rapidgen.proving.model import Case
 from rapidgen.proving.suite import (
     batches,
+    commanding,
     compatible,
     controller,
     controlling,
@@ -45,6 +46,7 @@ _ALL: tuple[Case, ...] = (
     *batches.CASES,
     *cutting.CASES,
     *controlling.CASES,
+    *commanding.CASES,
     *telling.CASES,
     *watching.CASES,
     *reading.CASES,
