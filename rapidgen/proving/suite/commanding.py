@@ -113,9 +113,11 @@ def _leave(bench: Bench) -> None:
 
 def _not_begun(bench: Bench) -> None:
     """A stream that has points but did not begin to move is stopped: no point was reached."""
+    if bench.config.trajectory.preload <= 0:
+        return
     control, watcher = bench.control(), bench.watcher()
     stream = Streamer(bench)
-    stream.put(way(bench, 2), BEGIN)
+    stream.put(way(bench, 1), BEGIN)
     number = stream.accepted("the first points").trajectory
     control.send(STOP)
     _acknowledged(control.reply(_TRAJ, 1), "STOP")

@@ -113,7 +113,7 @@ def _patience(bench: Bench) -> None:
     policy, place = bench.config.trajectory, bench.position
     seconds = max(0.1, 1.02 * policy.min_segment)
     few = bench.wave(20)
-    long = bench.wave(policy.ring + 60, duration=seconds, size=0.02)
+    long = bench.wave(min(policy.ring + 60, policy.capacity), duration=seconds, size=0.02)
     old = bench.motion()
     for what, points in (
         ("nothing", []),
