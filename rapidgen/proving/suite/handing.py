@@ -254,8 +254,6 @@ def _ends_while_fed(bench: Bench) -> None:
     table, points = Table(bench), _long(bench, policy.ring + 60)
     link, data = table.link, bench.download(points)
     for action in ("STOP", "stop", "another"):
-        if action == "stop" and bench.config.commissioning:
-            continue
         since, start = bench.now, bench.position
         # From wherever it stood to where the way begins.
         table.number += 2
