@@ -291,6 +291,50 @@ def _progress_of_a_successor(bench: Bench) -> None:
         raise Broken(f"half a trajectory was received, PROGRESS says {states}")
 
 
+def _progress_in_between(bench: Bench) -> None:
+    """What another task has written of two numbers is told as one: of nothing, or of the newer."""
+    link, motion = bench.watcher(), bench.motion()
+    points = [(p, 30.0) for p, _ in bench.wave(4)]
+    far = (bench.group.joints[0].upper + 0.5, *points[2][0][1:])
+    points[2] = (far, 30.0)
+    motion.send(bench.download(points))
+    told = _newest(bench, link)
+    refusal = (TrajectoryState.REFUSED, 2, 0, 0, Reason.JOINT_LIMIT, 2, 1)
+    if told[1:] != refusal:
+        raise Broken(f"point 2 was refused for joint 1, PROGRESS says {told}")
+    # A trajectory begins: nothing is known of it but its number.
+    task = bench.controller.task(bench.task("ROS_motionServer"))
+    declared = task.rapid.program.modules["ros_common"].declarations
+    names = {key.rstrip("_0123456789"): f"ROS_common:{key}" for key in declared}
+    task[names["ros_trajectory"]] = told.trajectory + 1
+    between = _newest(bench, link)
+    if between != (told.trajectory + 1, TrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
+        raise Broken(f"a trajectory begins after {told}, PROGRESS says {between}")
+    task[names["ros_trajectory"]] = told.trajectory
+    # A STOP takes back the refusal: its code is written before its state.
+    task[names["ros_refusal"]] = Reason.STOPPED
+    between = _newest(bench, link)
+    if between[1:] != (TrajectoryState.STOPPED, 2, 0, 0, Reason.STOPPED, -1, 0):
+        raise Broken(f"a STOP takes back a refusal, PROGRESS says {between}")
+    status = bench.status(link)
+    if (status.in_error, status.error_code) != (0, 0):
+        raise Broken(f"a STOP takes back a refusal, STATUS says {status}")
+    bench.moves_through(motion, bench.wave(3))
+
+
+def _other_hellos(bench: Bench) -> None:
+    """Of a newer client, with wishes that nobody knows, and one that cannot be read."""
+    link, later = bench.state(), 1 << 20
+    newer = HELLO._replace(protocol=spec.PROTOCOL_VERSION + 1, subscribe=later | 1)
+    link.send(encode(newer, spec.Comm.REQUEST))
+    link.expect(messages.HelloReply, 2, "a newer HELLO is answered")
+    bench.progress(link)
+    bench.fails("ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
+    link.send(encode(HELLO, spec.Comm.REQUEST))
+    bench.until(lambda: link.lost, 1, "a HELLO that cannot be read breaks the link")
+    bench.progress(bench.watcher())
+
+
 CASES = (
     Case("hello", "HELLO tells limits and capacities as they were configured", "paired",
          _hello_tells_all),
@@ -309,4 +353,8 @@ CASES = (
          _progress_of_an_early_end, "R11, R14"),
     Case("progress-superseded", "PROGRESS is of the newest trajectory", "paired",
          _progress_of_a_successor),
+    Case("progress-in-between", "PROGRESS while another task writes what it tells", "paired",
+         _progress_in_between),
+    Case("other-hellos", "a HELLO of later versions, and one that cannot be read", "paired",
+         _other_hellos),
 )  # fmt: skip

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
 from rapidgen.protocol import Frame, decode, encode, messages, spec
 from rapidgen.protocol.spec import Feature, Reason, TrajectoryState
@@ -11,6 +11,7 @@ from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.virtual.builtins.clocks import Clock
 
+C = TypeVar("C")
 _NONE = Feature(0)
 
 
@@ -24,6 +25,14 @@ class Round(NamedTuple):
     def numbers(self) -> list[int]:
         """Message numbers, in order."""
         return [frame.number for frame in self.frames]
+
+
+def content(one: Round, kind: type[C]) -> C:
+    """The first message of a kind in a round."""
+    found = next((c for frame in one.frames if isinstance(c := decode(frame), kind)), None)
+    if found is None:
+        raise Broken(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
+    return found
 
 
 def rounds(link: Link, since: float) -> list[Round]:
@@ -99,10 +108,8 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
     seen: set[int] = set()
     before = bench.track_at(told[0].time)
     for one in told:
-        joints, status, progress = (decode(frame) for frame in one.frames[:3])
-        assert isinstance(joints, messages.JointPosition)
-        assert isinstance(status, messages.Status)
-        assert isinstance(progress, messages.Progress)
+        joints, status = content(one, messages.JointPosition), content(one, messages.Status)
+        progress = content(one, messages.Progress)
         count, here = len(before), bench.track_at(one.time)
         if distance(joints.joints[:count], here) > 0.03 or any(joints.joints[count:]):
             raise Broken(f"at {one.time:.3f} s the robot is at {here}, {joints}")
@@ -123,13 +130,16 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
 
 def _each_round(bench: Bench) -> None:
     """Three clients with wishes that change: a trajectory, one that is refused, a STOP."""
-    progress, everything = Feature.PROGRESS, Feature.PROGRESS | Feature.FEEDBACK
-    links = [subscribe(bench, everything), subscribe(bench, _NONE), subscribe(bench, progress)]
+    some, everything = Feature.PROGRESS, Feature.PROGRESS | Feature.FEEDBACK
+    links = [subscribe(bench, everything), subscribe(bench, _NONE), subscribe(bench, some)]
     motion, joints, period = bench.motion(), bench.group.joints, bench.config.state_period
-    for wishes in ((everything, _NONE, progress), (progress, _NONE, progress)):
+    for wishes in ((everything, _NONE, some), (some, _NONE, some)):
         subscribe(bench, wishes[0], links[0])
+        number = bench.progress(links[0]).trajectory
         since = _pause(bench, links[0])
         points = bench.wave(5)
+        # Also while it stays at a point it is under way.
+        points[3:3] = [(points[2][0], 1.0)]
         motion.send(bench.download(points))
         bench.wait_until_at(points[-1][0])
         bench.run(3 * period + 2 * bench.setting.motion.settle)
@@ -141,11 +151,17 @@ def _each_round(bench: Bench) -> None:
         bench.run(3 * period)
         told = _all_alike(bench, list(zip(links, wishes, strict=True)), since)
         states = _is_true(bench, told)
-        wanted = {TrajectoryState(n) for n in (2, 3, 4, 6)}
-        if not states >= wanted:
+        if not states >= {2, 3, 4, 6}:
             raise Broken(f"a trajectory, a refusal and a STOP: PROGRESS tells states {states}")
+        progress = [content(one, messages.Progress) for one in told]
+        numbers = list(dict.fromkeys(p.trajectory for p in progress))
+        if numbers[-2:] != [number + 1, number + 2] or not number <= numbers[0]:
+            raise Broken(f"two trajectories came after {number}, PROGRESS tells of {numbers}")
+        done = (TrajectoryState.DONE, len(points), len(points), len(points), 0, -1, 0)
+        if done not in [p[1:] for p in progress]:
+            raise Broken(f"{len(points)} points were executed, no PROGRESS says so: {progress}")
         refusal = (TrajectoryState.REFUSED, 1, 0, 0, Reason.JOINT_LIMIT, 1, len(joints))
-        if refusal not in [decode(one.frames[2])[1:] for one in told]:
+        if refusal not in [p[1:] for p in progress]:
             raise Broken(f"joint {len(joints)} of point 1 is wrong, no PROGRESS says so")
 
 
@@ -154,17 +170,13 @@ _WRAP = 1000
 
 
 def _stamps(told: Sequence[Round]) -> list[float]:
-    found = [decode(one.frames[-1]) for one in told]
-    return [f.time for f in found if isinstance(f, messages.JointFeedback)]
+    return [content(one, messages.JointFeedback).time for one in told]
 
 
 def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
     """Broken unless stamps of JOINT_FEEDBACK tell the time of the rounds, and velocities theirs."""
     period, count = bench.config.state_period, len(bench.position)
-    feedback = [decode(one.frames[-1]) for one in told]
-    for before, now in pairwise(feedback):
-        assert isinstance(before, messages.JointFeedback)
-        assert isinstance(now, messages.JointFeedback)
+    for before, now in pairwise(content(one, messages.JointFeedback) for one in told):
         if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
             raise Broken(f"{what}: {now}")
         seconds = (now.time - before.time) % _WRAP
@@ -238,6 +250,36 @@ def _advance(bench: Bench, seconds: float) -> None:
         clock.started -= int(seconds * 10**9)
 
 
+def _not_over_yet(bench: Bench) -> None:
+    """A halted trajectory whose path is not cleared yet: the robot stands, and takes no other."""
+    link, motion, period = bench.watcher(), bench.motion(), bench.config.state_period
+    for ending, state, reason in (
+        ("STOP", TrajectoryState.STOPPED, Reason.STOPPED),
+        ("leaves", TrajectoryState.FAILED, Reason.CLIENT_LOST),
+    ):
+        motion.send(bench.download(bench.wave(8)))
+        bench.wait_until_moving()
+        bench.run(0.6)
+        bench.fails("ROS_motion", "ClearPath", "ERR_PATH_STOP", 3)
+        if ending == "STOP":
+            motion.send(STOP)
+        else:
+            motion.close()
+        bench.wait_until_standing(3)
+        since = _pause(bench, link)
+        bench.run(3 * period)
+        for one in rounds(link, since):
+            status, told = content(one, messages.Status), content(one, messages.Progress)
+            if (told.state, told.reason, told.point) != (state, reason, told.reached):
+                raise Broken(f"{ending} came, its path is not cleared yet, PROGRESS says {told}")
+            if (status.in_motion, status.motion_possible) != (0, 0):
+                raise Broken(f"{ending} came, its path is not cleared yet, STATUS says {status}")
+        bench.run(3)
+        if not bench.status(link).motion_possible:
+            raise Broken(f"{ending} came 3 s ago, no motion is possible")
+        motion = bench.motion()
+
+
 def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()
@@ -248,8 +290,8 @@ def _first_of_all(bench: Bench) -> None:
         bench.run(4 * period)
         found = rounds(link, came)
         on_turn(bench, found, f"visit {visit + 1}")
-        first = decode(found[0].frames[1])
-        if not isinstance(first, messages.Status) or first.in_motion:
+        first = content(found[0], messages.Status)
+        if first.in_motion:
             raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
         subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS, link)
         _pause(bench, link)
@@ -278,8 +320,8 @@ def _moved_by_others(bench: Bench) -> None:
             step = size * unit * (1 if joint.upper - here[axis] > here[axis] - joint.lower else -1)
             group.jump((*here[:axis], here[axis] + step, *here[axis + 1 :]))
             bench.run(3 * period)
-            told = [decode(one.frames[1]) for one in rounds(link, since)]
-            seen = sum(isinstance(t, messages.Status) and t.in_motion == 1 for t in told)
+            told = [content(one, messages.Status) for one in rounds(link, since)]
+            seen = sum(status.in_motion == 1 for status in told)
             if seen != times:
                 raise Broken(f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so")
 
@@ -290,5 +332,7 @@ CASES = (
          _over_the_ends),
     Case("first-of-all", "the first client, and who comes when all have left", "reading",
          _first_of_all),
+    Case("not-over-yet", "a halted trajectory whose path is not cleared yet", "reading",
+         _not_over_yet),
     Case("moved-by-others", "movements that no signal shows", "reading", _moved_by_others, "R16"),
 )  # fmt: skip
