@@ -16,6 +16,7 @@ from rapidgen.proving.suite import (
     framing,
     halting,
     handing,
+    interrupted,
     joints,
     limits,
     links,
@@ -59,6 +60,7 @@ _ALL: tuple[Case, ...] = (
     *faults.CASES,
     *moving.CASES,
     *halting.CASES,
+    *interrupted.CASES,
 )
 
 # They boot many controllers, or let hours pass.
@@ -76,9 +78,13 @@ _ONCE = {
 
 # They are answered, or keep their link, while the program is stopped.
 _BACKGROUND = {
+    "answers-soon",
     "batch-not-now",
+    "before-a-move",
+    "builds-differ",
     "e-stop-status",
     "ends-while-fed",
+    "first-reason",
     "manual-speed",
     "manual-status",
     "nobody-answers",
@@ -87,10 +93,14 @@ _BACKGROUND = {
     "patience",
     "pause-ends",
     "progress-ended",
+    "start-alone",
     "stop-pp-to-main",
     "stopped-unseen",
     "stream-ended",
     "supervisor-gone",
+    "unseen",
+    "why-it-ended",
+    "without-routines",
 }
 
 CASES = tuple(

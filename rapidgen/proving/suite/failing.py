@@ -167,7 +167,7 @@ def _counters_wrap(bench: Bench) -> None:
     for before in (1, 3, 5):
         other = bench.beside(bench.system)
         try:
-            _set_counters(other, _WRAP - before)
+            set_counters(other, _WRAP - before)
             watcher, link = other.watcher(), other.motion()
             first = other.progress(watcher).trajectory
             for _ in range(4):
@@ -183,7 +183,8 @@ def _counters_wrap(bench: Bench) -> None:
             other.close()
 
 
-def _set_counters(bench: Bench, value: int) -> None:
+def set_counters(bench: Bench, value: int) -> None:
+    """Give all counters a value, before anything is asked of the driver."""
     task = bench.controller.task(bench.task("ROS_motion"))
     declared = task.rapid.program.modules["ros_common"].declarations
     for name in [name for row in _COUNTERS for name in row]:

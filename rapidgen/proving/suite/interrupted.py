@@ -1,0 +1,394 @@
+"""Stops at the worst moments, and a driver that lacks parts of what it usually has."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+from functools import partial
+from typing import Any
+
+from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
+from rapidgen.protocol import messages, spec
+from rapidgen.protocol.spec import Reason, TrajectoryState, TriState
+from rapidgen.proving.bench import Bench, with_module
+from rapidgen.proving.link import STOP, Link
+from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.suite.failing import set_counters
+from rapidgen.proving.suite.halting import at_call
+from rapidgen.proving.suite.moving import SOON, begins, datum, last_event, patience, unit_of
+from rapidgen.system.model import System
+from rapidgen.virtual.errors import RapidError
+from rapidgen.virtual.log import EventType
+
+_TRAJ = spec.JOINT_TRAJ_PT.number
+_WRAP = 2**22
+
+
+def _ended(bench: Bench, watcher: Link, reason: Reason, what: str) -> messages.Progress:
+    """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
+    told = bench.progress(watcher)
+    stopped = reason is Reason.STOPPED
+    state = TrajectoryState.STOPPED if stopped else TrajectoryState.FAILED
+    if (told.state, told.reason) != (state, reason):
+        raise Broken(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
+    return told
+
+
+def _works(bench: Bench, link: Link) -> None:
+    """A trajectory begins soon, and comes to its end in time."""
+    unit = unit_of(bench)
+    points, sent = bench.wave(2, duration=unit), bench.now
+    link.send(bench.download(points))
+    begins(bench, sent)
+    bench.wait_until_at(points[1][0], unit + 0.3)
+    bench.run(0.1)
+
+
+def _before_a_move(bench: Bench) -> None:
+    """Stop and Start while the motion task stands just before a move: it does not begin."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    task = bench.controller.task(bench.task("ROS_motion"))
+    for number, pause in ((1, 0.001), (2, 0.03), (3, 0.07), (3, 0.001)):
+        at_call(bench, "ROS_motion", "MoveAbsJ", number, partial(bench.controller.perform, "stop"))
+        link.send(bench.download(bench.wave(5, duration=unit)))
+        bench.until(lambda: task.state == "stopped", 3 * unit, "the program is stopped")
+        bench.wait_until_standing(1)
+        bench.run(pause)
+        bench.controller.perform("start")
+        bench.stays(patience(bench), f"the program was stopped before move {number}, and started")
+        told = _ended(bench, watcher, Reason.PROGRAM_STOPPED, "the program was stopped")
+        if (told.planned, told.reached) != (number + 1, max(1, number - 1)):
+            raise Broken(f"the program was stopped before move {number}, PROGRESS says {told}")
+        _works(bench, link)
+
+
+def _first_reason(bench: Bench) -> None:
+    """Of two that come together the first one counts, and the trajectory ends once."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    last = last_event(bench)
+    link.send(bench.download(bench.wave(5, duration=unit)))
+    begins(bench, bench.now)
+    bench.run(unit)
+    link.send(STOP)
+    link.reply(_TRAJ)
+    bench.controller.perform("stop")
+    bench.run(patience(bench))
+    _ended(bench, watcher, Reason.STOPPED, "STOP, then a stop of the program")
+    bench.controller.perform("start")
+    bench.run(patience(bench))
+    # A move that fails just when the supervisor has asked for a halt.
+    under_way = _fails_with_a_halt(bench, "ERR_COLL_STOP")
+    link.send(bench.download(bench.wave(5, duration=unit)))
+    bench.until(lambda: bool(under_way), 2 * unit, "the second move begins")
+    link.send(STOP)
+    link.reply(_TRAJ)
+    bench.wait_until_standing(2)
+    bench.run(patience(bench))
+    _ended(bench, watcher, Reason.STOPPED, "STOP, then a move that fails")
+    _works(bench, link)
+    said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
+    if said:
+        raise Broken(f"a trajectory was stopped, the event log says {[str(e) for e in said]}")
+
+
+def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
+    """The second move from now fails, as soon as the motion task is asked to drop its path.
+
+    The time when it is under way is put into the list.
+    """
+    view = bench.controller.task(bench.task("ROS_motion"))
+    asked, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
+    program, left = view.rapid.program, 2
+    under_way: list[float] = []
+    routine = program.find_routine(None, "moveabsj")
+    assert routine is not None
+    as_before = program.space[routine.code]
+
+    def fails(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
+        nonlocal left
+        left -= 1
+        if left:
+            return as_before(*arguments)
+        program.space[routine.code] = as_before
+        under_way.append(bench.now)
+        while view[asked] == view[done]:
+            view.rapid.sleep(0.001)
+        raise RapidError(error)
+
+    program.space[routine.code] = fails
+    return under_way
+
+
+def _late_point(bench: Bench) -> None:
+    """A point of a stopped trajectory that is announced late is dropped."""
+    watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
+    task = bench.controller.task(bench.task("ROS_motion"))
+    ring, head = datum(bench, "ros_ring"), datum(bench, "ros_head")
+    last = last_event(bench)
+    link.send(bench.download(bench.wave(5, duration=unit)))
+    begins(bench, bench.now)
+    bench.run(1.15 * unit)
+    link.send(STOP)
+    link.reply(_TRAJ)
+    bench.run(patience(bench))
+    told = _ended(bench, watcher, Reason.STOPPED, "STOP")
+    points = list(task[ring].values())
+    place = int(task[head]) % len(points)
+    points[place].session, points[place].index = told.trajectory, told.planned + 1
+    points[place].target, points[place].duration = points[1].target, 1.0
+    task[head] = task[head] + 1
+    bench.stays(1, "a point of a stopped trajectory came late")
+    _works(bench, link)
+    if any(e.type is EventType.ERROR for e in bench.controller.log.since(last)):
+        raise Broken("a point of a stopped trajectory came late, and is told as an error")
+
+
+@contextmanager
+def _beside(bench: Bench, system: System, *, early: bool = False) -> Iterator[Bench]:
+    """Another controller; `early`: none of its tasks has run yet."""
+    setting = bench.setting
+    if early:
+        setting = replace(setting, motion=replace(setting.motion, settle=0.0))
+    other = bench.beside(system, setting=setting)
+    try:
+        yield other
+    finally:
+        other.close()
+
+
+def _bare(system: System, *events: str) -> System:
+    """Without signals, and with the event routines of these events alone."""
+    kept = tuple(e for e in system.events if e.event in events)
+    return replace(system, signals=(), outputs=(), cross=(), events=kept)
+
+
+def _moves(bench: Bench, link: Link) -> None:
+    """A trajectory is on its way from its point 1 to 2."""
+    unit = unit_of(bench)
+    link.send(bench.download(bench.wave(6, duration=unit)))
+    begins(bench, bench.now)
+    bench.run(1.6 * unit)
+
+
+def _unseen(bench: Bench) -> None:
+    """No signals and no event routines: a stop is seen by the mode, or when main begins anew."""
+    with _beside(bench, _bare(bench.system)) as other:
+        watcher, link = other.watcher(), other.motion()
+        for action, reason, restarts in (
+            ("manual", Reason.MODE_CHANGED, False),
+            ("stop", Reason.STOPPED, False),
+            ("stop", Reason.PROGRAM_STOPPED, True),
+        ):
+            _moves(other, link)
+            last = last_event(other)
+            other.controller.perform(action)
+            other.wait_until_standing(1)
+            halted = other.now
+            if restarts:
+                other.controller.perform("pp-to-main")
+            elif reason is Reason.STOPPED:
+                other.run(3)
+                link.send(STOP)
+                halted = other.now
+                link.reply(_TRAJ)
+            if not restarts:
+                other.run(5)
+                _ended(other, watcher, reason, f"{action} of a driver without signals")
+            said = [e.time for e in other.controller.log.since(last) if "answer" in e.title]
+            if len(said) != int(not restarts) or any(abs(t - halted - 2) > 0.2 for t in said):
+                raise Broken(f"from {halted:.2f} s on nobody answers, which is told at {said} s")
+            other.start_again()
+            other.stays(1, f"{action} of a driver without signals, then Start")
+            _ended(other, watcher, reason, f"{action} of a driver without signals, then Start")
+            other.run(patience(other))
+            _works(other, link)
+
+
+def _start_alone(bench: Bench) -> None:
+    """Start runs an event routine, and an emergency stop does: both drop the path by themselves."""
+    with _beside(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
+        watcher, link = other.watcher(), other.motion()
+        for action in ("stop", "e-stop", "stop of the supervisor"):
+            _moves(other, link)
+            if action in ("stop", "e-stop"):
+                other.controller.perform(action)
+            else:
+                # It ends, and with it the program stops.
+                other.fails("ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+            other.wait_until_standing(1)
+            other.run(patience(other))
+            if action == "e-stop" and other.setting.dialect.e_stop_routines:
+                _ended(other, watcher, Reason.PROGRAM_STOPPED, action)
+            other.start_again()
+            other.stays(patience(other), f"{action}, then Start")
+            _ended(other, watcher, Reason.PROGRAM_STOPPED, f"{action}, then Start")
+            if action in ("stop", "e-stop"):
+                _works(other, link)
+
+
+def _without_routines(bench: Bench) -> None:
+    """Signals, and no event routines: the supervisor alone ends all. Counters begin anew."""
+    with _beside(bench, replace(bench.system, events=()), early=True) as other:
+        view = other.controller.task(other.task("ROS_supervisor"))
+        set_counters(other, _WRAP - 2)
+        # Requests of long ago, and a ring in the middle of which its counters begin anew.
+        view[datum(other, "ros_stop_done")] = _WRAP - 4
+        for name in ("ros_head", "ros_tail"):
+            view[datum(other, name)] = _WRAP - 64
+        watcher, link = other.watcher(), other.motion()
+        control = other.control() if other.group.ports.control else None
+        for number in (_WRAP - 1, 0):
+            _pauses_at_its_end(other, watcher, link, control)
+            if other.progress(watcher).trajectory != number:
+                raise Broken(f"the last trajectory was {number}, {other.progress(watcher)}")
+        _refills(other, link)
+        for action, reason in (
+            ("stop", Reason.PROGRAM_STOPPED),
+            ("e-stop", Reason.EMERGENCY_STOP),
+            ("motors-off", Reason.MOTORS_OFF),
+        ):
+            _moves(other, link)
+            if control is not None:
+                _pause(other, control, 1)
+            other.controller.perform(action)
+            if control is not None and control.ask(messages.Pause(0)) != messages.NotDone(reason):
+                raise Broken(f"a pause ends right behind {action}")
+            other.wait_until_standing(1)
+            other.run(patience(other))
+            _ended(other, watcher, reason, f"{action} without event routines")
+            other.start_again()
+            other.stays(patience(other), f"{action} without event routines, then Start")
+            _works(other, link)
+        _moves(other, link)
+        other.controller.perform("power-loss")
+        other.run(6)
+        control = other.control() if control is not None else None
+        other.start_again()
+        other.stays(2, "a power failure without event routines, then Start")
+        if control is not None:
+            told = control.expect(messages.Stopped, 1, "STOPPED arrives")
+            if told.reason != Reason.POWER_FAILURE:
+                raise Broken(f"a power failure has ended a trajectory, STOPPED says {told}")
+        _works(other, other.motion())
+
+
+def _pause(bench: Bench, control: Link, paused: int) -> None:
+    told = control.ask(messages.Pause(paused))
+    bench.run(0.1)
+    if told != messages.Acknowledged() or bench.standing != bool(paused):
+        raise Broken(f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}")
+
+
+def _pauses_at_its_end(bench: Bench, watcher: Link, link: Link, control: Link | None) -> None:
+    """A trajectory that is paused on its way, and in the stay at its end."""
+    unit = unit_of(bench)
+    way = bench.wave(2, duration=unit)
+    link.send(bench.download([*way, (way[1][0], 2 * unit)]))
+    begins(bench, bench.now)
+    if control is not None:
+        for paused in (1, 0):
+            _pause(bench, control, paused)
+    bench.wait_until_at(way[1][0], unit + 1)
+    if control is not None:
+        _pause(bench, control, 1)
+        bench.run(2 * bench.config.state_period)
+        if bench.status(watcher).motion_possible:
+            raise Broken("a trajectory is paused, STATUS says that another one may come")
+    bench.run(2.5 * unit)
+    told, status = bench.progress(watcher), bench.status(watcher)
+    if (told.state, status.motion_possible) != (TrajectoryState.DONE, 1):
+        raise Broken(f"a trajectory that was paused in its last stay is over: {told}, {status}")
+
+
+def _refills(bench: Bench, link: Link) -> None:
+    """A trajectory that does not fit into the ring goes on behind the first points."""
+    count = min(bench.config.trajectory.ring + 12, bench.config.trajectory.capacity)
+    seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
+    link.send(bench.download(bench.wave(count, duration=seconds, size=0.01)))
+    bench.wait_until_moving()
+    bench.run(20 * seconds)
+    if bench.standing:
+        raise Broken("a trajectory longer than the ring stops on its way")
+    link.send(STOP)
+    link.reply(_TRAJ)
+    bench.wait_until_standing(1)
+    bench.run(patience(bench))
+
+
+def _stale_build(bench: Bench) -> None:
+    """A module of another build, in a task that has shown the right one before."""
+    build = bench.system.build_id.encode()
+    path, data = next(
+        (m.path, m.data)
+        for t in bench.system.tasks
+        if t.name == bench.task("ROS_motion")
+        for m in t.modules
+        if m.name == "ROS_motion"
+    )
+    mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
+    with _beside(bench, mixed, early=True) as other:
+        task = other.controller.task(other.task("ROS_motion"))
+        task[datum(other, "ros_shown_motion")] = bench.system.build_id
+        watcher, link = other.watcher(), other.motion()
+        link.send(other.download(other.wave(3)))
+        other.stays(1, "modules of the motion task are of different builds")
+        told = other.progress(watcher)
+        if (told.state, told.reason) != (TrajectoryState.REFUSED, Reason.BUILD_MISMATCH):
+            raise Broken(f"modules of the motion task are of different builds, {told}")
+
+
+def _half_the_signals(bench: Bench) -> None:
+    """Every second signal is missing: the others are what they are."""
+    names = [signal_name(bench.config, bench.group, signal) for signal in STATUS_SIGNALS]
+    for first in (0, 1):
+        gone = names[first::2]
+        system = replace(
+            bench.system,
+            signals=tuple(s for s in bench.system.signals if s.name not in gone),
+            outputs=tuple(o for o in bench.system.outputs if o.signal not in gone),
+        )
+        with _beside(bench, system) as other:
+            state = other.state()
+            for signal, name in zip(STATUS_SIGNALS, names, strict=True):
+                for value in (0, 1):
+                    if name not in gone:
+                        other.controller.signals[name] = value
+                    other.run(SOON + 2 * other.config.state_period)
+                    _shows(other.status(state), signal.function, value, name in gone)
+                if name not in gone:
+                    other.controller.signals[name] = int(signal.function not in _BAD)
+                other.run(SOON)
+
+
+_BAD = ("emergency_stop", "controller_error")
+
+
+def _shows(status: messages.Status, function: str, value: int, gone: bool) -> None:
+    shown, unknown = {
+        "motors_on": (status.drives_powered, TriState.UNKNOWN),
+        "emergency_stop": (status.e_stopped, TriState.UNKNOWN),
+        "controller_error": (status.in_error, 0),
+        "standing": (1 - status.in_motion, 1),
+        "executing": (status.motion_possible, 1),
+    }[function]
+    if shown != (unknown if gone else value):
+        missing = "is missing" if gone else f"is {value}"
+        raise Broken(f"the signal for {function} {missing}, STATUS says {status}")
+
+
+CASES = (
+    Case("before-a-move", "a stop of the program just before a move", "interrupted",
+         _before_a_move, "R7a"),
+    Case("first-reason", "the first of two reasons counts", "interrupted", _first_reason),
+    Case("late-point", "a point of a stopped trajectory that comes late", "interrupted",
+         _late_point, "R5"),
+    Case("unseen", "stops that neither a signal nor an event routine shows", "interrupted",
+         _unseen, "R15"),
+    Case("start-alone", "event routines drop the path by themselves", "interrupted",
+         _start_alone, "R7a"),
+    Case("stale-build", "a module was exchanged, and its task shows what it did", "interrupted",
+         _stale_build),
+    Case("without-routines", "no event routine, and counters that begin anew", "interrupted",
+         _without_routines, "R7a"),
+    Case("half-the-signals", "every second signal is missing", "interrupted", _half_the_signals,
+         "R15"),
+)  # fmt: skip
