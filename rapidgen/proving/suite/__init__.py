@@ -26,6 +26,7 @@ from rapidgen.proving.suite import (
     refusals,
     restarts,
     starting,
+    sockets,
     stopping,
     streaming,
     taking,
@@ -39,6 +40,7 @@ _ALL: tuple[Case, ...] = (
     *refusals.CASES,
     *edges.CASES,
     *framing.CASES,
+    *sockets.CASES,
     *taking.CASES,
     *handing.CASES,
     *joints.CASES,
@@ -66,7 +68,6 @@ _ALL: tuple[Case, ...] = (
 # They boot many controllers, or let hours pass.
 _ONCE = {
     "counters-wrap",
-    "does-not-read",
     "full-capacity",
     "half-files",
     "mixed-builds",

@@ -1,0 +1,101 @@
+"""Sockets of the driver: ports that are taken or free, and messages with impossible lengths."""
+
+import struct
+from itertools import product
+
+from rapidgen.protocol import encode, messages, spec
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import Link
+from rapidgen.proving.model import Broken, Case
+
+_PING = encode(messages.Ping(), spec.Comm.REQUEST)
+
+
+def _pings(link: Link, what: str) -> None:
+    if not isinstance(link.reply(spec.PING.number, 0.3), messages.Acknowledged):
+        raise Broken(f"{what}: PING is not confirmed")
+
+
+def _whole_headers(bench: Bench) -> None:
+    """A length out of bounds, whatever type comes with it, and wherever it lies."""
+    lengths = (-(2**31), -1024, -16, -1, 0, 11, 1021, 100_000)
+    for length, number in product(lengths, (spec.PING.number, spec.JOINT_TRAJ_PT.number, 1399)):
+        for before in (b"", _PING):
+            link = bench.motion()
+            head = struct.pack("<4i", length, number, spec.Comm.REQUEST, 0)
+            link.send(before + head)
+            what = f"a message of type {number} and {length} bytes"
+            if before:
+                _pings(link, f"in front of {what}")
+            bench.until(lambda: link.lost, 0.2, f"{what} breaks the link")  # noqa: B023
+            if link.read():
+                raise Broken(f"{what} is answered")
+        link = bench.motion()
+        link.send(head[:4])
+        bench.until(lambda: link.lost, 0.2, f"{length} as a length breaks the link")  # noqa: B023
+    # What one client began is nothing to the next one.
+    link = bench.motion()
+    link.send(_PING[:10])
+    bench.run(0.05)
+    link.close()
+    bench.run(0.05)
+    link = bench.motion()
+    longest = struct.pack("<4i", 1020, 1399, spec.Comm.TOPIC, 0) + bytes(1008)
+    for size in (16, 500, 1024):
+        for at in range(0, len(longest), size):
+            link.send(longest[at : at + size])
+            bench.run(0.01)
+        link.send(_PING)
+        _pings(link, f"behind a message of 1024 bytes in pieces of {size}")
+    bench.stays(0.5, "nobody asked for motion")
+
+
+def _ports_open(bench: Bench) -> None:
+    """Ports that are taken at the start are tried again each second, then stay open."""
+    network, ports = bench.controller.network, bench.group.ports
+    wanted = [port for port in (ports.motion, ports.control, ports.state) if port]
+    bench.run(1)
+    last = max((e.sequence for e in bench.controller.log), default=0)
+    network.address = "192.0.2.17"
+    for action in ("power-loss", "pp-to-main"):
+        bench.controller.perform(action)
+    taken = [network.bind("", port) for port in wanted]
+    bench.start_again()
+    kernel = bench.controller.kernel
+    idle, since = kernel.idle, kernel.now
+    bench.run(2.5)
+    share = 1 - (kernel.idle - idle) / (kernel.now - since)
+    if share > 0.1 * len(bench.config.groups):
+        raise Broken(f"while ports are taken the driver takes {share:.0%} of the processor")
+    for port in wanted:
+        title = f"ROS: port {port} cannot be opened"
+        said = [e for e in bench.controller.log.since(last) if e.title == title]
+        if len(said) != 1:
+            raise Broken(f"port {port} is taken, the event log says so {len(said)} times")
+    changes: list[float] = []
+    for endpoint in taken:
+        network.close(endpoint)
+    bench.until(lambda: all(p in network.listeners for p in wanted), 1.1, "ports are opened")
+    # A virtual controller has no LAN port; an address of the configuration is bound as it is.
+    hosts = {network.listeners[port][0] for port in wanted}
+    if bench.config.bind == "lan" and hosts != {"127.0.0.1"}:
+        raise Broken(f"the virtual controller listens at {hosts}")
+    network.listening.add(lambda: changes.append(bench.now))
+    for _ in range(3):
+        links = [bench.motion(), bench.state()]
+        if ports.control:
+            links.append(bench.control())
+        bench.run(0.7)
+        for link in links:
+            link.close()
+        bench.run(0.2)
+    if changes:
+        raise Broken(f"clients came and went, ports were opened or closed at {changes}")
+
+
+CASES = (
+    Case("whole-headers", "lengths at their bounds and beyond, in whole headers", "framing",
+         _whole_headers, "R3"),
+    Case("ports-open", "ports that are taken are waited for, then stay open", "framing",
+         _ports_open, "R18"),
+)  # fmt: skip
