@@ -256,8 +256,19 @@ def _each_number(bench: Bench) -> None:
     for sequence in (_BEGIN, 1):
         row(sequence, _TAKEN)
     table.accepted(here, _SLOW)
+    # What was handed over has no next point.
+    without_a_start(3)
     table.ask()
     table.stop()
+    # Nor is anything of one client's, refused or not, of the next one's.
+    for joints, wanted in ((here, _TAKEN), (far, beyond)):
+        row(_BEGIN, wanted, joints)
+        table.ask()
+        table.link.close()
+        table.link = bench.motion()
+        without_a_start(1)
+        row(_END, alone)
+        table.ask()
     bench.stays(0.2, "it was asked to stay where it is")
 
 
