@@ -9,8 +9,10 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
+from itertools import pairwise
 from typing import Any, TypeAlias
 
+from rapidgen.axes import frames
 from rapidgen.config.model import MotionGroup, RobotConfig
 from rapidgen.diagnostics import DiagnosticError, Span
 from rapidgen.protocol import WireError, encode, messages, spec
@@ -410,12 +412,42 @@ class Bench:
         """`count` points from where the robot stands, back and forth within limits and speeds."""
         here = self.position
         steps = [self._step(axis, here, duration, size) for axis in range(len(here))]
-        points: list[Point] = [(here, 10.0)]
-        for number in range(1, count):
-            shares = [abs(math.sin(number * (0.35 + 0.11 * axis))) for axis in range(len(here))]
-            joints = tuple(h + s * share for h, s, share in zip(here, steps, shares, strict=True))
-            points.append((joints, duration))
-        return points
+        shares = [
+            [abs(math.sin(number * (0.35 + 0.11 * axis))) for axis in range(len(here))]
+            for number in range(count)
+        ]
+
+        def along(scale: float) -> list[Position]:
+            return [
+                tuple(h + scale * s * share for h, s, share in zip(here, steps, row, strict=True))
+                for row in shares
+            ]
+
+        way = along(1)
+        slowest = max((self.tcp_seconds(a, b) for a, b in pairwise(way)), default=0.0)
+        if slowest > 0.9 * duration:
+            way = along(0.9 * duration / slowest)
+        return [(here, 10.0), *((joints, duration) for joints in way[1:])]
+
+    def seconds_to(self, target: Position) -> float:
+        """s to a point from here: half of each axis' speed is enough, and the TCP's ceiling."""
+        here = self.position
+        joints = zip(self.group.joints, here, target, strict=True)
+        needed = [2 * abs(there - value) / joint.speed for joint, value, there in joints]
+        return max(0.5, 1.1 * self.tcp_seconds(here, target), *needed)
+
+    def tcp_seconds(self, start: Position, end: Position) -> float:
+        """s from one point to another at the ceiling of TCP speed, as the driver looks at it.
+
+        0 where there is none below what every robot may do.
+        """
+        limit = self.group.tcp_speed_limit
+        geometry = self.controller.motion.group(self.group.name).kinematics
+        if limit >= 5 or geometry is None:
+            return 0.0
+        tool = (self.group.tool.frame.position, self.group.tool.frame.orientation)
+        one, other = (frames.compose(geometry.forward(p), tool)[0] for p in (start, end))
+        return frames.distance(one, other) / limit
 
     def _step(self, axis: int, here: Position, duration: float, size: float) -> float:
         joint = self.group.joints[axis]

@@ -132,7 +132,7 @@ def _limits_are_reached(bench: Bench) -> None:
         for limit in (joint.lower, joint.upper):
             here = bench.position
             target = (*here[:index], limit, *here[index + 1 :])
-            seconds = max(0.5, 2 * abs(limit - here[index]) / joint.speed)
+            seconds = bench.seconds_to(target)
             link.send(bench.download([(here, 10.0), (target, seconds), (target, 0.5)]))
             bench.wait_until_at(target, 20 + 4 * seconds)
             link.send(bench.download([(target, 10.0), (here, seconds), (here, 0.5)]))

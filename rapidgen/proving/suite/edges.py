@@ -105,7 +105,7 @@ def _limits_by_rounding(bench: Bench) -> None:
         unit = math.radians(1) if joint.kind == "revolute" else 1e-3
         for limit, side in ((joint.lower, -1), (joint.upper, 1)):
             here = bench.position
-            seconds = max(0.5, 2 * abs(limit - here[axis]) / joint.speed)
+            seconds = bench.seconds_to(_with(here, axis, limit))
             wanted = _with(here, axis, limit + side * 0.0003 * unit)
             link.send(bench.download([(here, 10.0), (wanted, seconds), (wanted, 0.5)]))
             bench.wait_until_at(_with(here, axis, limit), 20 + 4 * seconds)

@@ -324,7 +324,7 @@ def _limits_of_the_controller(bench: Bench) -> None:
         for value in (narrow.lower, narrow.upper):
             here = other.position
             target = (value, *here[1:])
-            seconds = max(0.5, 2 * abs(value - here[0]) / joint.speed)
+            seconds = other.seconds_to(target)
             motion = other.motion()
             motion.send(other.download([(here, 10.0), (target, seconds), (target, 0.5)]))
             other.wait_until_at(target, 20 + 4 * seconds)
