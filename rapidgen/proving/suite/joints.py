@@ -1,7 +1,5 @@
 """Each joint by itself, in streams and away from zero; each signal by itself."""
 
-from dataclasses import replace
-
 from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol.spec import Reason, TriState
@@ -122,33 +120,55 @@ def _controller_error(bench: Bench) -> None:
 
 
 def _one_signal_missing(bench: Bench) -> None:
-    """A signal that is not there is unknown; all the others are as they were."""
+    """A signal that is not there at a start is unknown; all the others are as they were."""
+    signals, off, on = bench.controller.io.signals, TriState.FALSE, TriState.TRUE
+    bench.run(0.2)
     for missing in STATUS_SIGNALS:
-        name = signal_name(bench.config, bench.group, missing)
-        system = replace(
-            bench.system,
-            signals=tuple(s for s in bench.system.signals if s.name != name),
-            outputs=tuple(o for o in bench.system.outputs if o.signal != name),
-        )
-        other = bench.beside(system)
-        try:
-            state, link = other.watcher(), other.motion()
-            other.run(0.5)
-            _shown(other, state, "at rest", missing.function, TriState.TRUE, TriState.FALSE, 1)
-            other.moves_through(link, other.wave(3))
-            other.run(0.5)
-            other.controller.perform("stop")
-            other.run(0.5)
-            # Without the signal nobody sees that the program was stopped before it is asked.
-            possible = 1 if missing.function == "executing" else 0
-            off = TriState.FALSE
-            _shown(other, state, "stopped", missing.function, TriState.TRUE, off, possible)
-            other.controller.perform("e-stop")
-            other.run(0.5)
-            _shown(other, state, "e-stop", missing.function, TriState.FALSE, TriState.TRUE, 0)
-            other.stays(1, "nobody asked for anything")
-        finally:
-            other.close()
+        name = signal_name(bench.config, bench.group, missing).lower()
+        signal = signals.pop(name)
+        _power_again(bench)
+        state, link = bench.watcher(), bench.motion()
+        bench.run(0.5)
+        _shown(bench, state, "at rest", missing.function, on, off, 1)
+        for function, value in (("controller_error", 1), ("standing", 0)):
+            _is_seen(bench, state, function, value, seen=function != missing.function)
+        bench.moves_through(link, bench.wave(3))
+        bench.run(0.5)
+        bench.controller.perform("stop")
+        bench.run(0.5)
+        # Without the signal nobody sees that the program was stopped before it is asked.
+        possible = 1 if missing.function == "executing" else 0
+        _shown(bench, state, "stopped", missing.function, on, off, possible)
+        bench.controller.perform("e-stop")
+        bench.run(0.5)
+        _shown(bench, state, "e-stop", missing.function, off, on, 0)
+        bench.stays(0.5, "nobody asked for anything")
+        signals[name] = signal
+    _power_again(bench)
+    _shown(bench, bench.watcher(), "all signals are back", "", on, off, 1)
+
+
+def _is_seen(bench: Bench, state: Link, function: str, value: int, *, seen: bool) -> None:
+    """Broken unless STATUS shows what another signal says, and what it no longer says."""
+    name = next(
+        signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS if s.function == function
+    )
+    for now in (value, 1 - value):
+        if name.lower() in bench.controller.io.signals:
+            bench.controller.signals[name] = now
+        bench.run(2 * bench.config.state_period)
+        status = bench.status(state)
+        told = status.in_error if function == "controller_error" else status.in_motion
+        if told != (seen and now == value):
+            raise Broken(f"signal {name} is {now}, STATUS says {status}")
+
+
+def _power_again(bench: Bench) -> None:
+    """What the tasks look for at their start they look for again."""
+    for action in ("power-loss", "pp-to-main"):
+        bench.controller.perform(action)
+    bench.start_again()
+    bench.run(1)
 
 
 def _shown(
