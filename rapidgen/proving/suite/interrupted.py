@@ -6,15 +6,14 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
-from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol import messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState, TriState
+from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.failing import set_counters
 from rapidgen.proving.suite.halting import at_call
-from rapidgen.proving.suite.moving import SOON, begins, datum, last_event, patience, unit_of
+from rapidgen.proving.suite.moving import begins, datum, last_event, patience, unit_of
 from rapidgen.system.model import System
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.log import EventType
@@ -336,45 +335,6 @@ def _stale_build(bench: Bench) -> None:
             raise Broken(f"modules of the motion task are of different builds, {told}")
 
 
-def _half_the_signals(bench: Bench) -> None:
-    """Every second signal is missing: the others are what they are."""
-    names = [signal_name(bench.config, bench.group, signal) for signal in STATUS_SIGNALS]
-    for first in (0, 1):
-        gone = names[first::2]
-        system = replace(
-            bench.system,
-            signals=tuple(s for s in bench.system.signals if s.name not in gone),
-            outputs=tuple(o for o in bench.system.outputs if o.signal not in gone),
-        )
-        with _beside(bench, system) as other:
-            state = other.state()
-            for signal, name in zip(STATUS_SIGNALS, names, strict=True):
-                for value in (0, 1):
-                    if name not in gone:
-                        other.controller.signals[name] = value
-                    other.run(SOON + 2 * other.config.state_period)
-                    _shows(other.status(state), signal.function, value, name in gone)
-                if name not in gone:
-                    other.controller.signals[name] = int(signal.function not in _BAD)
-                other.run(SOON)
-
-
-_BAD = ("emergency_stop", "controller_error")
-
-
-def _shows(status: messages.Status, function: str, value: int, gone: bool) -> None:
-    shown, unknown = {
-        "motors_on": (status.drives_powered, TriState.UNKNOWN),
-        "emergency_stop": (status.e_stopped, TriState.UNKNOWN),
-        "controller_error": (status.in_error, 0),
-        "standing": (1 - status.in_motion, 1),
-        "executing": (status.motion_possible, 1),
-    }[function]
-    if shown != (unknown if gone else value):
-        missing = "is missing" if gone else f"is {value}"
-        raise Broken(f"the signal for {function} {missing}, STATUS says {status}")
-
-
 CASES = (
     Case("before-a-move", "a stop of the program just before a move", "interrupted",
          _before_a_move, "R7a"),
@@ -389,6 +349,4 @@ CASES = (
          _stale_build),
     Case("without-routines", "no event routine, and counters that begin anew", "interrupted",
          _without_routines, "R7a"),
-    Case("half-the-signals", "every second signal is missing", "interrupted", _half_the_signals,
-         "R15"),
 )  # fmt: skip
