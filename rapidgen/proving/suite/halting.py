@@ -1,15 +1,13 @@
 """The supervisor seen from outside: how soon it answers, why a trajectory ended, pauses."""
 
-from collections.abc import Callable
-from typing import Any
-
-from rapidgen.protocol import decode, messages, spec
+from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.moving import (
     SOON,
+    at_call,
     begins,
     datum,
     hangs,
@@ -22,30 +20,6 @@ from rapidgen.virtual.log import Event, EventType
 _PROMPT = 0.055
 """s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
 _TRAJ = spec.JOINT_TRAJ_PT.number
-
-
-def at_call(
-    bench: Bench, module: str, instruction: str, number: int, act: Callable[[], None]
-) -> None:
-    """Call `act` once, when a module's task is just about to execute an instruction.
-
-    `number`: how many times from now, this one included.
-    """
-    task = bench.controller.rapid_tasks[bench.task(module)]
-    routine = task.program.find_routine(None, instruction.casefold())
-    assert routine is not None
-    space, left = task.program.space, number
-    as_before = space[routine.code]
-
-    def called(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-        nonlocal left
-        left -= 1
-        if left == 0:
-            act()
-            task.attend()
-        return as_before(*arguments)
-
-    space[routine.code] = called
 
 
 def _prompt(bench: Bench, asked: float, what: str) -> None:
@@ -256,6 +230,31 @@ def _pause_by_step(bench: Bench) -> None:
         bench.wait_until_at(points[2][0], 3 * unit + 2)
 
 
+def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
+    """STOP comes while the supervisor is about to start a paused robot: it does not move."""
+    if not bench.group.ports.control:
+        return
+    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
+    supervisor = bench.controller.rapid_tasks[bench.task("ROS_supervisor")]
+
+    def stop() -> None:
+        link.at_once(STOP)
+        # Long enough for the motion server, too short for an interrupt.
+        supervisor.sleep(0.004)
+
+    for _ in range(4):
+        link.send(bench.download(bench.wave(4, duration=unit, size=0.3)))
+        begins(bench, bench.now)
+        bench.run(0.7 * unit)
+        control.ask(messages.Pause(1))
+        bench.wait_until_standing(1)
+        at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
+        control.send(encode(messages.Pause(0), spec.Comm.REQUEST))
+        bench.stays(patience(bench), "STOP came at the end of a pause")
+        if link.reply(_TRAJ) != messages.Acknowledged():
+            raise Broken("STOP at the end of a pause is not confirmed")
+
+
 def _builds_differ(bench: Bench) -> None:
     """A task that shows another build: said once after two seconds, and nothing is taken."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -317,6 +316,8 @@ CASES = (
          "R11, R14"),
     Case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", "halting",
          _pause_by_step),
+    Case("stop-in-pause", "STOP while a paused robot is about to be started", "halting",
+         _stop_in_the_end_of_a_pause, "R7b"),
     Case("builds-differ", "a task that shows another build, at a time", "halting",
          _builds_differ),
 )  # fmt: skip

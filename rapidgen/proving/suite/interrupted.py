@@ -12,8 +12,7 @@ from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.failing import set_counters
-from rapidgen.proving.suite.halting import at_call
-from rapidgen.proving.suite.moving import begins, datum, last_event, patience, unit_of
+from rapidgen.proving.suite.moving import at_call, begins, datum, last_event, patience, unit_of
 from rapidgen.system.model import System
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.log import EventType

@@ -1,10 +1,11 @@
 """The motion task seen from outside: each step of a trajectory in its time, and how it ends."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from rapidgen.protocol import decode, messages, spec
+from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench, distance
 from rapidgen.proving.link import STOP, Link, Point
@@ -102,6 +103,30 @@ def begins(bench: Bench, sent: float) -> float:
     if bench.now - sent > SOON + 2 * bench.setting.motion.settle:
         raise Broken(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
     return bench.now
+
+
+def at_call(
+    bench: Bench, module: str, instruction: str, number: int, act: Callable[[], None]
+) -> None:
+    """Call `act` once, when a module's task is just about to execute an instruction.
+
+    `number`: how many times from now, this one included.
+    """
+    task = bench.controller.rapid_tasks[bench.task(module)]
+    routine = task.program.find_routine(None, instruction.casefold())
+    assert routine is not None
+    space, left = task.program.space, number
+    as_before = space[routine.code]
+
+    def called(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
+        nonlocal left
+        left -= 1
+        if left == 0:
+            act()
+            task.attend()
+        return as_before(*arguments)
+
+    space[routine.code] = called
 
 
 class _Meter:
@@ -264,6 +289,36 @@ def _speed_by_step(bench: Bench) -> None:
         bench.run(0.3)
 
 
+def _speed_at_the_start(bench: Bench) -> None:
+    """SPEED comes just when the motion task takes back that of the trajectory before."""
+    if not bench.group.ports.control or not bench.setting.motion.refresh_timed:
+        return
+    control, link, unit = bench.control(), bench.motion(), unit_of(bench)
+    speed = messages.Speed(50)
+    task = bench.controller.rapid_tasks[bench.task("ROS_motion")]
+
+    def ask() -> None:
+        control.at_once(encode(speed, spec.Comm.REQUEST))
+        # Long enough for the control server and an interrupt.
+        task.sleep(0.05)
+
+    link.send(bench.download(bench.wave(2, duration=unit)))
+    begins(bench, bench.now)
+    control.ask(speed)
+    bench.wait_until_standing(3 * unit)
+    at_call(bench, "ROS_motion", "SpeedRefresh", 1, ask)
+    points = bench.wave(3, duration=unit)
+    link.send(bench.download(points))
+    bench.wait_until_moving()
+    begun = bench.now
+    told = control.reply(spec.SPEED.number, SOON)
+    if told != messages.Acknowledged():
+        raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
+    bench.wait_until_at(points[2][0], 10 * unit)
+    if bench.now - begun < 3.6 * unit:
+        raise Broken(f"{2 * unit:.2f} s of motion at half the speed took {bench.now - begun:.2f} s")
+
+
 def hangs(bench: Bench) -> bool:
     """Whether a move does not return when its path is cleared, so that main has to begin anew."""
     return bench.setting.motion.cleared_move == "hang"
@@ -403,6 +458,8 @@ CASES = (
     Case("stream-by-step", "each step of a stream in its time", "moving", _stream_by_step, "R9"),
     Case("speed-by-step", "a speed is for one trajectory, from the reply on", "moving",
          _speed_by_step),
+    Case("speed-at-start", "a speed that comes at the beginning of a trajectory", "moving",
+         _speed_at_the_start),
     Case("halts", "how soon a stop is over, and how often main begins anew", "moving", _halts,
          "R5, R6"),
     Case("gives-up", "a fault on the way ends the trajectory there", "moving", _gives_up,
