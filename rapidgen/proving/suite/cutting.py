@@ -128,20 +128,22 @@ def _each_value(bench: Bench) -> None:
 
 def _speeds(bench: Bench, streams: _Streams) -> None:
     here, seconds = bench.position, max(0.1, bench.config.trajectory.min_segment)
+    allowed: list[Point] = [(here, 1.0)]
     for axis, joint in enumerate(bench.group.joints):
         for share in (0.999, 1.01):
             ends = fast_ends(joint, seconds, share)
             if ends is None:
                 continue
-            for one, other in (ends, ends[::-1]):
-                places = [changed(here, axis, value) for value in (one, other)]
-                # A slow beginning: nothing of what is asked is reached before it is over.
-                streams.begin([(here, 1.0), (places[0], _SLOW), (places[1], seconds)])
-                what = f"joint {axis + 1} from {one} to {other} in {seconds} s"
-                if share < 1:
-                    streams.taken(3, what)
-                else:
-                    streams.refused(Reason.TOO_FAST, 2, what, joint=axis + 1)
+            one, other = (changed(here, axis, value) for value in ends)
+            # A slow beginning: nothing of what is asked is reached before it is over.
+            if share < 1:
+                allowed += [(one, _SLOW), (other, seconds), (one, seconds), (here, _SLOW)]
+            else:
+                streams.begin([(here, 1.0), (other, _SLOW), (one, seconds)])
+                what = f"joint {axis + 1} from {other} to {one} in {seconds} s"
+                streams.refused(Reason.TOO_FAST, 2, what, joint=axis + 1)
+    streams.begin(allowed)
+    streams.taken(len(allowed), "each joint at its speed")
     streams.stop()
     bench.wait_until_standing(2)
     bench.stays(0.1, "the last stream was stopped")
