@@ -102,21 +102,24 @@ def _away_from_zero(bench: Bench) -> None:
 
 
 def _controller_error(bench: Bench) -> None:
-    """What the controller calls an error, or a movement, is one, for as long as it does."""
+    """What the controller calls an error, a movement or an emergency stop is one, for so long."""
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
-    name = names["controller_error"]
     state = bench.state()
-    for value in (0, 1):
-        bench.controller.signals[names["standing"]] = value
-        bench.run(2.5 * bench.config.state_period)
-        if bench.status(state).in_motion != 1 - value:
-            raise Broken(f"signal {names['standing']} is {value}, STATUS tells another thing")
-    for value in (1, 0, 1, 0):
-        bench.controller.signals[name] = value
-        bench.run(2.5 * bench.config.state_period)
-        status = bench.status(state)
-        if (status.in_error, status.error_code) != (value, 0):
-            raise Broken(f"signal {name} is {value}, STATUS says {status}")
+    for function, field, on, values in (
+        ("standing", "in_motion", 0, (0, 1)),
+        ("controller_error", "in_error", 1, (1, 0, 1, 0)),
+        ("motors_on", "drives_powered", 1, (0, 1)),
+        ("emergency_stop", "e_stopped", 1, (1, 0)),
+    ):
+        for value in values:
+            bench.controller.signals[names[function]] = value
+            bench.run(2.5 * bench.config.state_period)
+            status = bench.status(state)
+            if (getattr(status, field), status.error_code) != (int(value == on), 0):
+                raise Broken(f"signal {names[function]} is {value}, STATUS says {status}")
+        bench.run(0.5)
+    if status != bench.status(state) or not status.motion_possible:
+        raise Broken(f"all signals are as they were, STATUS says {status}")
 
 
 def _one_signal_missing(bench: Bench) -> None:

@@ -332,6 +332,11 @@ def _other_hellos(bench: Bench) -> None:
     bench.fails("ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
     link.send(encode(HELLO, spec.Comm.REQUEST))
     bench.until(lambda: link.lost, 1, "a HELLO that cannot be read breaks the link")
+    good = encode(HELLO, spec.Comm.REQUEST)
+    for data in (good + b"\0", good[:8] + b"\3" + good[9:], b"\x21" + good[1:]):
+        link = bench.watcher()
+        link.send(data)
+        bench.until(partial(_is_lost, link), 1, "what is no HELLO breaks the link")
     bench.progress(bench.watcher())
 
 

@@ -204,7 +204,7 @@ def _of(value: object) -> list[Clock]:
 
 def _over_the_ends(bench: Bench) -> None:
     """The schedule and the stamps of feedback, over both ends of the clock, in motion."""
-    link = subscribe(bench, Feature.FEEDBACK)
+    link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
     motion, period = bench.motion(), bench.config.state_period
     server = bench.controller.task(bench.task("ROS_stateServer"))
     for what, left in (
@@ -223,11 +223,14 @@ def _over_the_ends(bench: Bench) -> None:
         if what == "an end of months later":
             server["ROS_stateServer:overrun"] = _WRAP - 0.01 * period
         if left == 3:
-            motion.send(bench.download(bench.wave(7, duration=0.6)))
+            points = bench.wave(6, duration=0.6)
+            points[3:3] = [(points[2][0], 0.8)]
+            motion.send(bench.download(points))
         # The round that was waited for, and at once the next one, which has come too late.
         bench.run(max(left, 0.0) + 2)
         found = rounds(link, since)[1:]
         on_turn(bench, found, what)
+        _is_true(bench, found)
         _is_measured(bench, found, what)
         stamps = _stamps(found)
         lost = found[-1].time - found[0].time - (stamps[-1] - stamps[0]) % _WRAP
@@ -310,13 +313,13 @@ def _first_of_all(bench: Bench) -> None:
         bench.run(2 * period + 0.1)
         bench.moves_through(motion, bench.wave(3, duration=0.2))
         bench.run(2 * bench.setting.motion.settle)
+    _moved_by_others(bench, bench.state())
 
 
-def _moved_by_others(bench: Bench) -> None:
+def _moved_by_others(bench: Bench, link: Link) -> None:
     """Somebody else moves an axis, and no signal shows it: STATUS does, once."""
     bench.fails("ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
-    link = bench.state()
-    bench.run(1)
+    bench.run(0.5)
     group, period = bench.controller.motion.group(bench.group.name), bench.config.state_period
     for axis, joint in enumerate(bench.group.joints):
         unit = 1e-3 if joint.kind == "prismatic" else 0.0174533
@@ -335,9 +338,8 @@ CASES = (
     Case("each-round", "what each of three clients is told in each round", "reading", _each_round),
     Case("over-the-ends", "schedule and stamps over the ends of the clock", "reading",
          _over_the_ends),
-    Case("first-of-all", "the first client, and who comes when all have left", "reading",
-         _first_of_all),
+    Case("first-of-all", "who comes when all have left; movements that no signal shows", "reading",
+         _first_of_all, "R16"),
     Case("not-over-yet", "a halted trajectory whose path is not cleared yet", "reading",
          _not_over_yet),
-    Case("moved-by-others", "movements that no signal shows", "reading", _moved_by_others, "R16"),
 )  # fmt: skip

@@ -40,6 +40,11 @@ def _whole_headers(bench: Bench) -> None:
     link.close()
     bench.run(0.05)
     link = bench.motion()
+    for piece in (_PING[:10], _PING[10:] + _PING + _PING[:4], _PING[4:]):
+        link.send(piece)
+        bench.run(0.02)
+    for _ in range(3):
+        _pings(link, "PING in pieces, and another one behind it")
     longest = struct.pack("<4i", 1020, 1399, spec.Comm.TOPIC, 0) + bytes(1008)
     for size in (16, 500, 1024):
         for at in range(0, len(longest), size):
