@@ -60,18 +60,21 @@ def _answers_soon(bench: Bench) -> None:
                 bench.run(0.1)
         # The reply comes just before a STATUS, which then tells of the stop.
         bench.status(watcher)
-        bench.run(2 * period - 0.045)
+        bench.run(max(0.0, period - 0.045))
         port = link
-        if phase == 2 and control is not None:
-            # Should its own StopMove fail, the supervisor's does not.
+        if phase in (1, 3) and control is not None:
             port = control
-            bench.fails("ROS_control", "StopMove", "ERR_PATH_STOP")
+            if phase == 3:
+                # Should its own StopMove fail, the supervisor's does not.
+                bench.fails("ROS_control", "StopMove", "ERR_PATH_STOP")
         port.read()
         port.send(STOP)
         asked = bench.now
         if port.reply(_TRAJ) != messages.Acknowledged():
             raise Broken("STOP is not confirmed")
         _prompt(bench, asked, "STOP")
+        # One that was measured before is on its way for no longer than this.
+        bench.run(0.01)
         status = bench.status(watcher)
         if bench.now - asked < 0.06 and status.motion_possible:
             raise Broken(f"STOP came {bench.now - asked:.3f} s ago, STATUS says {status}")
@@ -155,7 +158,7 @@ def _why_it_ended(bench: Bench) -> None:
 
 def _is_paused(bench: Bench, watcher: Link, planned: int, reached: int) -> None:
     bench.wait_until_standing(0.1 + SOON + bench.setting.motion.servo_lag)
-    bench.run(2 * bench.config.state_period)
+    bench.run(SOON + 2 * bench.config.state_period)
     told, status = bench.progress(watcher), bench.status(watcher)
     if (told.state, told.planned, told.reached, told.reason) != (
         TrajectoryState.PAUSED,
@@ -200,7 +203,7 @@ def _pause_by_step(bench: Bench) -> None:
     bench.fails("ROS_supervisor", "StopMove", "ERR_PATH_STOP")
     ask(1, Reason.INTERNAL)
     ask(0)
-    bench.run(2 * bench.config.state_period)
+    bench.run(SOON + 2 * bench.config.state_period)
     if bench.standing or bench.status(watcher)[3:] != (0, 1, spec.Mode.AUTO, 1):
         raise Broken("a pause that was refused, and the end of none, stop the robot")
     bench.wait_until_at(way[3][0], 5)

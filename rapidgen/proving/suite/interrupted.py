@@ -299,7 +299,9 @@ def _pauses_at_its_end(bench: Bench, watcher: Link, link: Link, control: Link | 
 
 def _refills(bench: Bench, link: Link) -> None:
     """A trajectory that does not fit into the ring goes on behind the first points."""
-    count = min(bench.config.trajectory.ring + 12, bench.config.trajectory.capacity)
+    count = bench.config.trajectory.ring + 12
+    if count > bench.config.trajectory.capacity:
+        return
     seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
     link.send(bench.download(bench.wave(count, duration=seconds, size=0.01)))
     bench.wait_until_moving()
