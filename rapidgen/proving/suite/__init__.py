@@ -91,7 +91,6 @@ _BACKGROUND = {
     "nobody-answers",
     "not-executing",
     "one-signal-missing",
-    "patience",
     "pause-ends",
     "progress-ended",
     "start-alone",

@@ -5,7 +5,7 @@ from functools import partial
 from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import SETTLED, Bench, distance
-from rapidgen.proving.link import STOP, Link, point_frame, raw_point
+from rapidgen.proving.link import STOP, Link, Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
 
@@ -108,55 +108,64 @@ def _pings(bench: Bench, link: Link, seconds: float = 0.1, *, slowly: bool = Fal
         raise Broken("PING is not confirmed")
 
 
-def _patience(bench: Bench) -> None:
+def _silent(bench: Bench, old: Link, what: str, points: list[Point]) -> Link:
     """A newer client waits until the one before has been silent for a second, whatever moves."""
-    policy, place = bench.config.trajectory, bench.position
-    seconds = max(0.1, 1.02 * policy.min_segment)
-    few = bench.wave(20)
-    long = bench.wave(min(policy.ring + 60, policy.capacity), duration=seconds, size=0.02)
-    old = bench.motion()
-    for what, points in (
-        ("nothing", []),
-        ("stream", few[:4]),
-        ("download that is fed", long),
-        ("stopped stream", few[:4]),
-        ("download", few),
-        ("nothing", []),
-    ):
-        stream = Streamer(bench, old)
+    place, stream = bench.position, Streamer(bench, old)
+    if "stream" in what:
+        stream.put(points, BEGIN)
+    elif points:
+        old.send(bench.download(points))
+        bench.wait_until_moving(2)
+    if what == "stopped stream":
+        old.send(STOP)
+    new = bench.motion()
+    for slowly in (True, False):
+        bench.run(0.75)
+        _pings(bench, old, slowly=slowly)
+    if what == "stream":
+        # Its batches may come far apart, until it has ended, although it moves on.
+        bench.run(2.5)
+        stream.put([(place, 6.0)], END)
+        stream.accepted("a slow last point")
+        points = [(place, 6.0)]
+        bench.run(0.8)
         _pings(bench, old)
-        if "stream" in what:
-            stream.put(points, BEGIN)
-        elif points:
-            old.send(bench.download(points))
-            bench.wait_until_moving(2)
-        if what == "stopped stream":
-            old.send(STOP)
-        new = bench.motion()
-        for slowly in (True, False, False):
-            bench.run(0.7)
-            _pings(bench, old, slowly=slowly)
-        if what == "stream":
-            # Its batches may come far apart, until it has ended, although it moves on.
-            bench.run(3)
-            stream.put([(place, 6.0)], END)
-            stream.accepted("a slow last point")
-            points = [(place, 6.0)]
-            bench.run(0.8)
-            _pings(bench, old)
-        last = bench.now
-        bench.until(partial(_is_lost, old), 3, f"a silent client gives way: {what}")
-        if not 0.9 < bench.now - last < 1.4:
-            raise Broken(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
-        bench.wait_until_standing(3)
-        if points and distance(bench.position, points[-1][0]) < SETTLED:
-            raise Broken(f"{what}: the robot went on for a client that gave way")
-        _pings(bench, new, 0.3)
-        bench.stays(0.3, f"the client before gave way: {what}")
-        new.send(point_frame(0, 2, place, 0.3) + point_frame(1, 2, place, 0.3))
+    last = bench.now
+    bench.run(0.8)
+    if what in ("fed", "download", "stream") and bench.standing:
+        raise Broken(f"{what}: the robot does not move, though its client is there")
+    bench.until(partial(_is_lost, old), 3, f"a silent client gives way: {what}")
+    if not 0.9 < bench.now - last < 1.4:
+        raise Broken(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
+    bench.wait_until_standing(3)
+    if points and distance(bench.position, points[-1][0]) < SETTLED:
+        raise Broken(f"{what}: the robot went on for a client that gave way")
+    _pings(bench, new, 0.3)
+    bench.stays(0.3, f"the client before gave way: {what}")
+    return new
+
+
+def _silent_at_rest(bench: Bench) -> None:
+    old = bench.motion()
+    for _ in range(2):
+        _pings(bench, old)
+        old = _silent(bench, old, "nothing", [])
+
+
+def _silent_while_fed(bench: Bench) -> None:
+    policy = bench.config.trajectory
+    # Slow points: the last few do not find room in the ring for seconds.
+    count = min(policy.ring + 5, policy.capacity)
+    _silent(bench, bench.motion(), "fed", bench.wave(count, duration=1.5, size=0.1))
+
+
+def _silent_while_moving(bench: Bench) -> None:
+    """Over the other socket of the server, too."""
+    place, old = bench.position, bench.motion()
+    for what, count in (("stream", 4), ("download", 15), ("stopped stream", 4)):
+        old = _silent(bench, old, what, bench.wave(count))
+        old.send(point_frame(0, 2, place, 0.3) + point_frame(1, 2, place, 0.3))
         bench.wait_until_at(place, 5)
-        bench.run(0.2)
-        old = new
 
 
 def _is_lost(link: Link) -> bool:
@@ -200,6 +209,11 @@ CASES = (
     Case("state-comes-back", "a state client that comes back is served", "links",
          _state_client_comes_back, "R13"),
     Case("come-and-go", "many short connections", "links", _many_come_and_go),
-    Case("patience", "a newer client waits for a second of silence", "links", _patience, "R12"),
+    Case("silent-at-rest", "a newer client waits for a second of silence", "links",
+         _silent_at_rest, "R12"),
+    Case("silent-while-fed", "a client that is silent while its trajectory is fed", "links",
+         _silent_while_fed, "R12"),
+    Case("silent-while-moving", "a client that is silent while its trajectory or stream moves",
+         "links", _silent_while_moving, "R12"),
     Case("server-breaks", "a server socket that breaks is opened again", "links", _server_breaks),
 )  # fmt: skip

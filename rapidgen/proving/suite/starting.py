@@ -45,10 +45,10 @@ def _power_returns(bench: Bench) -> None:
         bench.run(0.2)
         number = bench.progress(watcher).trajectory
         bench.controller.perform("power-loss")
-        bench.stays(2, "the power has failed")
+        bench.stays(0.2, "the power has failed")
         for again in ("reset-e-stop", "auto", "motors-on", "start"):
             bench.controller.perform(again)
-        bench.stays(2, "the power came back")
+        bench.stays(0.8, "the power came back")
         watcher, link = bench.watcher(), bench.motion()
         told, status = bench.progress(watcher), bench.status(watcher)
         if told.trajectory != number or told.state in (
@@ -60,10 +60,10 @@ def _power_returns(bench: Bench) -> None:
             raise Broken(f"the power came back, STATUS says {status}")
         link.send(bench.download(bench.wave(5))[3 * (spec.JOINT_TRAJ_PT.length + 4) :])
         bench.stays(0.5, "half of it came before the power failed")
-        bench.moves_through(link, bench.wave(3))
+        bench.moves_through(link, bench.wave(2))
         link.close()
         watcher.close()
-        bench.run(0.5)
+        bench.run(0.1)
 
 
 CASES = (
