@@ -149,11 +149,21 @@ def _why_it_ended(bench: Bench) -> None:
         number += 1
         if content != messages.Refused(later, -1, 0):
             raise Broken(f"after {action} a trajectory is answered by {content}")
-        for again in ("reset-e-stop", "auto", "motors-on", "start"):
-            bench.controller.perform(again)
+        # What is received meanwhile is for nothing, although its end comes when all is well again.
+        frames = _end_as_request(bench, 3, unit)
+        link.send(frames[:68])
+        number += 1
+        bench.run(0.3)
+        bench.start_again()
         bench.stays(patience(bench), f"the program was started again after {action}")
         if bench.status(watcher).motion_possible != 1:
             raise Broken(f"after {action} and a start of the program no motion is possible")
+        link.send(frames[68:])
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        # The way back to automatic mode is a change of mode, too.
+        noted = Reason.MODE_CHANGED if action == "manual" else reason
+        if content != messages.Refused(noted, -1, 0):
+            raise Broken(f"what began behind {action}, and ended later, is answered by {content}")
 
 
 def _is_paused(bench: Bench, watcher: Link, planned: int, reached: int) -> None:

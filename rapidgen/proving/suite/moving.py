@@ -85,15 +85,16 @@ def _goes_by(
     """Broken unless PROGRESS and STATUS told each step of a good trajectory of `count` points."""
     told = watched(link, begun + _CLOSE)
     _in_order(bench, begun, [(t, p.state, p.planned, p.reached) for t, p, _ in told], steps)
-    before: int = steps[0].state
+    over, lag = 0.0, 6 * bench.setting.motion.servo_lag
     for when, progress, status in told:
         if (progress.trajectory, progress.received, *progress[5:]) != (trajectory, count, 0, -1, 0):
             raise Broken(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
-        # The first STATUS behind the end may tell of the motion before it.
-        moving = {int(state == TrajectoryState.MOVING) for state in (before, progress.state)}
-        before = progress.state
-        wanted = messages.Status(1, 0, 0, 0, status.in_motion, spec.Mode.AUTO, 1)
-        if status != wanted or status.in_motion not in moving:
+        moving = [int(progress.state == TrajectoryState.MOVING)]
+        over = over if over or moving[0] else when
+        if when <= over + lag:
+            # The first STATUS behind the end may tell of the motion before it.
+            moving.append(1)
+        if status not in [messages.Status(1, 0, 0, 0, m, spec.Mode.AUTO, 1) for m in moving]:
             raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
@@ -444,6 +445,7 @@ def _gives_up(bench: Bench) -> None:
         number += 1
         begins(bench, bench.now)
         bench.wait_until_at(points[1][0], 2 * unit)
+        bench.wait_until_standing(1)
         said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
         if len(said) != 1 or said[0].texts[:2] != (
             spec.REASON_TEXTS[reason],
