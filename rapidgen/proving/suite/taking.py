@@ -305,10 +305,44 @@ def _of_other_builds(bench: Bench, table: Table) -> None:
     task[name] = own
 
 
+def _one_more(bench: Bench) -> None:
+    """A line for each second; the next one counts those in between, be it a single one."""
+    table, joints = Table(bench), bench.group.joints
+    lines: list[str] = []
+    bench.controller.operator.subscribe(lambda _task, text: lines.append(text))
+    for at_once, axis, more in (
+        (2, 0, ""),
+        (1, len(joints) - 1, "1 more like it."),
+        (3, None, ""),
+        (1, 0, "2 more like it."),
+    ):
+        before = max((e.sequence for e in bench.controller.log), default=0)
+        sequence, reason, place = int(spec.Sequence.END), Reason.NO_START, ""
+        joint, wanted = 0, bench.position
+        if axis is not None:
+            sequence, reason, joint = _BEGIN, Reason.JOINT_LIMIT, axis + 1
+            place = f"Joint {joint}."
+            wanted = changed(wanted, axis, joints[axis].upper + 1)
+        # Nothing is left to be skipped.
+        table.stop()
+        for _ in range(at_once):
+            table.row(sequence, wanted, _SLOW, messages.Refused(reason, 0, joint))
+        table.ask()
+        bench.run(1.05)
+        said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
+        text = spec.REASON_TEXTS[reason]
+        if said != [f"{text} Point 0. {place} {more}".split()]:
+            raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
+        if lines != [f"ROS refused: {text}"]:
+            raise Broken(f"{at_once} refusals for {reason.name}, the pendant says {lines}")
+        lines.clear()
+
+
 CASES = (
     Case("each-value", "each value of a point at its bounds and beyond", "taking", _each_value,
          "R10, R11"),
     Case("each-duration", "durations at their bounds and beyond", "taking", _each_duration, "R10"),
     Case("each-number", "numbers of points, STOP among them, and what is skipped", "taking",
          _each_number, "C4"),
+    Case("one-more", "lines for refusals that come at once", "taking", _one_more, "R19"),
 )  # fmt: skip
