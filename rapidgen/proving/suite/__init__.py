@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from rapidgen.proving.model import Case
 from rapidgen.proving.suite import (
+    asking,
     batches,
     commanding,
     compatible,
@@ -50,6 +51,7 @@ _ALL: tuple[Case, ...] = (
     *batches.CASES,
     *cutting.CASES,
     *controlling.CASES,
+    *asking.CASES,
     *commanding.CASES,
     *telling.CASES,
     *watching.CASES,

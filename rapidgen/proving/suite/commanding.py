@@ -1,23 +1,17 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
-from collections.abc import Callable
-
 from rapidgen.protocol import encode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, Streamer
+from rapidgen.proving.suite.controlling import if_there, not_done, stop
 from rapidgen.proving.suite.streaming import way
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
 _FAILED = TrajectoryState.FAILED
 _PING = encode(messages.Ping(), spec.Comm.REQUEST)
-
-
-def _acknowledged(told: object, what: str) -> None:
-    if not isinstance(told, messages.Acknowledged):
-        raise Broken(f"{what}: the reply is {told}")
 
 
 def _alone(bench: Bench) -> None:
@@ -42,8 +36,7 @@ def _alone(bench: Bench) -> None:
             raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
     for paused in (0, 1):
         told = control.ask(messages.Pause(paused))
-        if told != messages.NotDone(Reason.INTERNAL):
-            raise Broken(f"the supervisor hangs, PAUSE {paused} is answered by {told}")
+        not_done(told, Reason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
     bench.stays(0.5, "the robot was stopped, the supervisor hangs")
     link.send(bench.download(bench.wave(3)))
     bench.stays(1.5, "nobody can say whether the robot may move")
@@ -119,8 +112,7 @@ def _not_begun(bench: Bench) -> None:
     stream = Streamer(bench)
     stream.put(way(bench, 1), BEGIN)
     number = stream.accepted("the first points").trajectory
-    control.send(STOP)
-    _acknowledged(control.reply(_TRAJ, 1), "STOP")
+    stop(control)
     told = control.expect(messages.Stopped, 2, "STOPPED arrives")
     here = (*bench.position, *[0.0] * (spec.MAX_JOINTS - len(bench.position)))
     if (
@@ -141,18 +133,8 @@ def _not_begun(bench: Bench) -> None:
     bench.stays(0.5, "the stream was stopped before it moved")
 
 
-def _if_there(prove: Callable[[Bench], None]) -> Callable[[Bench], None]:
-    """Nothing to prove where the configuration has no control port."""
-
-    def proved(bench: Bench) -> None:
-        if bench.group.ports.control:
-            prove(bench)
-
-    return proved
-
-
 CASES = tuple(
-    Case(name, title, "controlling", _if_there(prove), answers)
+    Case(name, title, "controlling", if_there(prove), answers)
     for name, title, prove, answers in (
         ("stops-alone", "STOP while the supervisor hangs", _alone, "R7b"),
         ("beats", "heartbeats to the moment", _beats, "R12"),

@@ -1,14 +1,12 @@
 """The control connection: stop, pause, speed and heartbeats, which no point delays."""
 
-import struct
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
-from rapidgen.protocol import decode, encode, messages, spec
+from rapidgen.protocol import encode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import HELLO, Bench, distance
-from rapidgen.proving.link import STOP, Link, raw_point
+from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.streaming import way
@@ -16,18 +14,21 @@ from rapidgen.proving.suite.streaming import way
 _TRAJ = spec.JOINT_TRAJ_PT.number
 
 
-def _stop(link: Link, seconds: float = 1) -> None:
+def stop(link: Link, seconds: float = 1) -> None:
+    """STOP over this connection; Broken unless it is confirmed in time."""
     link.send(STOP)
     if not isinstance(link.reply(_TRAJ, seconds), messages.Acknowledged):
         raise Broken("STOP on the control port is not confirmed")
 
 
-def _not_done(told: object, reason: Reason, what: str) -> None:
+def not_done(told: object, reason: Reason, what: str) -> None:
+    """Broken unless a reply says that it was not done, for that reason."""
     if told != messages.NotDone(reason):
         raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
 
 
-def _done(told: object, what: str) -> None:
+def done(told: object, what: str) -> None:
+    """Broken unless a reply is a plain success."""
     if not isinstance(told, messages.Acknowledged):
         raise Broken(f"{what}: the reply is {told}")
 
@@ -35,7 +36,7 @@ def _done(told: object, what: str) -> None:
 def _stops(bench: Bench) -> None:
     """STOP there ends a download that is executed, and says where the robot then stands."""
     control, watcher = bench.control(), bench.watcher()
-    _stop(control)
+    stop(control)
     for delay in (0.0, 0.02, 0.7):
         link, since, points = bench.motion(), bench.now, bench.wave(12)
         link.send(bench.download(points))
@@ -43,7 +44,7 @@ def _stops(bench: Bench) -> None:
         bench.run(delay)
         asked = bench.now
         control.read()
-        _stop(control)
+        stop(control)
         bench.wait_until_standing(3)
         if bench.now - asked > 1.5:
             raise Broken(f"the robot stood {bench.now - asked:.2f} s after STOP")
@@ -77,7 +78,7 @@ def _stop_under_load(bench: Bench) -> None:
         question = stream.frame((), spec.StreamFlag(0))
         stream.link.send(question * 400)
         asked = bench.now
-        _stop(control)
+        stop(control)
         if bench.now - asked > 0.3:
             raise Broken(f"under load STOP is answered after {bench.now - asked:.2f} s")
         bench.wait_until_standing(3)
@@ -94,7 +95,7 @@ def _stop_at_any_moment(bench: Bench) -> None:
         points = bench.wave(6, duration=0.2)
         link.send(bench.download(points))
         bench.run(step * 0.004)
-        _stop(control)
+        stop(control)
         if step % 3 == 0:
             link.send(STOP)
             link.reply(_TRAJ, 2)
@@ -109,14 +110,14 @@ def _stop_at_any_moment(bench: Bench) -> None:
 def _pauses(bench: Bench) -> None:
     """It stands on its path, and goes on from there to the end, in order."""
     control, watcher = bench.control(), bench.watcher()
-    _not_done(control.ask(messages.Pause(1)), Reason.IDLE, "a pause of nothing")
-    _not_done(control.ask(messages.Pause(0)), Reason.IDLE, "an end of no pause")
+    not_done(control.ask(messages.Pause(1)), Reason.IDLE, "a pause of nothing")
+    not_done(control.ask(messages.Pause(0)), Reason.IDLE, "an end of no pause")
     link, since, points = bench.motion(), bench.now, bench.wave(14)
     link.send(bench.download(points))
     bench.wait_until_moving()
     for _ in range(3):
         bench.run(0.8)
-        _done(control.ask(messages.Pause(1)), "PAUSE")
+        done(control.ask(messages.Pause(1)), "PAUSE")
         bench.wait_until_standing(3)
         bench.stays(4, "it is paused")
         told, status = bench.progress(watcher), bench.status(watcher)
@@ -124,14 +125,14 @@ def _pauses(bench: Bench) -> None:
             raise Broken(f"a trajectory is paused, PROGRESS says {told}")
         if (status.in_motion, status.in_error) != (0, 0):
             raise Broken(f"a trajectory is paused, STATUS says {status}")
-        _done(control.ask(messages.Pause(1)), "PAUSE again")
-        _done(control.ask(messages.Pause(0)), "the end of PAUSE")
+        done(control.ask(messages.Pause(1)), "PAUSE again")
+        done(control.ask(messages.Pause(0)), "the end of PAUSE")
         bench.wait_until_moving(2)
-        _done(control.ask(messages.Pause(0)), "the end of no pause, on the way")
+        done(control.ask(messages.Pause(0)), "the end of no pause, on the way")
     bench.wait_until_at(points[-1][0], 30)
     bench.followed([p for p, _ in points], since=since)
     for wrong in (2, -1, 7):
-        _not_done(control.ask(messages.Pause(wrong)), Reason.BAD_VALUE, f"PAUSE {wrong}")
+        not_done(control.ask(messages.Pause(wrong)), Reason.BAD_VALUE, f"PAUSE {wrong}")
 
 
 def _pause_ends(bench: Bench) -> None:
@@ -141,13 +142,13 @@ def _pause_ends(bench: Bench) -> None:
         link.send(bench.download(bench.wave(14)))
         bench.wait_until_moving()
         bench.run(0.5)
-        _done(control.ask(messages.Pause(1)), "PAUSE")
+        done(control.ask(messages.Pause(1)), "PAUSE")
         bench.wait_until_standing(3)
         if action == "STOP":
             link.send(STOP)
             link.reply(_TRAJ, 2)
         elif action == "control STOP":
-            _stop(control)
+            stop(control)
         elif action == "leaves":
             link.close()
         elif action == "another":
@@ -174,17 +175,17 @@ def _pause_ends(bench: Bench) -> None:
 def _speed(bench: Bench) -> None:
     """Half the speed for this trajectory, and the full one again for the next."""
     control, link = bench.control(), bench.motion()
-    _not_done(control.ask(messages.Speed(50)), Reason.IDLE, "SPEED of nothing")
+    not_done(control.ask(messages.Speed(50)), Reason.IDLE, "SPEED of nothing")
     taken = []
     for percent in (100.0, 50.0, 0.0):
         points, since = bench.wave(12), bench.now
         link.send(bench.download(points))
         bench.wait_until_moving()
         if percent:
-            _done(control.ask(messages.Speed(1)), "SPEED 1")
-            _done(control.ask(messages.Speed(percent)), f"SPEED {percent:g}")
+            done(control.ask(messages.Speed(1)), "SPEED 1")
+            done(control.ask(messages.Speed(percent)), f"SPEED {percent:g}")
         for wrong in (0.0, -5.0, 101.0, 0.5, 1e6):
-            _not_done(control.ask(messages.Speed(wrong)), Reason.BAD_VALUE, f"SPEED {wrong:g}")
+            not_done(control.ask(messages.Speed(wrong)), Reason.BAD_VALUE, f"SPEED {wrong:g}")
         bench.wait_until_at(points[-1][0], 60)
         bench.followed([p for p, _ in points], since=since)
         taken.append(bench.now - since)
@@ -213,8 +214,8 @@ def _nobody_answers(bench: Bench) -> None:
     link.send(bench.download(bench.wave(12)))
     bench.wait_until_moving()
     bench.fails("ROS_motion", "SpeedRefresh", "ERR_ARGVALERR")
-    _not_done(control.ask(messages.Speed(50)), Reason.INTERNAL, "SPEED that is not set")
-    _done(control.ask(messages.Speed(50)), "SPEED")
+    not_done(control.ask(messages.Speed(50)), Reason.INTERNAL, "SPEED that is not set")
+    done(control.ask(messages.Speed(50)), "SPEED")
 
 
 def _own_stop(bench: Bench) -> None:
@@ -229,7 +230,7 @@ def _own_stop(bench: Bench) -> None:
             other.run(0.3)
             if fails:
                 other.fails("ROS_control", "StartMove", "ERR_PATHDIST", 2)
-            _stop(control)
+            stop(control)
             if leaves:
                 control.close()
             other.wait_until_standing(3)
@@ -239,9 +240,9 @@ def _own_stop(bench: Bench) -> None:
                 control = other.control()
         link.send(other.download(other.wave(12)))
         other.wait_until_moving()
-        _done(control.ask(messages.Pause(1)), "PAUSE")
+        done(control.ask(messages.Pause(1)), "PAUSE")
         other.wait_until_standing(3)
-        _stop(control)
+        stop(control)
         other.stays(1, "it was paused, and stopped over the control port")
         other.moves_through(link, other.wave(3))
     finally:
@@ -288,7 +289,7 @@ def _heartbeats(bench: Bench) -> None:
         if not isinstance(control.ask(messages.Heartbeat(3600)), messages.HeartbeatReply):
             raise Broken("an hour between heartbeats is refused")
         for wrong in (-1.0, 3601.0, 1e5):
-            _not_done(control.ask(messages.Heartbeat(wrong)), Reason.BAD_VALUE, f"{wrong:g} s")
+            not_done(control.ask(messages.Heartbeat(wrong)), Reason.BAD_VALUE, f"{wrong:g} s")
         link.close()
         control.close()
         bench.run(2)
@@ -337,7 +338,7 @@ def _instructions_fail(bench: Bench) -> None:
         bench.healthy()
         control = bench.control()
         bench.run(0.3)
-        _stop(control, 2)
+        stop(control, 2)
         bench.wait_until_standing(3)
         bench.stays(1, f"it was stopped; {instruction} of the control server has failed")
         bench.moves_through(link, bench.wave(3))
@@ -360,7 +361,7 @@ def _supervisor_is_gone(bench: Bench) -> None:
             told = asked.reply(_TRAJ, 3)
             if not isinstance(told, messages.Failure):
                 raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
-        _not_done(control.ask(messages.Pause(1), 3), Reason.INTERNAL, "PAUSE")
+        not_done(control.ask(messages.Pause(1), 3), Reason.INTERNAL, "PAUSE")
         other.stays(1, "the supervisor does not answer")
     finally:
         other.close()
@@ -408,149 +409,6 @@ def _old_end(bench: Bench) -> None:
         raise Broken(f"the stream ended at {here}, STOPPED says {told.joints}")
 
 
-def _control_client_leaves(bench: Bench) -> None:
-    """Without heartbeats it is no loss; with them it is."""
-    for heartbeats in (True, False, True):
-        control, link = bench.control(), bench.motion()
-        points = bench.wave(12)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        if heartbeats:
-            control.ask(messages.Heartbeat(0.8))
-        bench.run(0.3)
-        control.close()
-        if heartbeats:
-            bench.wait_until_standing(3)
-            if distance(bench.position, points[-1][0]) < 1e-3:
-                raise Broken("the robot went on though the client that beats has left")
-            bench.stays(2, "the client that beats has left")
-        else:
-            bench.wait_until_at(points[-1][0], 20)
-        link.close()
-        bench.run(2)
-
-
-def _newest_control_client(bench: Bench) -> None:
-    """Whoever comes can stop the robot, whatever hangs on the port."""
-    old = bench.control()
-    for _ in range(2):
-        control = bench.control()
-        bench.until(partial(_is_lost, old), 1, "the client before gives way")
-        old = control
-        bench.run(0.5)
-        link = bench.motion()
-        bench.run(1.2)
-        link.send(bench.download(bench.wave(12)))
-        bench.wait_until_moving()
-        _stop(control)
-        bench.wait_until_standing(3)
-        bench.stays(1, "the newest client has stopped it")
-
-
-def _control_hello(bench: Bench) -> None:
-    control = bench.control()
-    told = control.ask(HELLO)
-    if not isinstance(told, messages.HelloReply) or told.build_id != bench.system.build_id:
-        raise Broken(f"HELLO on the control port is answered by {told}")
-    if bench.state().ask(HELLO) != told:
-        raise Broken(f"HELLO on the state port is not answered by {told}")
-    _done(control.ask(messages.Ping()), "PING")
-    control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
-    if not isinstance(_failure(control), messages.Failure):
-        raise Broken("a request of an unknown type is not answered by a failure")
-    for byte in encode(messages.Heartbeat(0), spec.Comm.REQUEST):
-        control.send(bytes([byte]))
-        bench.run(0.003)
-    control.reply(spec.HEARTBEAT.number)
-    # All at once, each answered in turn.
-    control.send(STOP + encode(messages.Speed(5), spec.Comm.REQUEST) + STOP)
-    for number in (_TRAJ, spec.SPEED.number, _TRAJ):
-        control.reply(number)
-
-
-def _failure(link: Link) -> object:
-    """What a failure reply of a type without content says."""
-    frame = link.expect_reply(2, "a request of an unknown type is answered")
-    if (frame.comm, frame.reply, frame.data) == (spec.Comm.REPLY, spec.ReplyCode.FAILURE, b""):
-        return messages.Failure()
-    return decode(frame)
-
-
-def _is_lost(link: Link) -> bool:
-    return link.lost
-
-
-def _control_junk(bench: Bench) -> None:
-    """What is no request of this port drops its client, stops nothing and harms nobody."""
-    stop = bytearray(STOP)
-    stop[8] = 1
-    wrong = [
-        b"\xff" * 8,
-        struct.pack("<i", 11),
-        struct.pack("<i", 1021),
-        bytes(stop),
-        raw_point(3, bench.position, 1.0, spec.Comm.REQUEST),
-        struct.pack("<5i", 16, spec.PAUSE.number, 1, 0, 1),
-        struct.pack("<6i", 20, spec.PAUSE.number, 2, 0, 1, 1),
-        struct.pack("<4i", 12, spec.SPEED.number, 2, 0),
-        struct.pack("<4i", 12, spec.HEARTBEAT.number, 2, 0),
-    ]
-    link = bench.motion()
-    points = bench.wave(40)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
-    for data in wrong:
-        control = bench.control()
-        control.send(data)
-        bench.until(partial(_is_lost, control), 3, f"{data[:24].hex()} drops its client")
-        if bench.standing:
-            raise Broken(f"the robot stopped for {data[:24].hex()}")
-    bench.wait_until_at(points[-1][0], 30)
-    control = bench.control()
-    _stop(control)
-
-
-def _signals(bench: Bench) -> None:
-    """Signals as the configuration exposes them: read, written, refused."""
-    control = bench.control()
-    exposed = bench.config.signals
-    count = len(exposed)
-    for index in (-1, count, 99):
-        control.send(encode(messages.Signal(index, 0, 0.0), spec.Comm.REQUEST))
-        if count:
-            told = control.reply(spec.SIGNAL.number)
-            _not_done(told, Reason.NO_SIGNAL, f"signal {index} of {count}")
-        elif not isinstance(_failure(control), messages.Failure):
-            raise Broken("a driver without signals answers SIGNAL")
-    for index, signal in enumerate(exposed):
-        _one_signal(bench, control, index, signal.kind, signal.access == "write")
-
-
-def _one_signal(bench: Bench, control: Link, index: int, kind: str, writable: bool) -> None:
-    there = bench.config.signals[index].name in bench.controller.signals
-    told = control.ask(messages.Signal(index, 0, 0.0))
-    if not there:
-        _not_done(told, Reason.NO_SIGNAL, f"signal {index} is not on the controller")
-        return
-    if not isinstance(told, messages.SignalReply) or told.signal != index:
-        raise Broken(f"signal {index} is read as {told}")
-    told = control.ask(messages.Signal(index, 1, 1.0))
-    if not writable:
-        _not_done(told, Reason.READ_ONLY, f"signal {index} may not be written")
-        return
-    if told != messages.SignalReply(index, 1.0):
-        raise Broken(f"signal {index} is written as {told}")
-    for value in (2.0, 0.5) if kind == "DO" else (-1.0, 0.5) if kind == "GO" else ():
-        _not_done(
-            control.ask(messages.Signal(index, 1, value)), Reason.BAD_VALUE, f"{value} to {kind}"
-        )
-    _not_done(
-        control.ask(messages.Signal(index, 2, 0.0)), Reason.BAD_VALUE, "neither read nor write"
-    )
-    if control.ask(messages.Signal(index, 1, 0.0)) != messages.SignalReply(index, 0.0):
-        raise Broken(f"signal {index} does not go back to 0")
-
-
 def _stream_over_control(bench: Bench) -> None:
     """Pause, speed and STOP of a stream."""
     control = bench.control()
@@ -558,14 +416,14 @@ def _stream_over_control(bench: Bench) -> None:
     points = way(bench, 90)
     stream.put(points[:25], BEGIN)
     bench.wait_until_moving()
-    _done(control.ask(messages.Speed(60)), "SPEED of a stream")
+    done(control.ask(messages.Speed(60)), "SPEED of a stream")
     bench.run(0.7)
-    _done(control.ask(messages.Pause(1)), "PAUSE of a stream")
+    done(control.ask(messages.Pause(1)), "PAUSE of a stream")
     bench.wait_until_standing(3)
     stream.put(points[25:50])
     stream.accepted("points while the stream is paused")
     bench.stays(3, "the stream is paused")
-    _done(control.ask(messages.Pause(0)), "the end of a pause")
+    done(control.ask(messages.Pause(0)), "the end of a pause")
     stream.put(points[50:70])
     stream.accepted("points behind a pause")
     stream.put(points[70:], END)
@@ -577,7 +435,7 @@ def _stream_over_control(bench: Bench) -> None:
     bench.wait_until_moving()
     bench.run(0.5)
     control.read()
-    _stop(control)
+    stop(control)
     told = control.expect(messages.Stopped, 2, "STOPPED arrives")
     stream.put(way(bench, 3))
     refusal = stream.refused(Reason.STOPPED, "points behind a STOP")
@@ -586,7 +444,7 @@ def _stream_over_control(bench: Bench) -> None:
     bench.stays(2, "the stream was stopped")
 
 
-def _if_there(prove: Callable[[Bench], None]) -> Callable[[Bench], None]:
+def if_there(prove: Callable[[Bench], None]) -> Callable[[Bench], None]:
     """Nothing to prove where the configuration has no control port."""
 
     def proved(bench: Bench) -> None:
@@ -597,7 +455,7 @@ def _if_there(prove: Callable[[Bench], None]) -> Callable[[Bench], None]:
 
 
 CASES = tuple(
-    Case(name, title, "controlling", _if_there(prove), answers)
+    Case(name, title, "controlling", if_there(prove), answers)
     for name, title, prove, answers in (
         ("control-stop", "STOP over the control port, and where the robot stands", _stops, "R5"),
         ("stop-under-load", "STOP is answered whatever lies before the motion server",
@@ -616,11 +474,6 @@ CASES = tuple(
          _instructions_fail, "R3"),
         ("supervisor-gone", "a supervisor that does not answer", _supervisor_is_gone, "R7b"),
         ("old-end", "STOPPED tells what ends, not what has ended", _old_end, ""),
-        ("control-leaves", "a control client leaves", _control_client_leaves, ""),
-        ("newest-control", "the newest control client is served", _newest_control_client, "R12"),
-        ("control-hello", "HELLO, PING and requests in pieces and lumps", _control_hello, "R2"),
-        ("control-junk", "junk drops its client and stops nothing", _control_junk, "R3"),
-        ("signals", "signals that the configuration exposes", _signals, ""),
         ("stream-control", "pause, speed and STOP of a stream", _stream_over_control, ""),
     )
 )  # fmt: skip

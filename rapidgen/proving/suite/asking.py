@@ -1,0 +1,168 @@
+"""The control port's clients and their requests: HELLO, PING, SIGNAL, junk, and who is served."""
+
+import struct
+from functools import partial
+
+from rapidgen.protocol import decode, encode, messages, spec
+from rapidgen.protocol.spec import Reason
+from rapidgen.proving.bench import HELLO, Bench, distance
+from rapidgen.proving.link import STOP, Link, raw_point
+from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.suite.controlling import done, if_there, not_done, stop
+
+_TRAJ = spec.JOINT_TRAJ_PT.number
+
+
+def _control_client_leaves(bench: Bench) -> None:
+    """Without heartbeats it is no loss; with them it is."""
+    for heartbeats in (True, False, True):
+        control, link = bench.control(), bench.motion()
+        points = bench.wave(12)
+        link.send(bench.download(points))
+        bench.wait_until_moving()
+        if heartbeats:
+            control.ask(messages.Heartbeat(0.8))
+        bench.run(0.3)
+        control.close()
+        if heartbeats:
+            bench.wait_until_standing(3)
+            if distance(bench.position, points[-1][0]) < 1e-3:
+                raise Broken("the robot went on though the client that beats has left")
+            bench.stays(2, "the client that beats has left")
+        else:
+            bench.wait_until_at(points[-1][0], 20)
+        link.close()
+        bench.run(2)
+
+
+def _newest_control_client(bench: Bench) -> None:
+    """Whoever comes can stop the robot, whatever hangs on the port."""
+    old = bench.control()
+    for _ in range(2):
+        control = bench.control()
+        bench.until(partial(_is_lost, old), 1, "the client before gives way")
+        old = control
+        bench.run(0.5)
+        link = bench.motion()
+        bench.run(1.2)
+        link.send(bench.download(bench.wave(12)))
+        bench.wait_until_moving()
+        stop(control)
+        bench.wait_until_standing(3)
+        bench.stays(1, "the newest client has stopped it")
+
+
+def _control_hello(bench: Bench) -> None:
+    control = bench.control()
+    told = control.ask(HELLO)
+    if not isinstance(told, messages.HelloReply) or told.build_id != bench.system.build_id:
+        raise Broken(f"HELLO on the control port is answered by {told}")
+    if bench.state().ask(HELLO) != told:
+        raise Broken(f"HELLO on the state port is not answered by {told}")
+    done(control.ask(messages.Ping()), "PING")
+    control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
+    if not isinstance(_failure(control), messages.Failure):
+        raise Broken("a request of an unknown type is not answered by a failure")
+    for byte in encode(messages.Heartbeat(0), spec.Comm.REQUEST):
+        control.send(bytes([byte]))
+        bench.run(0.003)
+    control.reply(spec.HEARTBEAT.number)
+    # All at once, each answered in turn.
+    control.send(STOP + encode(messages.Speed(5), spec.Comm.REQUEST) + STOP)
+    for number in (_TRAJ, spec.SPEED.number, _TRAJ):
+        control.reply(number)
+
+
+def _failure(link: Link) -> object:
+    """What a failure reply of a type without content says."""
+    frame = link.expect_reply(2, "a request of an unknown type is answered")
+    if (frame.comm, frame.reply, frame.data) == (spec.Comm.REPLY, spec.ReplyCode.FAILURE, b""):
+        return messages.Failure()
+    return decode(frame)
+
+
+def _is_lost(link: Link) -> bool:
+    return link.lost
+
+
+def _control_junk(bench: Bench) -> None:
+    """What is no request of this port drops its client, stops nothing and harms nobody."""
+    topic = bytearray(STOP)
+    topic[8] = 1
+    wrong = [
+        b"\xff" * 8,
+        struct.pack("<i", 11),
+        struct.pack("<i", 1021),
+        bytes(topic),
+        raw_point(3, bench.position, 1.0, spec.Comm.REQUEST),
+        struct.pack("<5i", 16, spec.PAUSE.number, 1, 0, 1),
+        struct.pack("<6i", 20, spec.PAUSE.number, 2, 0, 1, 1),
+        struct.pack("<4i", 12, spec.SPEED.number, 2, 0),
+        struct.pack("<4i", 12, spec.HEARTBEAT.number, 2, 0),
+    ]
+    link = bench.motion()
+    points = bench.wave(40)
+    link.send(bench.download(points))
+    bench.wait_until_moving()
+    for data in wrong:
+        control = bench.control()
+        control.send(data)
+        bench.until(partial(_is_lost, control), 3, f"{data[:24].hex()} drops its client")
+        if bench.standing:
+            raise Broken(f"the robot stopped for {data[:24].hex()}")
+    bench.wait_until_at(points[-1][0], 30)
+    control = bench.control()
+    stop(control)
+
+
+def _signals(bench: Bench) -> None:
+    """Signals as the configuration exposes them: read, written, refused."""
+    control = bench.control()
+    exposed = bench.config.signals
+    count = len(exposed)
+    for index in (-1, count, 99):
+        control.send(encode(messages.Signal(index, 0, 0.0), spec.Comm.REQUEST))
+        if count:
+            told = control.reply(spec.SIGNAL.number)
+            not_done(told, Reason.NO_SIGNAL, f"signal {index} of {count}")
+        elif not isinstance(_failure(control), messages.Failure):
+            raise Broken("a driver without signals answers SIGNAL")
+    for index, signal in enumerate(exposed):
+        _one_signal(bench, control, index, signal.kind, signal.access == "write")
+
+
+def _one_signal(bench: Bench, control: Link, index: int, kind: str, writable: bool) -> None:
+    there = bench.config.signals[index].name in bench.controller.signals
+    told = control.ask(messages.Signal(index, 0, 0.0))
+    if not there:
+        not_done(told, Reason.NO_SIGNAL, f"signal {index} is not on the controller")
+        return
+    if not isinstance(told, messages.SignalReply) or told.signal != index:
+        raise Broken(f"signal {index} is read as {told}")
+    told = control.ask(messages.Signal(index, 1, 1.0))
+    if not writable:
+        not_done(told, Reason.READ_ONLY, f"signal {index} may not be written")
+        return
+    if told != messages.SignalReply(index, 1.0):
+        raise Broken(f"signal {index} is written as {told}")
+    for value in (2.0, 0.5) if kind == "DO" else (-1.0, 0.5) if kind == "GO" else ():
+        not_done(
+            control.ask(messages.Signal(index, 1, value)), Reason.BAD_VALUE, f"{value} to {kind}"
+        )
+    not_done(
+        control.ask(messages.Signal(index, 2, 0.0)), Reason.BAD_VALUE, "neither read nor write"
+    )
+    if control.ask(messages.Signal(index, 1, 0.0)) != messages.SignalReply(index, 0.0):
+        raise Broken(f"signal {index} does not go back to 0")
+
+
+CASES = tuple(
+    Case(name, title, "controlling", if_there(prove), answers)
+    for name, title, prove, answers in (
+        ("control-leaves", "a control client leaves", _control_client_leaves, ""),
+        ("newest-control", "the newest control client is served", _newest_control_client, "R12"),
+        ("control-hello", "HELLO, PING and requests in pieces and lumps", _control_hello, "R2"),
+        ("control-junk", "junk drops its client and stops nothing", _control_junk, "R3"),
+        ("signals", "signals that the configuration exposes", _signals, ""),
+    )
+)  # fmt: skip
