@@ -14,8 +14,6 @@ from rapidgen.proving.model import Broken, Case
 _BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
 _TAKEN = messages.Acknowledged()
 _LONGEST = 3600.0
-_ROUNDING = 0.0005
-"""deg or mm outside a limit that count as rounding."""
 _SLOW = 60.0
 """s for a segment that no axis is too slow for."""
 
@@ -122,6 +120,9 @@ def _each_value(bench: Bench) -> None:
         table.row(_BEGIN, changed(here, axis, joint.lower), _SLOW, _TAKEN)
         table.row(1, changed(here, axis, joint.upper), _SLOW, _TAKEN)
         table.row(2, changed(here, axis, joint.lower), _SLOW, _TAKEN)
+        # Where a first point lies nobody has to reach in its time.
+        for value in (joint.upper, joint.lower):
+            table.row(_BEGIN, changed(here, axis, value), 0.0, _TAKEN)
         for share in (0.999, 1.01):
             ends = fast_ends(joint, seconds, share)
             if ends is None:
@@ -151,6 +152,25 @@ def _each_value(bench: Bench) -> None:
     table.row(_BEGIN, here, _SLOW, _TAKEN)
     table.ask()
     bench.stays(0.1, "no trajectory was sent whole")
+    _rounded(bench, table)
+
+
+def _rounded(bench: Bench, table: Table) -> None:
+    """Two places that lie outside of all limits by rounding are the same one: the limits."""
+    for side in (-1, 1):
+        one, two = (
+            tuple(
+                (joint.lower if side < 0 else joint.upper) + side * off * unit_of(joint)
+                for joint in bench.group.joints
+            )
+            for off in (0.0002, 0.0001)
+        )
+        table.row(_BEGIN, one, _LONGEST, _TAKEN)
+        # One point, sent twice, may be anywhere.
+        table.accepted(two, _LONGEST)
+        table.ask()
+        table.stop()
+        bench.wait_until_standing(2)
 
 
 def _each_duration(bench: Bench) -> None:
