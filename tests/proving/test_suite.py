@@ -27,6 +27,8 @@ OF_THE_ROBOT = (
     "outside-limits",
     "start-too-far",
     "padding",
+    "limits-as-told",
+    "first-of-all",
     "stream-joints",
     "away-from-zero",
     "batch-padding",
