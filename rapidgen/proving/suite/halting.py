@@ -121,7 +121,7 @@ def _why_it_ended(bench: Bench) -> None:
         link.send(bench.download(points))
         number += 1
         begins(bench, bench.now)
-        bench.run(1.6 * unit)
+        bench.run(1.15 * unit)
         if action == "leaves":
             link.close()
         else:
@@ -129,7 +129,7 @@ def _why_it_ended(bench: Bench) -> None:
         bench.wait_until_standing(3)
         bench.run(patience(bench))
         told, seen = bench.progress(watcher), bench.status(watcher)
-        if told != (number, failed, 5, 4, 2, reason, 2, 0):
+        if told != (number, failed, 5, 3, 1, reason, 1, 0):
             raise Broken(f"{action} came between points 1 and 2, PROGRESS says {told}")
         powered, e_stopped, mode = status
         possible = int(action == "leaves")
