@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
+from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol import Frame, decode, encode, messages, spec
 from rapidgen.protocol.spec import Feature, Reason, TrajectoryState
 from rapidgen.proving.bench import HELLO, Bench, distance
@@ -291,8 +292,14 @@ def _not_over_yet(bench: Bench) -> None:
 def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()
+    error = next(
+        signal_name(bench.config, bench.group, s)
+        for s in STATUS_SIGNALS
+        if s.function == "controller_error"
+    )
     for visit in range(3):
         came = bench.now
+        bench.controller.signals[error] = visit % 2
         link = bench.state()
         bench.until(lambda: bool(link.frames), 0.1, "the first client is told")  # noqa: B023
         bench.run(4 * period)
@@ -301,6 +308,8 @@ def _first_of_all(bench: Bench) -> None:
         first = content(found[0], messages.Status)
         if first.in_motion:
             raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
+        if first.in_error != visit % 2:
+            raise Broken(f"signal {error} is {visit % 2}, the first STATUS is {first}")
         subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS, link)
         _pause(bench, link)
         _advance(bench, 0.3)
