@@ -292,11 +292,8 @@ def _not_over_yet(bench: Bench) -> None:
 def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()
-    error = next(
-        signal_name(bench.config, bench.group, s)
-        for s in STATUS_SIGNALS
-        if s.function == "controller_error"
-    )
+    names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
+    error, standing = names["controller_error"], names["standing"]
     for visit in range(3):
         came = bench.now
         bench.controller.signals[error] = visit % 2
@@ -310,6 +307,13 @@ def _first_of_all(bench: Bench) -> None:
             raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
         if first.in_error != visit % 2:
             raise Broken(f"signal {error} is {visit % 2}, the first STATUS is {first}")
+        for value in (0, 1):
+            bench.controller.signals[standing] = value
+            since = _pause(bench, link)
+            bench.run(2 * period)
+            status = content(rounds(link, since)[-1], messages.Status)
+            if status.in_motion != 1 - value:
+                raise Broken(f"signal {standing} is {value}, STATUS says {status}")
         subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS, link)
         _pause(bench, link)
         _advance(bench, 0.3)
