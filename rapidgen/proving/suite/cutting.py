@@ -75,7 +75,7 @@ class _Streams:
 
     def shows(self, state: TrajectoryState, counts: tuple[int, ...], reason: int) -> None:
         """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
-        self._bench.run(2 * self._bench.config.state_period)
+        self._bench.run(2 * self._bench.config.state_period + 2 * self._bench.setting.motion.settle)
         told = self._bench.progress(self.watcher)
         if (told.trajectory, told.state, told.reason) != (self.trajectory, state, reason) or (
             told[2 : 2 + len(counts)] != counts

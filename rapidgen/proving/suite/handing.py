@@ -50,7 +50,8 @@ def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
     """Broken unless PROGRESS says within that time that all points are executed."""
     wanted = (table.number, TrajectoryState.DONE, count, count, count, 0, -1, 0)
     table.watcher.read()
-    until, told = bench.now + seconds + 2.5 * bench.config.state_period, None
+    more = 2.5 * bench.config.state_period + 2 * bench.setting.motion.settle
+    until, told = bench.now + seconds + more, None
     while bench.now < until:
         told = table.watcher.expect(messages.Progress, 2, "a PROGRESS arrives")
         if told == wanted:
