@@ -251,7 +251,7 @@ def _stream_by_step(bench: Bench) -> None:
     stream.put([(beyond, 30.0)])
     stream.refused(Reason.JOINT_LIMIT, "joint 1 is outside its limits")
     bench.wait_until_at(points[1][0], 5)
-    bench.run(2 * bench.config.state_period)
+    bench.run(2 * (bench.config.state_period + bench.setting.motion.settle))
     progress, status = bench.progress(watcher), bench.status(watcher)
     failed = (number, TrajectoryState.FAILED, 2, 2, 2, Reason.JOINT_LIMIT, 2, 1)
     if progress != failed or (status.in_error, status.error_code, status.in_motion) != (1, 104, 0):
