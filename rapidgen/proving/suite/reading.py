@@ -293,7 +293,7 @@ def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
-    error, standing = names["controller_error"], names["standing"]
+    error, standing, stop = (names[n] for n in ("controller_error", "standing", "emergency_stop"))
     for visit in range(3):
         came = bench.now
         bench.controller.signals[error] = visit % 2
@@ -307,13 +307,14 @@ def _first_of_all(bench: Bench) -> None:
             raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
         if first.in_error != visit % 2:
             raise Broken(f"signal {error} is {visit % 2}, the first STATUS is {first}")
-        for value in (0, 1):
-            bench.controller.signals[standing] = value
+        for name, value in ((standing, 0), (stop, 1), (standing, 1), (stop, 0)):
+            bench.controller.signals[name] = value
             since = _pause(bench, link)
             bench.run(2 * period)
             status = content(rounds(link, since)[-1], messages.Status)
-            if status.in_motion != 1 - value:
-                raise Broken(f"signal {standing} is {value}, STATUS says {status}")
+            wanted = tuple(bench.controller.signals[n] for n in (standing, stop))
+            if (1 - status.in_motion, status.e_stopped) != wanted:
+                raise Broken(f"signals {standing}, {stop} are {wanted}, STATUS says {status}")
         subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS, link)
         _pause(bench, link)
         _advance(bench, 0.3)
