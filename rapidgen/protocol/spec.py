@@ -497,7 +497,7 @@ PROGRESS = Message(
     "controller",
     (Port.STATE,),
     (
-        _int("trajectory", "number of the newest trajectory, from 1, wraps at 2^23"),
+        _int("trajectory", "number of the newest trajectory, from 1; 0 follows 2^22 - 1"),
         _int("state", "see the table of trajectory states"),
         _int("received", "points received"),
         _int("planned", "points given to the path planner"),
