@@ -364,8 +364,7 @@ class _Walk:
         self.bench.wait_until_standing(10)
         self.bench.run(self.chance.uniform(0, 1))
         self._say("... and start again")
-        for again in ("reset-e-stop", "motors-on", "start"):
-            perform(again)
+        self.bench.start_again()
         self.bench.stays(3, f"the program was started after {action}; nobody asked for motion")
 
     def superseded(self) -> None:

@@ -178,8 +178,7 @@ def _not_now(bench: Bench) -> None:
             raise Broken(f"after {action} points are answered by {told}")
         if (told.accepted, told.point, told.joint) != (0, -1, 0):
             raise Broken(f"after {action} points are answered by {told}")
-        for again in ("reset-e-stop", "motors-on", "start"):
-            bench.controller.perform(again)
+        bench.start_again()
         bench.stays(3, f"points came after {action}")
         stream.link.close()
         bench.run(1.2)

@@ -10,8 +10,7 @@ from rapidgen.proving.model import Broken, Case
 
 
 def _back_to_work(bench: Bench) -> None:
-    for action in ("reset-e-stop", "auto", "motors-on", "start"):
-        bench.controller.perform(action)
+    bench.start_again()
     bench.run(1)
 
 

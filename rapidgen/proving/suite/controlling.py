@@ -162,8 +162,7 @@ def _pause_ends(bench: Bench) -> None:
             raise Broken(f"after {action} an end of the pause is taken: {told}")
         bench.wait_until_standing(5)
         bench.stays(3, f"it was paused, then came {action}")
-        for again in ("reset-e-stop", "motors-on", "start"):
-            bench.controller.perform(again)
+        bench.start_again()
         bench.stays(3, f"it was paused, then came {action} and a start of the program")
         control.close()
         link.close()

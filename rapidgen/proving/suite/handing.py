@@ -185,8 +185,7 @@ def _not_now(bench: Bench) -> None:
         # Sooner than anybody looks by himself.
         bench.run(0.01)
         refused(reason)
-        for again in ("reset-e-stop", "motors-on", "start"):
-            bench.controller.perform(again)
+        bench.start_again()
         bench.run(0.5)
     bench.stays(0.2, "nothing was handed over")
     _while_moving(bench, table)

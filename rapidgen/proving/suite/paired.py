@@ -261,8 +261,7 @@ def _progress_of_an_early_end(bench: Bench) -> None:
             raise Broken(f"a trajectory was ended by {action}, STATUS says {status}")
         if status.in_motion:
             raise Broken(f"the robot stands after {action}, STATUS says {status}")
-        for again in ("reset-e-stop", "motors-on", "start"):
-            bench.controller.perform(again)
+        bench.start_again()
         bench.run(1)
         link.close()
         motion.close()

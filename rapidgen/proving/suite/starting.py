@@ -46,8 +46,7 @@ def _power_returns(bench: Bench) -> None:
         number = bench.progress(watcher).trajectory
         bench.controller.perform("power-loss")
         bench.stays(0.2, "the power has failed")
-        for again in ("reset-e-stop", "auto", "motors-on", "start"):
-            bench.controller.perform(again)
+        bench.start_again()
         bench.stays(0.8, "the power came back")
         watcher, link = bench.watcher(), bench.motion()
         told, status = bench.progress(watcher), bench.status(watcher)

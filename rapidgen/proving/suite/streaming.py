@@ -297,8 +297,7 @@ def _early_end(bench: Bench) -> None:
             if not isinstance(told, messages.PointsRefused) or told.reason not in reasons:
                 raise Broken(f"a stream was ended by {action}, a batch is answered by {told}")
         bench.stays(2, f"the stream was ended by {action}")
-        for again in ("reset-e-stop", "motors-on", "start"):
-            bench.controller.perform(again)
+        bench.start_again()
         bench.stays(3, f"the stream was ended by {action}, then the program was started")
         stream.link.close()
         bench.run(1.5)
