@@ -275,6 +275,8 @@ class RapidTask(Stepping):
 
     def _begin(self) -> bool:
         """What is due without a start: UNDO after PP to main, routines of POWER_ON."""
+        # PP to main may have come before the first statement.
+        self._obey()
         self.leave_place()
         self._prepare()
         self._run_events(_WHILE_STOPPED)

@@ -261,6 +261,21 @@ def test_power_loss() -> None:
         assert [t.state for t in controller.tasks.values()] == ["stopped", "running"]
 
 
+def test_power_loss_before_the_first_statement() -> None:
+    controller, printed = boot(
+        "PROC on_START()\nENDPROC\nPROC main()\n WaitTime 9;\nENDPROC",
+        'PROC on_START()\nENDPROC\nPROC main()\n TPWrite "b main";\n WaitTime 9;\nENDPROC',
+        events=("START",),
+        specs={"T2": {"type": "SEMISTATIC"}},
+    )
+    with controller:
+        controller.start_program()
+        controller.perform("power-loss")
+        controller.run_for(0.5)
+        assert printed == ["b main"]
+        assert [t.state for t in controller.tasks.values()] == ["stopped", "running"]
+
+
 def test_start_right_behind_pp_to_main() -> None:
     text = (
         'PROC main()\n TPWrite "main " + ValToStr(n);\n n := 2;\n inner;\nENDPROC\n'
