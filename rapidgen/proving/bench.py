@@ -29,6 +29,7 @@ from rapidgen.virtual.errors import FatalError, RapidError
 from rapidgen.virtual.faults import FaultPlan
 from rapidgen.virtual.log import Domain
 from rapidgen.virtual.motion.settings import MotionSettings
+from rapidgen.virtual.network.interface import NetworkFault
 from rapidgen.virtual.tracing import Coverage
 
 Lines: TypeAlias = dict[str, dict[int, int]]
@@ -37,7 +38,7 @@ Lines: TypeAlias = dict[str, dict[int, int]]
 HELLO = messages.Hello(spec.PROTOCOL_VERSION, (0, 0, 0), 1)
 """As a client says it that wants PROGRESS."""
 
-FAILURES = (Broken, Deadlock, FatalError, WireError)
+FAILURES = (Broken, Deadlock, FatalError, NetworkFault, WireError)
 """What a driver's fault looks like from here; anything else is a fault of ours."""
 
 SAMPLE = 4_000_000
