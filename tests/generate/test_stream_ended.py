@@ -116,6 +116,22 @@ def test_another_stream_takes_its_place(bench):
     assert refused(client)[3] == 10
 
 
+def test_another_stream_may_begin_with_points_while_the_ring_is_full(bench):
+    """Nothing of what it ends counts as being in the ring."""
+    b = bench()
+    client = b.client()
+    slow = line(HOME, 120, step=1e-5)
+    for first in range(0, 120, 30):
+        client.send(batch(7, first, slow[first : first + 30], BEGIN if first == 0 else 0))
+        accepted(client)
+    b.vc.run_for(0.5)
+    rows = line(list(b.joints()), 30)
+    client.send(batch(8, 0, rows, BEGIN | END))
+    assert accepted(client)[:3] == (8, 2, 30)
+    b.vc.run_for(6)
+    assert close_to(b.joints(), rows[-1][1], 1e-5)
+
+
 def test_another_stream_has_to_begin_where_the_robot_then_stands(bench):
     b = bench()
     client, _, _ = under_way(b)

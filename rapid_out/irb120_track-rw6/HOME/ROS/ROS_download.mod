@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "fa01aee3f1cc";
+    CONST string ROS_BUILD_DOWNLOAD := "93bd64d4c604";
 
     LOCAL CONST dnum NO_BITS := 0;
 

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "fa01aee3f1cc";
+    CONST string ROS_BUILD_STREAM := "93bd64d4c604";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -175,7 +175,6 @@ MODULE ROS_stream
     LOCAL PROC begin_stream()
         stream := number;
         code := ROS_REASON_NONE;
-        place := -1;
         accepted := 0;
         handed_over := FALSE;
         ended := FALSE;
@@ -239,8 +238,16 @@ MODULE ROS_stream
     ENDPROC
 
     LOCAL PROC announce()
-        holding := FALSE;
         ROS_head := written;
+    ENDPROC
+
+    ! What a batch says is its fault only if it came as it was sent.
+    LOCAL PROC cut_if_intact(num reason, VAR rawbytes data, num at)
+        IF is_intact(data, at) THEN
+            cut reason;
+        ELSE
+            cut ROS_REASON_CHECKSUM;
+        ENDIF
     ENDPROC
 
     LOCAL PROC take_if_in_order(VAR rawbytes data, num at)
@@ -248,22 +255,21 @@ MODULE ROS_stream
 
         see_end;
         IF code <> ROS_REASON_NONE RETURN;
-        IF first <> accepted OR points > room() OR (ended AND points > 0) THEN
-            IF NOT is_intact(data, at) THEN
-                cut ROS_REASON_CHECKSUM;
-            ELSEIF first <> accepted OR ended THEN
-                cut ROS_REASON_SEQUENCE_GAP;
-            ELSE
-                cut ROS_REASON_OVERRUN;
-            ENDIF
+        IF first <> accepted OR (ended AND points > 0) THEN
+            cut_if_intact ROS_REASON_SEQUENCE_GAP, data, at;
             RETURN;
         ENDIF
         IF points > 0 AND (NOT handed_over) THEN
+            ! This also waits until nothing is left in the ring of what this stream has ended.
             obstacle := ROS_what_hinders();
             IF obstacle <> ROS_REASON_NONE THEN
                 refuse obstacle, -1;
                 RETURN;
             ENDIF
+        ENDIF
+        IF points > room() THEN
+            cut_if_intact ROS_REASON_OVERRUN, data, at;
+            RETURN;
         ENDIF
         take_points data, at;
         IF code <> ROS_REASON_NONE RETURN;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "7b4d6efb9479";
+    CONST string ROS_BUILD_MOTION := "08c494fd1a03";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1500,500,1500,1000];
@@ -40,7 +40,6 @@ MODULE ROS_motion
         ROS_start_task ROS_shown_motion_1,
             ROS_BUILD_MOTION = ROS_BUILD_ID;
         answer ROS_REASON_PROGRAM_STOPPED;
-        ROS_starved_1 := -1;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -134,7 +133,6 @@ MODULE ROS_motion
 
     ! All points of the trajectory were executed: it is done, or it was cut behind them.
     LOCAL PROC finish()
-        ROS_starved_1 := -1;
         IF ROS_closed_code_1 = ROS_REASON_NONE THEN
             ROS_done_1 := closed;
         ELSE
@@ -148,7 +146,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR num passed;
         VAR bool first;
-        VAR bool waited := FALSE;
+        VAR bool waited;
 
         point := ROS_ring_1{ROS_tail_1 MOD ROS_RING_SIZE + 1};
         next := ROS_next(ROS_tail_1);

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "e8c66093f2db";
+    CONST string ROS_BUILD_ACCEPTANCE := "94e8160c5906";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -156,11 +156,10 @@ MODULE ROS_acceptance
         RETURN FALSE;
     ENDFUNC
 
-    ! Seconds `needed` to the first point, 0 if it stands there; `joint` is the
-    ! first one that is too far from it, 0 if none is.
+    ! Seconds `needed` to the first point, 0 if it stands there; `joint`,
+    ! which has to be 0, becomes the first one that is too far from it.
     PROC ROS_reach_start(jointtarget here, jointtarget start, INOUT num needed, INOUT num joint)
         needed := 0;
-        joint := 0;
         reach_start Abs(start.robax.rax_1 - here.robax.rax_1), ROS_SPEED_1, NEAR_1, 1,
             needed, joint;
         reach_start Abs(start.robax.rax_2 - here.robax.rax_2), ROS_SPEED_2, NEAR_2, 2,

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "af3b363d966f";
+    CONST string ROS_BUILD_MOTION := "40fd2cad4625";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -34,7 +34,6 @@ MODULE ROS_motion
         ROS_start_task ROS_shown_motion,
             ROS_BUILD_MOTION = ROS_BUILD_ID;
         answer ROS_REASON_PROGRAM_STOPPED;
-        ROS_starved := -1;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -128,7 +127,6 @@ MODULE ROS_motion
 
     ! All points of the trajectory were executed: it is done, or it was cut behind them.
     LOCAL PROC finish()
-        ROS_starved := -1;
         IF ROS_closed_code = ROS_REASON_NONE THEN
             ROS_done := closed;
         ELSE
@@ -142,7 +140,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR num passed;
         VAR bool first;
-        VAR bool waited := FALSE;
+        VAR bool waited;
 
         point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
         next := ROS_next(ROS_tail);
