@@ -4,12 +4,12 @@ VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
 
-.PHONY: demo test lint types contract unit wheel foreign mutants bench motion-campaign driver-days runtime-mutants clean
+.PHONY: demo test lint types contract unit wheel foreign mutants bench motion-campaign driver-day driver-days runtime-mutants clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
 
-test: lint types contract wheel unit
+test: lint types contract wheel driver-day unit
 
 $(STAMP): pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
@@ -66,9 +66,14 @@ bench: $(STAMP)
 motion-campaign: $(STAMP)
 	$(BIN)/python -m tests.motion.campaign
 
-# The generated driver for 24 simulated hours, with traffic: some minutes.
+# The generated driver for 24 simulated hours: a trajectory every ten minutes, a client that reads
+# the state for a quarter of the time. A minute.
+driver-day: $(STAMP)
+	$(BIN)/python benchmarks/campaign.py days --hours 24 --watched 0.25
+
+# 30 simulated days, the state read all the time: an hour and more.
 driver-days: $(STAMP)
-	$(BIN)/python benchmarks/campaign.py days
+	$(BIN)/python benchmarks/campaign.py days --hours 720
 
 # A mutant of the runtime for each of its conformance files: some 15 minutes. The tests run a sample.
 runtime-mutants: $(STAMP)
