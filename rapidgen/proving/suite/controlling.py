@@ -9,6 +9,7 @@ from rapidgen.proving.bench import HELLO, Bench, distance
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, END, Streamer
+from rapidgen.proving.suite.moving import patience
 from rapidgen.proving.suite.streaming import way
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
@@ -212,7 +213,7 @@ def _nobody_answers(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
     link.send(bench.download(bench.wave(12)))
     bench.wait_until_moving()
-    bench.fails("ROS_motion", "SpeedRefresh", "ERR_ARGVALERR")
+    bench.fails("ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM")
     not_done(control.ask(messages.Speed(50)), Reason.INTERNAL, "SPEED that is not set")
     done(control.ask(messages.Speed(50)), "SPEED")
 
@@ -387,6 +388,7 @@ def _old_end(bench: Bench) -> None:
     link.send(STOP)
     link.reply(_TRAJ, 2)
     bench.wait_until_standing(3)
+    bench.run(patience(bench))
     control = bench.control()
     bench.run(1)
     if any(f.number == spec.STOPPED.number for f in control.read()):

@@ -65,6 +65,9 @@ def _instructions_fail(bench: Bench) -> None:
         ("ROS_motion", "StopMove", "ERR_PATH_STOP"),
         ("ROS_motion", "StartMove", "ERR_PATHDIST"),
     ):
+        if error == "ERR_OUTOFBND" and bench.setting.dialect.unhandled_error == "stop":
+            # There it does not pass through routines without a handler: the task ends.
+            continue
         for moving in (False, True):
             link = bench.motion()
             state = bench.state()
@@ -143,7 +146,9 @@ def _path_stays(bench: Bench) -> None:
 
 
 def _port_taken(bench: Bench) -> None:
-    other = bench.beside(bench.system)
+    # Without a time to settle none of its tasks has run yet.
+    motion = replace(bench.setting.motion, settle=0.0)
+    other = bench.beside(bench.system, setting=replace(bench.setting, motion=motion))
     try:
         network = other.controller.network
         taken = [

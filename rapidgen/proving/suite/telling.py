@@ -114,6 +114,8 @@ def _peace_is_quiet(bench: Bench) -> None:
     for _ in range(3):
         link, state = bench.motion(), bench.state()
         bench.moves_through(link, bench.wave(4))
+        # It is at its end a while before it has settled there.
+        bench.run(2 * bench.setting.motion.settle)
         link.close()
         state.close(abort=True)
         bench.run(1.2)
