@@ -18,6 +18,7 @@ from rapidgen.diagnostics import DiagnosticError, Span
 from rapidgen.protocol import WireError, encode, messages, spec
 from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Series
+from rapidgen.proving.positions import distance, off
 from rapidgen.rapid import parse
 from rapidgen.rapid.nodes import Module
 from rapidgen.system.model import System
@@ -66,6 +67,10 @@ class Setting:
     motion: MotionSettings = field(default_factory=MotionSettings)
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False
+
+    def early(self) -> "Setting":
+        """The same on a controller of which no task has run yet: no robot that settles first."""
+        return replace(self, motion=replace(self.motion, settle=0.0))
 
 
 @dataclass(frozen=True, slots=True)
@@ -430,6 +435,11 @@ class Bench:
             way = along(0.9 * duration / slowest)
         return [(here, 10.0), *((joints, duration) for joints in way[1:])]
 
+    @property
+    def last_event(self) -> int:
+        """Sequence number of the newest event in the log; 0: there is none."""
+        return max((event.sequence for event in self.controller.log), default=0)
+
     def seconds_to(self, target: Position) -> float:
         """s to a point from here: half of each axis' speed is enough, and the TCP's ceiling."""
         here = self.position
@@ -470,7 +480,7 @@ class Bench:
         With full speed in automatic mode, that is.
         """
         since, asked = self.now, sum(d for _, d in points[1:])
-        last = max((e.sequence for e in self.controller.log), default=0)
+        last = self.last_event
         link.send(self.download(points))
         self.wait_until_at(points[-1][0], 30 + 3 * asked)
         self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
@@ -559,22 +569,6 @@ def _exchange(program: Program, module: LoadedModule, tree: Module) -> None:
 
 def _call(program: Program, routine: Routine, *arguments: Any, **named: Any) -> Any:  # noqa: ANN401
     return program.function(routine)(*arguments, **named)
-
-
-def distance(one: Position, other: Position) -> float:
-    """Largest difference of an axis."""
-    return max(abs(a - b) for a, b in zip(one, other, strict=True))
-
-
-def off(seen: Position, start: Position, end: Position) -> float:
-    """Distance of a position from the straight way between two (largest axis)."""
-    along = [e - s for s, e in zip(start, end, strict=True)]
-    length = sum(a * a for a in along)
-    share = 0.0
-    if length:
-        share = sum((p - s) * a for p, s, a in zip(seen, start, along, strict=True)) / length
-        share = min(1.0, max(0.0, share))
-    return distance(seen, tuple(s + share * a for s, a in zip(start, along, strict=True)))
 
 
 def add_lines(to: Lines, more: Lines) -> None:

@@ -20,9 +20,10 @@ from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.protocol import messages, spec
-from rapidgen.proving.bench import FAILURES, Bench, Setting, distance, off
+from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
+from rapidgen.proving.positions import distance, off
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.rapid import parse
 from rapidgen.rapid.nodes import DataDeclaration

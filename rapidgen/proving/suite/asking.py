@@ -5,9 +5,10 @@ from functools import partial
 
 from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason
-from rapidgen.proving.bench import HELLO, Bench, distance
+from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link, raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance
 from rapidgen.proving.suite.controlling import done, if_there, not_done, stop
 
 _TRAJ = spec.JOINT_TRAJ_PT.number

@@ -7,9 +7,10 @@ import numpy as np
 
 from rapidgen.protocol import bulk, messages, spec
 from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
-from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streaming import way
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 
 from rapidgen.protocol import encode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
-from rapidgen.proving.bench import HELLO, Bench, distance
+from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.moving import patience
 from rapidgen.proving.suite.streaming import way

@@ -2,21 +2,22 @@
 
 from collections.abc import Sequence
 
+from rapidgen.generate.context import WRAP
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import changed, small_unit
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streaming import way
-from rapidgen.proving.suite.taking import changed, fast_ends, unit_of
+from rapidgen.proving.suite.taking import fast_ends
 
 _NONE = StreamFlag(0)
 _SLOW = 30.0
 """s for a segment that no axis is too slow for; the wire has no more than 33 s."""
 _HEAD = 4
 """Reads of the driver in front of a batch: of the frame, and of what kind of message it is."""
-_WRAP = 2**22
 """Where the counters of the ring begin again."""
 
 
@@ -90,7 +91,7 @@ def _each_value(bench: Bench) -> None:
     """Limits and speeds of each joint, durations: the reply tells which point and joint."""
     streams, here, policy = _Streams(bench), bench.position, bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
-        unit = unit_of(joint)
+        unit = small_unit(joint)
         near = policy.start_tolerance
         if joint.kind == "prismatic":
             near = policy.start_tolerance_linear
@@ -318,7 +319,7 @@ def _left(bench: Bench) -> None:
 def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
-    _count_from(bench, _WRAP - 7)
+    _count_from(bench, WRAP - 7)
     here, most = bench.position, spec.batch_points(len(bench.position))
     there = bench.wave(2, size=0.01)[1][0]
     goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]

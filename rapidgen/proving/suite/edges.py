@@ -5,16 +5,13 @@ from itertools import pairwise
 
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason
-from rapidgen.proving.bench import SETTLED, Bench, distance
+from rapidgen.proving.bench import SETTLED, Bench
 from rapidgen.proving.link import STOP, Link, Point, Position, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import changed, distance, small_unit
 from rapidgen.proving.suite.refusals import refused
 
 _LONGEST = 3600.0
-
-
-def _with(position: Position, axis: int, value: float) -> Position:
-    return (*position[:axis], value, *position[axis + 1 :])
 
 
 def _inward(bench: Bench, axis: int, step: float) -> float:
@@ -85,7 +82,7 @@ def _fastest(bench: Bench) -> None:
             continue
         here = bench.position
         for share in (0.995, 1.05):
-            target = _with(here, axis, _inward(bench, axis, share * seconds * joint.speed))
+            target = changed(here, axis, _inward(bench, axis, share * seconds * joint.speed))
             points = [(here, 10.0), (target, seconds), (target, 1.0)]
             if share < 1:
                 _taken(bench, points, f"joint {axis + 1} at its speed")
@@ -102,16 +99,16 @@ def _limits_by_rounding(bench: Bench) -> None:
     """What lies outside a limit by rounding is the limit; what lies farther is refused."""
     link = bench.motion()
     for axis, joint in enumerate(bench.group.joints):
-        unit = math.radians(1) if joint.kind == "revolute" else 1e-3
+        unit = small_unit(joint)
         for limit, side in ((joint.lower, -1), (joint.upper, 1)):
             here = bench.position
-            seconds = bench.seconds_to(_with(here, axis, limit))
-            wanted = _with(here, axis, limit + side * 0.0003 * unit)
+            seconds = bench.seconds_to(changed(here, axis, limit))
+            wanted = changed(here, axis, limit + side * 0.0003 * unit)
             link.send(bench.download([(here, 10.0), (wanted, seconds), (wanted, 0.5)]))
-            bench.wait_until_at(_with(here, axis, limit), 20 + 4 * seconds)
+            bench.wait_until_at(changed(here, axis, limit), 20 + 4 * seconds)
             link.send(bench.download([(bench.position, 10.0), (here, seconds), (here, 0.5)]))
             bench.wait_until_at(here, 20 + 4 * seconds)
-            wanted = _with(here, axis, limit + side * 0.0012 * unit)
+            wanted = changed(here, axis, limit + side * 0.0012 * unit)
             frames = bench.download([(here, 10.0), (wanted, seconds), (wanted, 0.5)])
             link.send(frames)
             bench.stays(1, f"joint {axis + 1} was asked beyond its limit")
@@ -125,8 +122,8 @@ def _start_tolerance(bench: Bench) -> None:
             near = policy.start_tolerance_linear
         if near <= 0:
             continue
-        start = _with(bench.position, axis, _inward(bench, axis, 0.97 * near))
-        end = _with(start, axis, _inward(bench, axis, 0.97 * near + 0.02 * joint.speed))
+        start = changed(bench.position, axis, _inward(bench, axis, 0.97 * near))
+        end = changed(start, axis, _inward(bench, axis, 0.97 * near + 0.02 * joint.speed))
         # Its duration is not the client's business: a stamp behind the last one of the trajectory
         # before makes it a short one.
         link, since = bench.motion(), bench.now
@@ -135,8 +132,8 @@ def _start_tolerance(bench: Bench) -> None:
         _slow_to(bench, start, since, policy.approach_speed * joint.speed)
         link.close()
         bench.run(1.2)
-        start = _with(bench.position, axis, _inward(bench, axis, 1.03 * near))
-        end = _with(start, axis, _inward(bench, axis, 1.03 * near + 0.02 * joint.speed))
+        start = changed(bench.position, axis, _inward(bench, axis, 1.03 * near))
+        end = changed(start, axis, _inward(bench, axis, 1.03 * near + 0.02 * joint.speed))
         frames = bench.download([(start, 10.0), (end, 0.5), (end, 0.5)])
         refused(bench, frames, [Reason.START_TOO_FAR], axis + 1, 0)
 
@@ -223,7 +220,7 @@ def _approach(bench: Bench) -> None:
             step = min(1.0 * speed, 0.4 * (joint.upper - joint.lower))
             needed = step / speed
             seconds = given or 2 * needed
-            target = _with(bench.position, axis, _inward(bench, axis, step))
+            target = changed(bench.position, axis, _inward(bench, axis, step))
             since = bench.now
             link.send(point_frame(0, 2, target, seconds) + point_frame(1, 2, target, seconds))
             bench.wait_until_at(target, 60)
@@ -267,7 +264,7 @@ def _in_one_chunk(bench: Bench) -> None:
 def _rest_is_skipped(bench: Bench) -> None:
     link = bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(6)]
-    points[2] = (_with(points[2][0], 0, bench.group.joints[0].upper + 1), 30.0)
+    points[2] = (changed(points[2][0], 0, bench.group.joints[0].upper + 1), 30.0)
     frames = [point_frame(n, 6, *point) for n, point in enumerate(points)]
     state = bench.watcher()
     link.send(b"".join(frames[:4]))
@@ -312,7 +309,7 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
     """Each request is answered by what has become of the trajectory so far."""
     link = bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(6)]
-    points[3] = (_with(points[3][0], 1, bench.group.joints[1].upper + 1), 30.0)
+    points[3] = (changed(points[3][0], 1, bench.group.joints[1].upper + 1), 30.0)
     for number, point in enumerate(points):
         link.send(point_frame(number, 6, *point, spec.Comm.REQUEST))
         content = decode(link.expect_reply(2, f"point {number} is answered"))
@@ -322,7 +319,7 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
             raise Broken(f"point 3 was wrong, the reply to point {number} is {content}")
     # Behind a refusal at the end nothing is left to be skipped.
     axis, here = 0, bench.position
-    far = _with(here, axis, _inward(bench, axis, 0.3))
+    far = changed(here, axis, _inward(bench, axis, 0.3))
     link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, here, 9.0))
     link.send(raw_point(1, here, 1.0, spec.Comm.REQUEST))
     content = decode(link.expect_reply(2, "a point behind a refused end is answered"))

@@ -3,6 +3,7 @@
 import re
 from dataclasses import replace
 
+from rapidgen.generate.context import WRAP
 from rapidgen.protocol import spec
 from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import Bench
@@ -11,7 +12,6 @@ from rapidgen.proving.model import Broken, Case
 from rapidgen.virtual.builtins.clocks import Clock
 from rapidgen.virtual.log import EventType
 
-_WRAP = 2**22
 _COUNTERS = (
     ("head", "tail"),
     ("trajectory", "phase_of", "session", "done", "started"),
@@ -146,9 +146,7 @@ def _path_stays(bench: Bench) -> None:
 
 
 def _port_taken(bench: Bench) -> None:
-    # Without a time to settle none of its tasks has run yet.
-    motion = replace(bench.setting.motion, settle=0.0)
-    other = bench.beside(bench.system, setting=replace(bench.setting, motion=motion))
+    other = bench.beside(bench.system, setting=bench.setting.early())
     try:
         network = other.controller.network
         taken = [
@@ -172,7 +170,7 @@ def _counters_wrap(bench: Bench) -> None:
     for before in (1, 3, 5):
         other = bench.beside(bench.system)
         try:
-            set_counters(other, _WRAP - before)
+            set_counters(other, WRAP - before)
             watcher, link = other.watcher(), other.motion()
             first = other.progress(watcher).trajectory
             for _ in range(4):
@@ -181,7 +179,7 @@ def _counters_wrap(bench: Bench) -> None:
                 link = other.motion()
             other.run(0.3)
             number = other.progress(watcher).trajectory
-            if number >= _WRAP or (number - first) % _WRAP != 8:
+            if number >= WRAP or (number - first) % WRAP != 8:
                 raise Broken(f"after trajectory {first} come eight others, the last is {number}")
             other.healthy()
         finally:

@@ -6,9 +6,10 @@ from itertools import pairwise
 
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.protocol.spec import TrajectoryState
-from rapidgen.proving.bench import Bench, distance, with_module
+from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.virtual.values import Cell
 

@@ -11,7 +11,6 @@ from rapidgen.proving.suite.moving import (
     begins,
     datum,
     hangs,
-    last_event,
     patience,
     unit_of,
 )
@@ -117,7 +116,7 @@ def _why_it_ended(bench: Bench) -> None:
         ("manual", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, spec.Mode.MANUAL)),
         ("leaves", Reason.CLIENT_LOST, Reason.NONE, (1, 0, auto)),
     ):
-        last, points = last_event(bench), bench.wave(5, duration=unit)
+        last, points = bench.last_event, bench.wave(5, duration=unit)
         link.send(bench.download(points))
         number += 1
         begins(bench, bench.now)
@@ -272,7 +271,7 @@ def _builds_differ(bench: Bench) -> None:
     """A task that shows another build: said once after two seconds, and nothing is taken."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_supervisor"))
-    shown, last = datum(bench, "ros_shown_state"), last_event(bench)
+    shown, last = datum(bench, "ros_shown_state"), bench.last_event
     good = task[shown]
 
     def mix() -> None:

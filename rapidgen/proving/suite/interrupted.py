@@ -6,19 +6,19 @@ from dataclasses import replace
 from functools import partial
 from typing import Any
 
+from rapidgen.generate.context import WRAP
 from rapidgen.protocol import messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.failing import set_counters
-from rapidgen.proving.suite.moving import at_call, begins, datum, last_event, patience, unit_of
+from rapidgen.proving.suite.moving import at_call, begins, datum, patience, unit_of
 from rapidgen.system.model import System
 from rapidgen.virtual.errors import RapidError
 from rapidgen.virtual.log import EventType
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
-_WRAP = 2**22
 
 
 def _ended(bench: Bench, watcher: Link, reason: Reason, what: str) -> messages.Progress:
@@ -62,7 +62,7 @@ def _before_a_move(bench: Bench) -> None:
 def _first_reason(bench: Bench) -> None:
     """Of two that come together the first one counts, and the trajectory ends once."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
-    last = last_event(bench)
+    last = bench.last_event
     link.send(bench.download(bench.wave(5, duration=unit)))
     begins(bench, bench.now)
     bench.run(unit)
@@ -121,7 +121,7 @@ def _late_point(bench: Bench) -> None:
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     task = bench.controller.task(bench.task("ROS_motion"))
     ring, head = datum(bench, "ros_ring"), datum(bench, "ros_head")
-    last = last_event(bench)
+    last = bench.last_event
     link.send(bench.download(bench.wave(5, duration=unit)))
     begins(bench, bench.now)
     bench.run(1.15 * unit)
@@ -143,10 +143,7 @@ def _late_point(bench: Bench) -> None:
 @contextmanager
 def _beside(bench: Bench, system: System, *, early: bool = False) -> Iterator[Bench]:
     """Another controller; `early`: none of its tasks has run yet."""
-    setting = bench.setting
-    if early:
-        setting = replace(setting, motion=replace(setting.motion, settle=0.0))
-    other = bench.beside(system, setting=setting)
+    other = bench.beside(system, setting=bench.setting.early() if early else None)
     try:
         yield other
     finally:
@@ -177,7 +174,7 @@ def _unseen(bench: Bench) -> None:
             ("stop", Reason.PROGRAM_STOPPED, True),
         ):
             _moves(other, link)
-            last = last_event(other)
+            last = other.last_event
             other.controller.perform(action)
             other.wait_until_standing(1)
             halted = other.now
@@ -227,14 +224,14 @@ def _without_routines(bench: Bench) -> None:
     """Signals, and no event routines: the supervisor alone ends all. Counters begin anew."""
     with _beside(bench, replace(bench.system, events=()), early=True) as other:
         view = other.controller.task(other.task("ROS_supervisor"))
-        set_counters(other, _WRAP - 2)
+        set_counters(other, WRAP - 2)
         # Requests of long ago, and a ring in the middle of which its counters begin anew.
-        view[datum(other, "ros_stop_done")] = _WRAP - 4
+        view[datum(other, "ros_stop_done")] = WRAP - 4
         for name in ("ros_head", "ros_tail"):
-            view[datum(other, name)] = _WRAP - 64
+            view[datum(other, name)] = WRAP - 64
         watcher, link = other.watcher(), other.motion()
         control = other.control() if other.group.ports.control else None
-        for number in (_WRAP - 1, 0):
+        for number in (WRAP - 1, 0):
             _pauses_at_its_end(other, watcher, link, control)
             if other.progress(watcher).trajectory != number:
                 raise Broken(f"the last trajectory was {number}, {other.progress(watcher)}")

@@ -3,18 +3,15 @@
 from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol.spec import Reason, TriState
-from rapidgen.proving.bench import Bench, distance
-from rapidgen.proving.link import Link, Point, Position, point_frame
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import Link, Point, point_frame
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import changed, distance
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.streaming import way
 
 _BEYOND = 0.01
 """rad or m outside a limit: more than rounding."""
-
-
-def _with(position: Position, axis: int, value: float) -> Position:
-    return (*position[:axis], value, *position[axis + 1 :])
 
 
 def _step(joint: Joint, here: float, size: float) -> float:
@@ -49,7 +46,7 @@ class _Blame:
         here = self._bench.position
         for axis, joint in enumerate(self._bench.group.joints):
             for value in (joint.lower - _BEYOND, joint.upper + _BEYOND):
-                points = [(here, 1.0), (_with(here, axis, value), 30.0), (here, 30.0)]
+                points = [(here, 1.0), (changed(here, axis, value), 30.0), (here, 30.0)]
                 self(points, Reason.JOINT_LIMIT, 1, axis)
 
     def close(self) -> None:
@@ -67,18 +64,18 @@ def _joints_of_a_stream(bench: Bench) -> None:
         if joint.kind != "revolute":
             near = policy.start_tolerance_linear
         if near > 0:
-            start = _with(here, axis, _step(joint, here[axis], 1.1 * near))
+            start = changed(here, axis, _step(joint, here[axis], 1.1 * near))
             blame([(start, 1.0), (here, 5.0)], Reason.START_TOO_FAR, 0, axis)
         fast = 1.05 * seconds * joint.speed
         room = max(joint.upper - here[axis], here[axis] - joint.lower)
         if policy.too_fast == "refuse" and bench.group.tcp_speed_limit >= 5 and room > fast:
-            target = _with(here, axis, _step(joint, here[axis], fast))
+            target = changed(here, axis, _step(joint, here[axis], fast))
             blame([(here, 1.0), (target, seconds), (here, 9.0)], Reason.TOO_FAST, 1, axis)
     blame.close()
     bench.run(1.2)
     # The first point's duration is not the client's business, nor how far the start is off.
     stream = Streamer(bench)
-    away = _with(here, 0, _step(bench.group.joints[0], here[0], 0.5 * policy.start_tolerance))
+    away = changed(here, 0, _step(bench.group.joints[0], here[0], 0.5 * policy.start_tolerance))
     stream.put([(away, 9.0), (here, 1.0)], BEGIN | END)
     stream.accepted("a start within tolerance")
     bench.wait_until_moving(1)

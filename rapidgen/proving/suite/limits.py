@@ -103,7 +103,7 @@ class _Cell:
                     values.pop(f"{name}_joint_bound", None)
                     if value is not None:
                         values[f"{name}_joint_bound"] = value
-        self._newest = max((e.sequence for e in bench.controller.log), default=0)
+        self._newest = bench.last_event
         for action in ("power-loss", "pp-to-main", "auto", "motors-on", "start"):
             bench.controller.perform(action)
         bench.run(1)

@@ -7,9 +7,10 @@ from typing import Any
 
 from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
-from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, Point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.virtual.log import EventType
 
@@ -407,10 +408,6 @@ def datum(bench: Bench, name: str) -> str:
     return next(f"ROS_common:{key}" for key in declared if re.fullmatch(rf"{name}(_\d+)?", key))
 
 
-def last_event(bench: Bench) -> int:
-    return max((e.sequence for e in bench.controller.log), default=0)
-
-
 def _gives_up(bench: Bench) -> None:
     """A move that fails, and a hole in the ring: the robot stops where it is, and says where."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -421,7 +418,7 @@ def _gives_up(bench: Bench) -> None:
         ("ERR_PATH_STOP", Reason.MOTION_ERROR),
         ("", Reason.INTERNAL),
     ):
-        points, last = bench.wave(6, duration=unit), last_event(bench)
+        points, last = bench.wave(6, duration=unit), bench.last_event
         link.send(bench.download(points))
         number += 1
         begun = begins(bench, bench.now)

@@ -7,9 +7,10 @@ from typing import NamedTuple, TypeVar
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.protocol import Frame, decode, encode, messages, spec
 from rapidgen.protocol.spec import Feature, Reason, TrajectoryState
-from rapidgen.proving.bench import HELLO, Bench, distance
+from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance, small_unit
 from rapidgen.virtual.builtins.clocks import Clock
 
 C = TypeVar("C")
@@ -336,7 +337,7 @@ def _moved_by_others(bench: Bench, link: Link) -> None:
     bench.run(0.5)
     group, period = bench.controller.motion.group(bench.group.name), bench.config.state_period
     for axis, joint in enumerate(bench.group.joints):
-        unit = 1e-3 if joint.kind == "prismatic" else 0.0174533
+        unit = small_unit(joint)
         for size, times in ((0.2, 1), (0.03, 0)):
             here, since = bench.position, _pause(bench, link)
             step = size * unit * (1 if joint.upper - here[axis] > here[axis] - joint.lower else -1)

@@ -60,7 +60,7 @@ def _ports_open(bench: Bench) -> None:
     network, ports = bench.controller.network, bench.group.ports
     wanted = [port for port in (ports.motion, ports.control, ports.state) if port]
     bench.run(1)
-    last = max((e.sequence for e in bench.controller.log), default=0)
+    last = bench.last_event
     network.address = "192.0.2.17"
     for action in ("power-loss", "pp-to-main"):
         bench.controller.perform(action)

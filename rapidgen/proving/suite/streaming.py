@@ -4,9 +4,10 @@ from collections.abc import Sequence
 
 from rapidgen.protocol import messages, spec
 from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
-from rapidgen.proving.bench import Bench, distance
+from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, Point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 
 _NONE = StreamFlag(0)

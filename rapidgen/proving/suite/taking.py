@@ -4,12 +4,13 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.config.model import Joint
-from rapidgen.generate.layout import suffix
 from rapidgen.protocol import decode, messages, spec
 from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, Position, raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.positions import changed, small_unit
+from rapidgen.proving.suite.moving import datum
 
 _BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
 _TAKEN = messages.Acknowledged()
@@ -80,20 +81,10 @@ _NOTHING = messages.Refused(0, -1, 0)
 """As PROGRESS tells it of a trajectory that nothing is wrong with."""
 
 
-def changed(position: Position, axis: int, value: float) -> Position:
-    """The position with another value for one axis."""
-    return (*position[:axis], value, *position[axis + 1 :])
-
-
-def unit_of(joint: Joint) -> float:
-    """One degree or one millimetre."""
-    return 1e-3 if joint.kind == "prismatic" else math.radians(1)
-
-
 def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float] | None:
     """Two places of an axis that are `share` of what it can do in a time apart, about zero."""
     way = share * seconds * joint.speed
-    margin = 2 * unit_of(joint)
+    margin = 2 * small_unit(joint)
     low = max(joint.lower + margin, min(-way / 2, joint.upper - margin - way))
     return (low, low + way) if low + way <= joint.upper - margin else None
 
@@ -105,7 +96,7 @@ def _each_value(bench: Bench) -> None:
     seconds = max(0.1, policy.min_segment)
     fault = policy.too_fast == "refuse"
     for axis, joint in enumerate(bench.group.joints):
-        unit = unit_of(joint)
+        unit = small_unit(joint)
         for value, reason in (
             (joint.lower - 0.0012 * unit, Reason.JOINT_LIMIT),
             (joint.upper + 0.0012 * unit, Reason.JOINT_LIMIT),
@@ -160,7 +151,7 @@ def _rounded(bench: Bench, table: Table) -> None:
     for side in (-1, 1):
         one, two = (
             tuple(
-                (joint.lower if side < 0 else joint.upper) + side * off * unit_of(joint)
+                (joint.lower if side < 0 else joint.upper) + side * off * small_unit(joint)
                 for joint in bench.group.joints
             )
             for off in (0.0002, 0.0001)
@@ -315,7 +306,7 @@ def _full(bench: Bench, table: Table) -> None:
 def _of_other_builds(bench: Bench, table: Table) -> None:
     """While any task shows another build each beginning is refused, whatever is wrong with it."""
     task = bench.controller.task(bench.task("ROS_motionServer"))
-    name = f"ROS_common:ROS_shown_state{suffix(bench.config, bench.group)}"
+    name = datum(bench, "ros_shown_state")
     mixed = messages.Refused(Reason.BUILD_MISMATCH, -1, 0)
     own, task[name] = task[name], "000000000000"
     for sequence in (_BEGIN, 1, 1, _END, _BEGIN):
@@ -336,7 +327,7 @@ def _one_more(bench: Bench) -> None:
         (3, None, ""),
         (1, 0, "2 more like it."),
     ):
-        before = max((e.sequence for e in bench.controller.log), default=0)
+        before = bench.last_event
         sequence, reason, place = int(spec.Sequence.END), Reason.NO_START, ""
         joint, wanted = 0, bench.position
         if axis is not None:

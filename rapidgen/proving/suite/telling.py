@@ -15,7 +15,7 @@ class _Pendant:
         self._bench = bench
         self._lines: list[str] = []
         bench.controller.operator.subscribe(lambda _task, text: self._lines.append(text))
-        self._last = max((e.sequence for e in bench.controller.log), default=0)
+        self._last = bench.last_event
 
     def take(self) -> tuple[list[str], list[Event]]:
         """What has come since the last call."""
@@ -25,7 +25,7 @@ class _Pendant:
             for e in self._bench.controller.log.since(self._last)
             if e.type is not EventType.INFO and e.title.startswith("ROS")
         ]
-        self._last = max((e.sequence for e in self._bench.controller.log), default=0)
+        self._last = self._bench.last_event
         return lines, events
 
     def says(self, reason: Reason, point: int, joint: int, *, after: str) -> None:

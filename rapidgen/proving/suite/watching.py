@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from rapidgen.generate.context import WRAP
 from rapidgen.protocol import decode, encode, messages, spec
 from rapidgen.protocol.spec import Feature
 from rapidgen.proving.bench import HELLO, Bench
@@ -264,7 +265,7 @@ def _events(bench: Bench) -> None:
     server = bench.controller.task(bench.task("ROS_stateServer"))
     for name in ("events_put", "events_taken"):
         # The last values of counters come after years.
-        server[f"ROS_stateServer:{name}"] = 2**22 - 12
+        server[f"ROS_stateServer:{name}"] = WRAP - 12
     for count in (12, 16, 17, 21):
         since, wanted = _burst(bench, links[0], count)
         bench.run(0.12 * (len(wanted) + 2))
