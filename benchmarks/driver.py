@@ -4,9 +4,10 @@
 
 Simulated time per point (from the slope over two lengths of a download whose points all pass every
 check, ended by a STOP whose reply marks the time), time from STOP to deceleration, and time
-and path error on the trajectories beside this file, the approach left out, also with
-`trajectory.corners: tight`. S is the motion model's time in which acceleration builds up (0: no
-limit of jerk). These compare algorithms in our cost and motion model; no controller was measured.
+and path error on the trajectories beside this file, the approach left out, also with corners of
+one size (`trajectory.corners: zone`, z10). S is the motion model's time in which acceleration
+builds up (0: no limit of jerk). A time error of one sample of the robot's track is none.
+These compare algorithms in our cost and motion model; no controller was measured.
 """
 
 import argparse
@@ -26,14 +27,16 @@ from rapidgen.proving.positions import off
 from rapidgen.virtual.motion import MotionSettings
 from tests.foreign.abb_driver import read_system
 
+SAMPLE = 0.00401
+"""s of the robot's track, and what rounding adds."""
 TRAJECTORIES = Path(__file__).resolve().parent / "trajectories"
 
 
 def drivers(folder):
     config = load_config("irb120")
     yield "rapidgen", config, make_system(config, build(config))
-    tight = load_config("irb120", overrides=["trajectory.corners=tight"])
-    yield "rapidgen, corners: tight", tight, make_system(tight, build(tight))
+    zone = load_config("irb120", overrides=["trajectory.corners=zone", "trajectory.zone=z10"])
+    yield "rapidgen, corners: zone, z10", zone, make_system(zone, build(zone))
     if folder is not None:
         foreign = replace(config, trajectory=replace(config.trajectory, capacity=100))
         yield "abb_driver", foreign, read_system(folder)
@@ -137,11 +140,19 @@ def main(folder, ramp):
         return
     theirs = results.pop("abb_driver")
     for name, own in results.items():
-        paths = [f"{p} {own[p][1] / theirs[p][1]:.2f}" for p in own if p != "point"]
+        names = [p for p in own if p != "point"]
+        times = [f"{p} {_share(own[p][0], theirs[p][0])}" for p in names]
+        paths = [f"{p} {own[p][1] / theirs[p][1]:.2f}" for p in names]
         print(
             f"{name}, share of abb_driver's: point {own['point'] / theirs['point']:.2f}, "
-            f"path {', '.join(paths)}"
+            f"time {', '.join(times)}, path {', '.join(paths)}"
         )
+
+
+def _share(own, theirs):
+    """Of time errors; one that cannot be told from none is 0."""
+    own, theirs = (0.0 if error <= SAMPLE else error for error in (own, theirs))
+    return f"{own / theirs:.2f}" if theirs else f"{own:.3f} s of none"
 
 
 if __name__ == "__main__":

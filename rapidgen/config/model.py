@@ -138,7 +138,7 @@ class TrajectoryPolicy:
     """What the motion server accepts. Tolerances are rad (m for prismatic axes)."""
 
     capacity: int = 1000
-    zone: str = "z10"
+    zone: str = "z50"
     start_tolerance: float = 0.00873
     start_tolerance_linear: float = 0.005
     too_fast: Literal["refuse", "slow_down"] = "refuse"
@@ -149,7 +149,7 @@ class TrajectoryPolicy:
     """Places for points between motion server and motion task; one stays free."""
     preload: float = 0.5
     """s of points of a stream that wait in the ring before the robot moves."""
-    corners: Literal["zone", "tight"] = field(default="zone", metadata=SPARSE)
+    corners: Literal["zone", "tight"] = "tight"
 
 
 @dataclass(frozen=True, slots=True)

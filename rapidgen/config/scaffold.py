@@ -23,7 +23,7 @@ _OPTIONS = """
 #
 # trajectory:
 #   capacity: 1000         # points; a longer trajectory is refused whole
-#   zone: z10
+#   zone: z50              # corners at most as large; as small as the axes follow
 #   start_tolerance: 0.5   # deg between the robot and the first point
 #   too_fast: refuse       # or slow_down
 # state:

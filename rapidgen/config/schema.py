@@ -279,11 +279,13 @@ class Trajectory(_Part):
     capacity: Annotated[
         int, Rule("Points of one trajectory; more are refused whole.", ge=2, le=100000)
     ] = 1000
-    zone: Annotated[Zone, Rule("Zone of the points between the first and the last.")] = "z10"
+    zone: Annotated[Zone, Rule("Zone of the points between the first and the last, at most.")] = (
+        "z50"
+    )
     corners: Annotated[
         Literal["zone", "tight"],
-        Rule("Corners as large as `zone`, or smaller where the axes follow without slowing down."),
-    ] = "zone"
+        Rule("Corners as small as the axes follow (known geometry only), or as large as `zone`."),
+    ] = "tight"
     start_tolerance: Annotated[
         float, Rule("Distance of the first point from the robot, deg.", ge=0.001, le=20)
     ] = 0.5

@@ -25,6 +25,12 @@ _DEFAULT_TCP_SPEED = 5.0
 # configuration are estimates.
 _TURN_SHARE = 0.3
 _MM = 1000.0
+# Axes of a kind have one part of a corner's zone.
+_SUMS = (
+    {"name": "turning", "field": "zone_ori", "least": "SMALLEST_TURN"},
+    {"name": "swinging", "field": "zone_reax", "least": "SMALLEST_TURN"},
+    {"name": "sliding", "field": "zone_leax", "least": "SMALLEST_CORNER"},
+)
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
     {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
@@ -56,6 +62,7 @@ def group_context(
         "ring": config.trajectory.ring,
         "wrap": WRAP,
         "joints": joints,
+        "sums": [s for s in _SUMS if any(j["sum"] == s["name"] for j in joints)],
         "robax": _axes(group, [f"rax_{n}" for n in range(1, 7)], "0"),
         "extax": _axes(group, [f"eax_{c}" for c in "abcdef"], "9E9"),
         "padding": _padding(len(joints)),
@@ -73,7 +80,7 @@ def group_context(
         "ports": asdict(group.ports),
         "capacity": config.trajectory.capacity,
         "zone": config.trajectory.zone,
-        "tight": config.trajectory.corners == "tight" and config.trajectory.zone != "fine",
+        "tight": _tight(config, group),
         "min_segment": config.trajectory.min_segment,
         "approach": config.trajectory.approach_speed,
         "slow_down": config.trajectory.too_fast == "slow_down",
@@ -99,6 +106,12 @@ def group_context(
         "heartbeat_reply": _reply_length(spec.HEARTBEAT),
         "signal_reply": _reply_length(spec.SIGNAL),
     }
+
+
+def _tight(config: RobotConfig, group: MotionGroup) -> bool:
+    """Corners have sizes of their own: that needs the TCP's speed, so the group's geometry."""
+    policy = config.trajectory
+    return policy.corners == "tight" and policy.zone != "fine" and bool(group.chain)
 
 
 def _one_build(role: layout.Role) -> list[str]:
@@ -187,6 +200,7 @@ def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]
         "low": literal(inward(to_rapid(joint, joint.lower), up=True)),
         "high": literal(inward(to_rapid(joint, joint.upper), up=False)),
         "speed": literal(round(to_rapid(joint, joint.speed) * _SPEED_MARGIN, 4)),
+        "sum": ("turning" if part == "robax" else "swinging") if revolute else "sliding",
         "turn": literal(round(to_rapid(joint, joint.acceleration) * _TURN_SHARE, 4)),
         "lower": literal(joint.lower),
         "upper": literal(joint.upper),

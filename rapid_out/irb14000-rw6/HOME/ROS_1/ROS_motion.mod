@@ -9,11 +9,26 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "ab99932f0b5e";
+    CONST string ROS_BUILD_MOTION := "32aaab5de802";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1500,500,1500,1000];
-    LOCAL CONST zonedata CORNER := z10;
+    LOCAL CONST zonedata CORNER := z50;
+    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
+    ! this of each one's acceleration (deg/s^2, mm/s^2), lasts this long at least (s), and is not
+    ! smaller than this (mm, deg).
+    LOCAL CONST num TURN_1 := 216;
+    LOCAL CONST num TURN_2 := 216;
+    LOCAL CONST num TURN_3 := 216;
+    LOCAL CONST num TURN_4 := 480;
+    LOCAL CONST num TURN_5 := 480;
+    LOCAL CONST num TURN_6 := 480;
+    LOCAL CONST num TURN_7 := 216;
+    LOCAL CONST num SHORTEST_CORNER := 0.025;
+    LOCAL CONST num SMALLEST_CORNER := 0.3;
+    LOCAL CONST num SMALLEST_TURN := 0.03;
+    ! mm/s of a TCP that moves no more than its place is known.
+    LOCAL CONST num RESTING := 0.1;
     ! TASK: another group may have one of the same name.
     TASK PERS tooldata left_hand := [TRUE,[[0,0,114],[1,0,0,0]],[0.23,[0,0,45],[1,0,0,0],0,0,0]];
 
@@ -23,6 +38,9 @@ MODULE ROS_motion
     LOCAL VAR num percent := 0;
     LOCAL VAR num bells := 0;
     LOCAL VAR ROS_point point;
+    ! The place of the point before it, and the corner at it.
+    LOCAL VAR jointtarget before;
+    LOCAL VAR zonedata bend;
     ! Trajectory under way here, and the point of it that comes next.
     LOCAL VAR num session := -1;
     LOCAL VAR num expected := 1;
@@ -148,6 +166,7 @@ MODULE ROS_motion
         VAR bool first;
         VAR bool waited;
 
+        before := point.target;
         point := ROS_ring_1{ROS_tail_1 MOD ROS_RING_SIZE + 1};
         next := ROS_next(ROS_tail_1);
         IF point.session <> ROS_session_1 OR point.session = ROS_dead_1 THEN
@@ -175,7 +194,8 @@ MODULE ROS_motion
         ELSEIF first OR stops_before(next) THEN
             MoveAbsJ point.target, SPEED \T:=point.duration, fine, left_hand \WObj:=wobj0;
         ELSE
-            MoveAbsJ point.target, SPEED \T:=point.duration, CORNER, left_hand \WObj:=wobj0;
+            shape_corner next;
+            MoveAbsJ point.target, SPEED \T:=point.duration, bend, left_hand \WObj:=wobj0;
             ! The robot is now somewhere before this point, and has passed the one before.
             arrived := passed;
         ENDIF
@@ -203,6 +223,74 @@ MODULE ROS_motion
     LOCAL FUNC bool stops_before(num next)
         IF next = ROS_head_1 RETURN TRUE;
         RETURN ROS_ring_1{next MOD ROS_RING_SIZE + 1}.dwell;
+    ENDFUNC
+
+    ! The zone in which the axes change their speeds from those of the way to the point to those
+    ! of the way to its successor. On its faster side the TCP is in it for half of the time that
+    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
+    ! it moves they must not shrink its zone.
+    LOCAL PROC shape_corner(num next)
+        VAR ROS_point after;
+        VAR num needed := SHORTEST_CORNER;
+        VAR num arriving;
+        VAR num leaving;
+        ! Speeds of all axes of a kind together.
+        VAR num turning := 0;
+        VAR num swinging := 0;
+
+        bend := CORNER;
+        after := ROS_ring_1{next MOD ROS_RING_SIZE + 1};
+        ! It may be a first point, of another trajectory, at which the robot stands.
+        IF after.duration <= 0 RETURN;
+        turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
+            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, needed, turning;
+        turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
+            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, needed, turning;
+        turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
+            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, needed, turning;
+        turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
+            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, needed, turning;
+        turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
+            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, needed, turning;
+        turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
+            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, needed, turning;
+        turn (after.target.extax.eax_a - point.target.extax.eax_a) / after.duration,
+            (point.target.extax.eax_a - before.extax.eax_a) / point.duration, TURN_7, needed, swinging;
+        arriving := tcp_speed(before, point.target, point.duration);
+        leaving := tcp_speed(point.target, after.target, after.duration);
+        IF arriving < leaving arriving := leaving;
+        bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
+        bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
+        bend.pzone_eax := bend.pzone_ori;
+        IF arriving > RESTING RETURN;
+        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
+        bend.zone_reax := between(SMALLEST_TURN, swinging * needed / 2, CORNER.zone_reax);
+    ENDPROC
+
+    ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too.
+    LOCAL PROC turn(num leaving, num arriving, num acceleration, INOUT num needed, INOUT num sum)
+        IF Abs(leaving - arriving) > acceleration * needed needed := Abs(leaving - arriving) / acceleration;
+        IF Abs(leaving) > Abs(arriving) THEN
+            sum := sum + Abs(leaving);
+        ELSE
+            sum := sum + Abs(arriving);
+        ENDIF
+    ENDPROC
+
+    LOCAL FUNC num between(num least, num wanted, num most)
+        IF wanted < least RETURN least;
+        IF wanted < most RETURN wanted;
+        RETURN most;
+    ENDFUNC
+
+    ! mm/s of the TCP on the way from one point to the next
+    LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
+        VAR robtarget start;
+        VAR robtarget end_point;
+
+        start := CalcRobT(from_point, left_hand \WObj:=wobj0);
+        end_point := CalcRobT(to_point, left_hand \WObj:=wobj0);
+        RETURN Distance(start.trans, end_point.trans) / seconds;
     ENDFUNC
 
     ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client
