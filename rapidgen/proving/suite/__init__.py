@@ -10,6 +10,7 @@ from rapidgen.proving.suite import (
     compatible,
     controller,
     controlling,
+    corners,
     cutting,
     edges,
     failing,
@@ -63,6 +64,7 @@ _ALL: tuple[Case, ...] = (
     *failing.CASES,
     *faults.CASES,
     *moving.CASES,
+    *corners.CASES,
     *halting.CASES,
     *interrupted.CASES,
 )
