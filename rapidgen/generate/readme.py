@@ -31,6 +31,7 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "policy": config.trajectory.too_fast,
         "min_segment": literal(config.trajectory.min_segment),
         "zone": config.trajectory.zone,
+        "corners": config.trajectory.corners,
         "ring": config.trajectory.ring,
         "preload": literal(config.trajectory.preload),
         "exposed": [{"name": s.name, "kind": s.kind, "access": s.access} for s in config.signals],
