@@ -63,8 +63,11 @@ def wanted(config, rows):
     zones = []
     for k in range(1, len(rows) - 1):
         needed = SHORTEST
+        one, other = speeds[k - 1 : k + 1]
+        uneven = abs(one - other) / (one + other)
         for joint, a, b, c in zip(group.joints, rows[k - 1], rows[k], rows[k + 1], strict=True):
-            change = abs((c - b) - (b - a)) / STEP
+            faster = max(abs(b - a), abs(c - b))
+            change = (abs((c - b) - (b - a)) + uneven * faster) / STEP
             needed = max(needed, change / (SHARE * joint.acceleration))
         size = max(speeds[k - 1], speeds[k]) * needed / 2
         zones.append(min(LARGEST, max(SMALLEST, size)))

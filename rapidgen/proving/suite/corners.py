@@ -65,11 +65,14 @@ def _corner(bench: Bench, arriving: _Leg, leaving: _Leg) -> Zone:
     largest, joints = _named(bench.config.trajectory.zone), bench.group.joints
     if largest.fine or bench.config.trajectory.corners == "zone" or not bench.group.chain:
         return largest
-    needed = _SHORTEST
+    needed, both = _SHORTEST, arriving.tcp + leaving.tcp
+    uneven = abs(leaving.tcp - arriving.tcp) / both if both > _RESTING else 0.0
     sums = dict.fromkeys(map(_part, joints), 0.0)
     for joint, before, after in zip(joints, arriving.speeds, leaving.speeds, strict=True):
-        needed = max(needed, abs(after - before) / (_SHARE * joint.acceleration))
-        sums[_part(joint)] += max(abs(before), abs(after))
+        faster = max(abs(before), abs(after))
+        change = abs(after - before) + uneven * faster
+        needed = max(needed, change / (_SHARE * joint.acceleration))
+        sums[_part(joint)] += faster
 
     def between(least: float, speed: float, most: float) -> float:
         return min(most, max(least, speed * needed / 2))

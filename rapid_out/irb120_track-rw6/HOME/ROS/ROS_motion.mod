@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "489872345af6";
+    CONST string ROS_BUILD_MOTION := "1dbd8ea845a4";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -233,6 +233,8 @@ MODULE ROS_motion
         VAR num needed := SHORTEST_CORNER;
         VAR num arriving;
         VAR num leaving;
+        ! 0: as fast on both sides, 1: at rest on one.
+        VAR num uneven := 0;
         ! Speeds of all axes of a kind together.
         VAR num turning := 0;
         VAR num swinging := 0;
@@ -242,25 +244,26 @@ MODULE ROS_motion
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         ! It may be a first point, of another trajectory, at which the robot stands.
         IF after.duration <= 0 RETURN;
-        turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
-            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, needed, turning;
-        turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
-            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, needed, turning;
-        turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
-            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, needed, turning;
-        turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
-            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, needed, turning;
-        turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
-            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, needed, turning;
-        turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
-            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, needed, turning;
-        turn (after.target.extax.eax_a - point.target.extax.eax_a) / after.duration,
-            (point.target.extax.eax_a - before.extax.eax_a) / point.duration, TURN_7, needed, sliding;
-        turn (after.target.extax.eax_b - point.target.extax.eax_b) / after.duration,
-            (point.target.extax.eax_b - before.extax.eax_b) / point.duration, TURN_8, needed, swinging;
         arriving := tcp_speed(before, point.target, point.duration);
         leaving := tcp_speed(point.target, after.target, after.duration);
+        IF arriving + leaving > RESTING uneven := Abs(leaving - arriving) / (arriving + leaving);
         IF arriving < leaving arriving := leaving;
+        turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
+            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, needed, turning;
+        turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
+            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, needed, turning;
+        turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
+            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, needed, turning;
+        turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
+            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, needed, turning;
+        turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
+            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, needed, turning;
+        turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
+            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
+        turn (after.target.extax.eax_a - point.target.extax.eax_a) / after.duration,
+            (point.target.extax.eax_a - before.extax.eax_a) / point.duration, TURN_7, uneven, needed, sliding;
+        turn (after.target.extax.eax_b - point.target.extax.eax_b) / after.duration,
+            (point.target.extax.eax_b - before.extax.eax_b) / point.duration, TURN_8, uneven, needed, swinging;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
         bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
         bend.pzone_eax := bend.pzone_ori;
@@ -270,14 +273,17 @@ MODULE ROS_motion
         bend.zone_leax := between(SMALLEST_CORNER, sliding * needed / 2, CORNER.zone_leax);
     ENDPROC
 
-    ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too.
-    LOCAL PROC turn(num leaving, num arriving, num acceleration, INOUT num needed, INOUT num sum)
-        IF Abs(leaving - arriving) > acceleration * needed needed := Abs(leaving - arriving) / acceleration;
-        IF Abs(leaving) > Abs(arriving) THEN
-            sum := sum + Abs(leaving);
-        ELSE
-            sum := sum + Abs(arriving);
-        ENDIF
+    ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too. In
+    ! an uneven corner, as wide on both sides but longer on one, it has to change more.
+    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num needed, INOUT num sum)
+        VAR num faster;
+        VAR num change;
+
+        faster := Abs(arriving);
+        IF faster < Abs(leaving) faster := Abs(leaving);
+        change := Abs(leaving - arriving) + uneven * faster;
+        IF change > acceleration * needed needed := change / acceleration;
+        sum := sum + faster;
     ENDPROC
 
     LOCAL FUNC num between(num least, num wanted, num most)
