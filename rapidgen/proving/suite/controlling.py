@@ -407,7 +407,9 @@ def _old_end(bench: Bench) -> None:
     told = control.expect(messages.Stopped, 10, "STOPPED arrives")
     if (told.reached, told.reason) != (20, Reason.JOINT_LIMIT):
         raise Broken(f"a stream was cut behind 20 points, STOPPED says {told}")
-    if distance(told.joints[: len(here)], here) > 1e-3 or any(told.joints[len(here) :]):
+    # Axes that follow late are not quite there yet.
+    near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
+    if distance(told.joints[: len(here)], here) > near or any(told.joints[len(here) :]):
         raise Broken(f"the stream ended at {here}, STOPPED says {told.joints}")
 
 
