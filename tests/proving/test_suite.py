@@ -34,6 +34,9 @@ OF_THE_ROBOT = (
     "batch-padding",
     "stop-on-path",
     "e-stop",
+    "corners",
+    "largest-corner",
+    "resting-corner",
 )
 # ... and what depends on when which task runs, and on what is assumed about controllers.
 OF_THE_CONTROLLER = (

@@ -1,4 +1,8 @@
-"""The zones that the path planner is given: found as docs/driver.md ("Motion") says."""
+"""The zones that the path planner is given: found as docs/driver.md ("Motion") says.
+
+What a zone is: S4 datasys 1-zonedata; one radius on both sides, angles and external axes where
+the TCP rests.
+"""
 
 import math
 from collections.abc import Sequence
@@ -204,8 +208,29 @@ def _resting(bench: Bench) -> None:
             _check(bench, walk.points, f"joint {axis + 1}, which does not move the TCP")
 
 
+def _unknown(bench: Bench) -> None:
+    """The TCP's speed cannot be told: the largest corner, and the trajectory goes on."""
+    policy = bench.config.trajectory
+    if policy.zone == "fine" or policy.corners == "zone" or not bench.group.chain:
+        return
+    zones: list[Zone] = []
+    group = bench.controller.motion.group(bench.group.name)
+
+    def heard(move: Move) -> None:
+        zones.append(move.zone)
+
+    group.listeners.append(heard)
+    bench.fails("ROS_motion", "CalcRobT", "ERR_ROBLIMIT")
+    bench.moves_through(bench.motion(), bench.wave(6))
+    group.listeners.remove(heard)
+    if not any(_alike(zone, _named(policy.zone)) for zone in zones):
+        raise Broken(f"CalcRobT has failed, the zones are {zones}")
+
+
 CASES = (
     Case("corners", "each point's zone is as small as its axes follow", "moving", _moving, "R9"),
     Case("largest-corner", "no zone is larger than the configured one", "moving", _largest, "R9"),
+    Case("unknown-corner", "a corner of unknown speed is as large as it may be", "moving", _unknown,
+         "R9"),
     Case("resting-corner", "zones of axes that do not move the TCP", "moving", _resting, "R9"),
 )  # fmt: skip

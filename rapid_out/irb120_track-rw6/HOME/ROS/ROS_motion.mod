@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "1dbd8ea845a4";
+    CONST string ROS_BUILD_MOTION := "75aaa82c6d3b";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -265,6 +265,7 @@ MODULE ROS_motion
         turn (after.target.extax.eax_b - point.target.extax.eax_b) / after.duration,
             (point.target.extax.eax_b - before.extax.eax_b) / point.duration, TURN_8, uneven, needed, swinging;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
+        ! As in the predefined zones.
         bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
@@ -292,7 +293,8 @@ MODULE ROS_motion
         RETURN most;
     ENDFUNC
 
-    ! mm/s of the TCP on the way from one point to the next
+    ! mm/s of the TCP on the way from one point to the next. Where that cannot be told a corner is as
+    ! large as it may be.
     LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
         VAR robtarget start;
         VAR robtarget end_point;
@@ -300,6 +302,9 @@ MODULE ROS_motion
         start := CalcRobT(from_point, tool0 \WObj:=wobj0);
         end_point := CalcRobT(to_point, tool0 \WObj:=wobj0);
         RETURN Distance(start.trans, end_point.trans) / seconds;
+    ERROR
+        SkipWarn;
+        RETURN 9E9;
     ENDFUNC
 
     ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "61332e024e89";
+    CONST string ROS_BUILD_MOTION := "170c48bfa510";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1500,500,1500,1000];
@@ -263,6 +263,7 @@ MODULE ROS_motion
         turn (after.target.extax.eax_a - point.target.extax.eax_a) / after.duration,
             (point.target.extax.eax_a - before.extax.eax_a) / point.duration, TURN_7, uneven, needed, swinging;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
+        ! As in the predefined zones.
         bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
@@ -289,7 +290,8 @@ MODULE ROS_motion
         RETURN most;
     ENDFUNC
 
-    ! mm/s of the TCP on the way from one point to the next
+    ! mm/s of the TCP on the way from one point to the next. Where that cannot be told a corner is as
+    ! large as it may be.
     LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
         VAR robtarget start;
         VAR robtarget end_point;
@@ -297,6 +299,9 @@ MODULE ROS_motion
         start := CalcRobT(from_point, left_hand \WObj:=wobj0);
         end_point := CalcRobT(to_point, left_hand \WObj:=wobj0);
         RETURN Distance(start.trans, end_point.trans) / seconds;
+    ERROR
+        SkipWarn;
+        RETURN 9E9;
     ENDFUNC
 
     ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "bad4d02e008d";
+    CONST string ROS_BUILD_MOTION := "0c5cbafe968f";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -260,6 +260,7 @@ MODULE ROS_motion
         turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
             (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
+        ! As in the predefined zones.
         bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
@@ -285,7 +286,8 @@ MODULE ROS_motion
         RETURN most;
     ENDFUNC
 
-    ! mm/s of the TCP on the way from one point to the next
+    ! mm/s of the TCP on the way from one point to the next. Where that cannot be told a corner is as
+    ! large as it may be.
     LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
         VAR robtarget start;
         VAR robtarget end_point;
@@ -293,6 +295,9 @@ MODULE ROS_motion
         start := CalcRobT(from_point, torch \WObj:=table);
         end_point := CalcRobT(to_point, torch \WObj:=table);
         RETURN Distance(start.trans, end_point.trans) / seconds;
+    ERROR
+        SkipWarn;
+        RETURN 9E9;
     ENDFUNC
 
     ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client

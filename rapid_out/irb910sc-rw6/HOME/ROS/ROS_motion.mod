@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "76eadf194aa0";
+    CONST string ROS_BUILD_MOTION := "0e5d5b605d6f";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -248,6 +248,7 @@ MODULE ROS_motion
         turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
             (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, needed, turning;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
+        ! As in the predefined zones.
         bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
@@ -274,7 +275,8 @@ MODULE ROS_motion
         RETURN most;
     ENDFUNC
 
-    ! mm/s of the TCP on the way from one point to the next
+    ! mm/s of the TCP on the way from one point to the next. Where that cannot be told a corner is as
+    ! large as it may be.
     LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
         VAR robtarget start;
         VAR robtarget end_point;
@@ -282,6 +284,9 @@ MODULE ROS_motion
         start := CalcRobT(from_point, tool0 \WObj:=wobj0);
         end_point := CalcRobT(to_point, tool0 \WObj:=wobj0);
         RETURN Distance(start.trans, end_point.trans) / seconds;
+    ERROR
+        SkipWarn;
+        RETURN 9E9;
     ENDFUNC
 
     ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client
