@@ -27,7 +27,9 @@ MAIN = """MODULE Main{number}
     ENDPROC
 ENDMODULE
 """
-HEAD = "import time\nfrom rapidgen.virtual import VirtualController\nstart = time.process_time()\n"
+HEAD = (
+    "import time\nfrom rapidgen.controller import VirtualController\nstart = time.process_time()\n"
+)
 TAIL = "\nprint(time.process_time() - start)"
 STAGES = {
     "read": "from rapidgen.system import read_backup\nread_backup({folder!r})",

@@ -21,9 +21,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.protocol import spec
 from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.suite.framing import campaign
+from rapidgen.wire.simple_message import spec
 
 CHUNK = 500
 """Malformed openings for one controller."""

@@ -22,13 +22,13 @@ from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeou
 from rapidgen.client.core import STOP_FRAME
 from rapidgen.client.group import Group
 from rapidgen.client.tracker import Tracker
-from rapidgen.protocol.bulk import (
+from rapidgen.wire.simple_message.bulk import (
     FRAME_BYTES,
     decode_batches,
     encode_points,
     encode_trajectory,
 )
-from rapidgen.protocol.spec import Port
+from rapidgen.wire.simple_message.spec import Port
 
 HEAD = struct.Struct("<4i")
 JOINT = HEAD.pack(56, 10, 1, 0) + struct.pack("<i10f", 0, *[0.0] * 10)
@@ -284,7 +284,7 @@ def frames_before_stop(rounds):
     """Frames written between stop() and STOP on the standard port: at most the one begun."""
     from rapidgen.client.address import Address
     from rapidgen.client.channels import Channel
-    from rapidgen.protocol.spec import Port
+    from rapidgen.wire.simple_message.spec import Port
 
     worst = 0
     for _ in range(rounds):
@@ -315,7 +315,7 @@ def frames_before_stop(rounds):
 
 
 def _written(channel, peer):
-    """Bytes in the kernel, of both ends, once the sender stands."""
+    """Bytes in the scheduler, of both ends, once the sender stands."""
     import fcntl
     import termios
 

@@ -21,7 +21,7 @@ from queue import Queue
 
 from rapidgen.deploy import Access, connect, make_plan, parse_target
 from rapidgen.deploy.session import Job, apply_all, plan_all, wanted_set
-from rapidgen.services import serve_ftp
+from rapidgen.faces import serve_ftp
 
 PASSWORD = "benchmark"
 COUNT = 50

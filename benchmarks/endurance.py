@@ -10,7 +10,7 @@ Limits: 60 MB, and no growth behind the first tenth (2 %).
 import argparse
 import time
 
-from rapidgen.virtual import VirtualController
+from rapidgen.controller import VirtualController
 
 TENTHS = 10
 LARGEST = 60.0

@@ -12,8 +12,8 @@ import math
 import time
 from collections.abc import Callable
 
+from rapidgen.controller.controller import VirtualController
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from rapidgen.virtual.controller import VirtualController
 
 RAPID = """
 MODULE kernels

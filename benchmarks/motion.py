@@ -13,14 +13,14 @@ from types import SimpleNamespace
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.config import load_config
+from rapidgen.machine.io import IOSystem
+from rapidgen.machine.log import EventLog
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.motion import MotionGroup, MotionSystem
+from rapidgen.motion.moves import CartesianMove, JointMove, Move, Speed, Zone
+from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
-from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.io import IOSystem
-from rapidgen.virtual.kernel import Kernel, S
-from rapidgen.virtual.log import EventLog
-from rapidgen.virtual.motion import MotionGroup, MotionSystem
-from rapidgen.virtual.motion.moves import CartesianMove, JointMove, Move, Speed, Zone
-from rapidgen.virtual.task import Task
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
@@ -29,13 +29,13 @@ ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
 def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tuple[float, int, int]:
     """CPU s, end time in ns and events (process switches) of a program of moves."""
     config = load_config("irb120").groups[0]
-    kernel = Kernel()
-    log = EventLog(kernel)
-    io = IOSystem(kernel, log, System("bench", ()))
-    group = MotionSystem(kernel, [config], log, io).group(config.name)
+    scheduler = Scheduler()
+    log = EventLog(scheduler)
+    io = IOSystem(scheduler, log, System("bench", ()))
+    group = MotionSystem(scheduler, [config], log, io).group(config.name)
     group.jump(HOME)
     program = moves(group)
-    task = Task(kernel, "T_ROB1", SimpleNamespace(dialect=Dialect()))
+    task = Task(scheduler, "T_ROB1", SimpleNamespace(dialect=Dialect()))
     ended = 0
 
     def body() -> None:
@@ -43,19 +43,19 @@ def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tupl
         for move in program:
             task.charge(1_000_000)
             group.move(task, move)
-        ended = kernel.now
+        ended = scheduler.now
 
     def look() -> None:
         group.positions()
         if task.alive:
-            kernel.after(round(period * S), look)
+            scheduler.after(round(period * S), look)
 
     task.launch(body)
     if period:
-        kernel.after(0, look)
+        scheduler.after(0, look)
     start = time.process_time()
-    kernel.advance(stop=lambda: not task.alive)
-    return time.process_time() - start, ended, kernel.switches
+    scheduler.advance(stop=lambda: not task.alive)
+    return time.process_time() - start, ended, scheduler.switches
 
 
 def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:

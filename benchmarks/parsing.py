@@ -14,8 +14,8 @@ import time
 from pathlib import Path
 
 from rapidgen.rapid import check, format_source, parse
-from rapidgen.rapid.lexer import decode
-from rapidgen.rapid.walk import walk
+from rapidgen.rapid.syntax.lexer import decode
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.system import ModuleFile, System, TaskSpec
 
 SCAN = re.compile(r'"(?:[^"\n]|"")*"|![^\n]*|[^\W\d]\w*|\d[\d.]*(?:[eE][+-]?\d+)?|:=|<>|<=|>=|\S')

@@ -18,9 +18,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.protocol import spec
+from rapidgen.machine.costs import Costs
 from rapidgen.proving.bench import Bench
-from rapidgen.virtual.costs import Costs
+from rapidgen.wire.simple_message import spec
 from tests.generate import bench as tests
 
 ALL = spec.Feature.PROGRESS | spec.Feature.FEEDBACK

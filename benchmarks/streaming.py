@@ -26,9 +26,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
-from rapidgen.protocol.bulk import encode_points
-from rapidgen.protocol.spec import StreamFlag
-from rapidgen.virtual.costs import Costs
+from rapidgen.machine.costs import Costs
+from rapidgen.wire.simple_message.bulk import encode_points
+from rapidgen.wire.simple_message.spec import StreamFlag
 from tests.foreign.abb_driver import read_system
 from tests.generate.bench import STOP, Bench, Client, trajectory
 

@@ -27,7 +27,7 @@ BROKEN_MODULE = 'MODULE m\n  PROC main()\n    x := "a;\n  ENDPROC\nENDMODULE\n'
 HELLO = 'MODULE hello\n  PROC main()\n    TPWrite "hello";\n  ENDPROC\nENDMODULE\n'
 ENDS = "MODULE ends\n  PROC main()\n    VAR num a;\n    a := 1 / a;\n  ENDPROC\nENDMODULE\n"
 UNKNOWN = "MODULE u\n  PROC main()\n    SetDO do1, 1;\n    nothing;\n  ENDPROC\nENDMODULE\n"
-UGLY = "module ugly\nproc main()\nif true then\ntpwrite \"x\" ;\nendif\nendproc\nendmodule\n"
+UGLY = 'module ugly\nproc main()\nif true then\ntpwrite "x" ;\nendif\nendproc\nendmodule\n'
 COMMANDS = """
 --version
 robots
@@ -86,8 +86,8 @@ def files_of(folder: Path) -> None:
     loop = "MODULE loop\n  PROC main()\n    WHILE TRUE DO\n      WaitTime 1;\n    ENDWHILE\n"
     texts = {
         "broken.yaml": BROKEN_YAML,
-        "typo.yaml": "extends: irb120\nname: typo\ntrajectroy: {capacity: 100}\nports: {motoin: 1}\n",
-        "range.yaml": "extends: irb120\nname: r\nports: {motion: 99999}\ntrajectory: {capacity: -1}\n",
+        "typo.yaml": "extends: irb120\nname: t\ntrajectroy: {capacity: 10}\nports: {motoin: 1}\n",
+        "range.yaml": "extends: irb120\nname: r\nports: {motion: 99999}\nrates: {state: -1}\n",
         "hello.mod": HELLO,
         "broken.mod": BROKEN_MODULE,
         "ends.mod": ENDS,
@@ -155,10 +155,10 @@ def either(*names: str) -> object:
 
 
 def trace(path: Path) -> dict[str, object]:
-    controller_room = either("rapidgen.controller", "rapidgen.virtual.controller")
-    tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
-    dialects = either("rapidgen.runtime.dialect", "rapidgen.virtual.dialect")
-    mechanics = either("rapidgen.controller.mechanics", "rapidgen.virtual.mechanics")
+    controller_room = either("rapidgen.controller", "rapidgen.controller.controller")
+    tracing = either("rapidgen.controller.tracing", "rapidgen.controller.tracing")
+    dialects = either("rapidgen.runtime.dialect", "rapidgen.runtime.switches")
+    mechanics = either("rapidgen.controller.mechanics", "rapidgen.controller.mechanics")
     load_config = importlib.import_module("rapidgen.config").load_config
     model = importlib.import_module("rapidgen.system.model")
     text = path.read_text(encoding="utf-8")
@@ -179,9 +179,7 @@ def trace(path: Path) -> dict[str, object]:
         tasks.append(model.TaskSpec(name, "NORMAL", "NoSafety", entry, "ROB" in name, "", modules))
     signals = tuple(model.SignalSpec(*line.split()) for line in marks("signal"))
     system = model.System(path.stem, tuple(tasks), signals)
-    robots = [
-        g for name in marks("robot") for g in mechanics.groups_for(system, load_config(name))
-    ]
+    robots = [g for name in marks("robot") for g in mechanics.groups_for(system, load_config(name))]
     stream = io.StringIO()
     printed: list[str] = []
     with controller_room.VirtualController(

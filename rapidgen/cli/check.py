@@ -10,7 +10,7 @@ from rapidgen.diagnostics import Format
 if TYPE_CHECKING:
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.rapid import Dialect
-    from rapidgen.rapid.nodes import Declaration, Module
+    from rapidgen.rapid.syntax.nodes import Declaration, Module
     from rapidgen.system import System
 
 _CONFIG_SUFFIXES = (".yaml", ".yml")

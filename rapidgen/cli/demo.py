@@ -24,9 +24,9 @@ def demo(
     """Build a driver, boot it on a virtual controller, move it, and report."""
     from rapidgen.client import Robot
     from rapidgen.config import load_config
+    from rapidgen.controller import VirtualController
     from rapidgen.generate import build, write
-    from rapidgen.protocol.spec import TriState
-    from rapidgen.virtual import VirtualController
+    from rapidgen.wire.simple_message.spec import TriState
 
     model = load_config(config)
     folder = output / model.name
@@ -101,7 +101,7 @@ def _report(
 def _draw(
     output: Path, trajectory: "Trajectory", recording: "Recording", group: "MotionGroup"
 ) -> None:
-    from rapidgen.client.plot import Curve, write_plot
+    from rapidgen.view.plot import Curve, write_plot
 
     png, html = output / "demo.png", output / "demo.html"
     write_plot(

@@ -71,10 +71,10 @@ def _hello(host: str, port: int, timeout: float = 3.0) -> str | None:
     import time
 
     from rapidgen import __version__
-    from rapidgen.protocol.codec import decode, encode
-    from rapidgen.protocol.frames import FrameSplitter, WireError
-    from rapidgen.protocol.messages import Hello, HelloReply
-    from rapidgen.protocol.spec import PROTOCOL_VERSION, Comm
+    from rapidgen.wire.simple_message.codec import decode, encode
+    from rapidgen.wire.simple_message.frames import FrameSplitter, WireError
+    from rapidgen.wire.simple_message.messages import Hello, HelloReply
+    from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Comm
 
     major, minor, patch = (int(part) for part in __version__.split(".")[:3])
     end = time.monotonic() + timeout

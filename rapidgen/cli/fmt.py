@@ -83,7 +83,7 @@ def _files(paths: list[Path]) -> list[Path]:
 def _difference(path: Path, before: bytes, after: bytes) -> str:
     from difflib import unified_diff
 
-    from rapidgen.rapid.lexer import decode
+    from rapidgen.rapid.syntax.lexer import decode
 
     old = [line + "\n" for line in decode(before)[0].splitlines()]
     new = [line + "\n" for line in decode(after)[0].splitlines()]

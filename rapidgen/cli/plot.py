@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from rapidgen.client.plot import Curve
     from rapidgen.client.trajectory import Array
+    from rapidgen.view.plot import Curve
 
 _MOVES = "moves reached (program) and under way (robot)"
 
@@ -35,8 +35,8 @@ def plot(
     Of a recording of a virtual controller: commanded and actual joints, the tool, and how far
     program and robot were in the moves.
     """
-    from rapidgen.client.plot import Curve, write_plot
     from rapidgen.client.trajectory import Trajectory
+    from rapidgen.view.plot import Curve, write_plot
 
     metres, counts = list(linear or ()), []
     if executed is None and _is_recording(commanded):
@@ -58,7 +58,7 @@ def plot(
 
 
 def _is_recording(path: Path) -> bool:
-    from rapidgen.virtual.motion.recorder import is_recording
+    from rapidgen.motion.recorder import is_recording
 
     return path.is_file() and is_recording(path)
 
@@ -67,10 +67,10 @@ def _recorded(path: Path) -> "list[Curve]":
     """Curves of a recording. DiagnosticError RG610: it is damaged."""
     import numpy as np
 
-    from rapidgen.client.plot import Curve
     from rapidgen.client.trajectory import Trajectory
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
-    from rapidgen.virtual.motion.recorder import read_recording
+    from rapidgen.motion.recorder import read_recording
+    from rapidgen.view.plot import Curve
 
     try:
         found = read_recording(path)

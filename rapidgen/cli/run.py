@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 if TYPE_CHECKING:
+    from rapidgen.controller.controller import VirtualController
     from rapidgen.diagnostics import Diagnostic
+    from rapidgen.runtime.errors import FatalError
+    from rapidgen.runtime.switches import Dialect
     from rapidgen.system.model import System
-    from rapidgen.virtual.controller import VirtualController
-    from rapidgen.virtual.dialect import Dialect
-    from rapidgen.virtual.errors import FatalError
 
 
 _LONGEST = 1e9
@@ -84,12 +84,12 @@ def run(
     from rapidgen._writing import write_whole
     from rapidgen.cli.loadable import refuse_unloadable
     from rapidgen.config import load_config
+    from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
+    from rapidgen.controller.tracing import Coverage, Profile, Trace
     from rapidgen.diagnostics import DiagnosticError, Severity, render
+    from rapidgen.machine.operator import read_answers
     from rapidgen.system import is_generated, read_manifest
-    from rapidgen.virtual.controller import VirtualController
-    from rapidgen.virtual.mechanics import DEFAULT_ROBOT, groups_for
-    from rapidgen.virtual.operator import read_answers
-    from rapidgen.virtual.tracing import Coverage, Profile, Trace
 
     _limits(max_time, max_statements)
     for target in filter(None, (coverage, Path(profile) if profile not in ("", "-") else None)):
@@ -100,7 +100,7 @@ def run(
     robots = None
     if len(files) == 1 and files[0].is_dir() and is_generated(files[0]):
         from rapidgen.config import from_manifest
-        from rapidgen.virtual.cell import in_its_cell
+        from rapidgen.controller.cell import in_its_cell
 
         config = from_manifest(read_manifest(files[0])["configuration"])
         system = in_its_cell(system, config)
@@ -230,7 +230,7 @@ def _dialect(text: str) -> "Dialect":
     from dataclasses import fields
 
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-    from rapidgen.virtual.dialect import Dialect, parse_dialect
+    from rapidgen.runtime.switches import Dialect, parse_dialect
 
     try:
         return parse_dialect(text)
@@ -303,7 +303,7 @@ def _write_profile(profile: object, target: str) -> None:
     import json
 
     from rapidgen._writing import write_whole
-    from rapidgen.virtual.tracing import Profile
+    from rapidgen.controller.tracing import Profile
 
     assert isinstance(profile, Profile)
     rows = profile.as_data()

@@ -10,8 +10,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
     from rapidgen.cli.targets import Target
-    from rapidgen.virtual.control_socket import ControlSocket
-    from rapidgen.virtual.controller import VirtualController
+    from rapidgen.controller.controller import VirtualController
+    from rapidgen.faces.control_socket import ControlSocket
 
 PATIENCE = 10.0
 """Seconds that a driver's servers may take to come up."""
@@ -69,11 +69,11 @@ def sim(
     """
     from rapidgen.cli.loadable import refuse_unloadable
     from rapidgen.cli.targets import load_target
-    from rapidgen.virtual.control_commands import commands, subscribe
-    from rapidgen.virtual.control_socket import ControlSocket
-    from rapidgen.virtual.controller import VirtualController
-    from rapidgen.virtual.faults import read_plan
-    from rapidgen.virtual.operator import read_answers
+    from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.faults import read_plan
+    from rapidgen.faces.control_commands import commands, subscribe
+    from rapidgen.faces.control_socket import ControlSocket
+    from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
@@ -102,7 +102,7 @@ def sim(
             _start_cold(controller)
         # Whoever may command the controller is on this machine, whoever may reach its servers.
         control = ControlSocket(
-            controller.kernel,
+            controller.scheduler,
             commands(controller),
             lambda listener: subscribe(controller, listener),
         )
@@ -134,7 +134,7 @@ def _serve(
             nonlocal ended
             ended = True
 
-        controller.kernel.post(now)
+        controller.scheduler.post(now)
 
     before = {s: signal.signal(s, end) for s in (signal.SIGINT, signal.SIGTERM)}
     controller.log.subscribe(lambda event: typer.echo(event, err=True))
@@ -143,11 +143,11 @@ def _serve(
     )
     for event in controller.log:
         typer.echo(event, err=True)
-    kernel = controller.kernel
-    kernel.rebase()
+    scheduler = controller.scheduler
+    scheduler.rebase()
     try:
-        patience = kernel.now + round(PATIENCE * speed * 1e9)
-        kernel.advance(patience, lambda: ended or _is_up(controller, target))
+        patience = scheduler.now + round(PATIENCE * speed * 1e9)
+        scheduler.advance(patience, lambda: ended or _is_up(controller, target))
         if ended:
             return 0
         if not _is_up(controller, target):
@@ -161,7 +161,7 @@ def _serve(
             **files,
         }
         typer.echo(f"ready {json.dumps(found)}")
-        kernel.advance(stop=lambda: ended)
+        scheduler.advance(stop=lambda: ended)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
@@ -175,7 +175,7 @@ def _files(
     """HOME over FTP and SFTP; what `ready` tells of each. Raises DiagnosticError RG560, RG561."""
     from contextlib import ExitStack
 
-    from rapidgen.services import serve_ftp, serve_sftp
+    from rapidgen.faces import serve_ftp, serve_sftp
 
     told: dict[str, dict[str, str | int]] = {}
     with ExitStack() as stack:
@@ -219,7 +219,7 @@ def _is_up(controller: "VirtualController", target: "Target") -> bool:
     if wanted:
         return all(port in controller.network.listeners for port in wanted)
     # Nobody knows which servers a stranger's program has: every task has come to a wait.
-    return not controller.kernel.ready and controller.now > 0.2
+    return not controller.scheduler.ready and controller.now > 0.2
 
 
 def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[str, int]]:

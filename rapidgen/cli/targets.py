@@ -33,8 +33,8 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
     if path.is_file() and path.suffix.lower() not in (".yaml", ".yml"):
         raise _no_target(target)
     from rapidgen.config import load_config
+    from rapidgen.controller.cell import in_its_cell
     from rapidgen.generate import build, make_system
-    from rapidgen.virtual.cell import in_its_cell
 
     config = load_config(target, overrides=tuple(overrides))
     system = in_its_cell(make_system(config, build(config)), config)
@@ -43,9 +43,9 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
 
 def _folder(path: Path, robot: str) -> Target:
     from rapidgen.config import from_manifest
+    from rapidgen.controller.cell import in_its_cell
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.system import is_generated, read_manifest, read_system
-    from rapidgen.virtual.cell import in_its_cell
 
     if is_generated(path):
         config = from_manifest(read_manifest(path)["configuration"])
@@ -62,8 +62,8 @@ def _mechanics(
 ) -> tuple[tuple["MotionGroup", ...], tuple["Diagnostic", ...]]:
     """A robot of the given model for each motion task."""
     from rapidgen.config import load_config
+    from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
     from rapidgen.diagnostics import Diagnostic, Severity
-    from rapidgen.virtual.mechanics import DEFAULT_ROBOT, groups_for
 
     groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
     if robot or not groups:

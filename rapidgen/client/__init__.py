@@ -24,7 +24,7 @@ from rapidgen.client.motion import Result
 from rapidgen.client.state import Driver, Event, Feedback, Progress, State, Status
 from rapidgen.client.sync import Execution, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol.spec import EventType, Reason, TrajectoryState
+from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 __all__ = [
     "AsyncCell",

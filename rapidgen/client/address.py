@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from rapidgen.client.errors import ConnectionFailed, fault
 from rapidgen.config.model import Ports
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.protocol.spec import Port
+from rapidgen.wire.simple_message.spec import Port
 
 _FORM = re.compile(
     # An IPv6 address, or a name whose parts are as long as names may be.

@@ -41,8 +41,8 @@ from rapidgen.client.trajectory import Trajectory
 from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
-from rapidgen.protocol.bulk import FRAME_BYTES
-from rapidgen.protocol.spec import Port
+from rapidgen.wire.simple_message.bulk import FRAME_BYTES
+from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
 _SLICE = 0.1

@@ -12,8 +12,8 @@ from select import POLLOUT, poll
 
 from rapidgen.client.address import Address
 from rapidgen.client.errors import ConnectionLost, RobotTimeout, fault, not_reached, os_reason
-from rapidgen.protocol.bulk import FRAME_BYTES
-from rapidgen.protocol.spec import Port
+from rapidgen.wire.simple_message.bulk import FRAME_BYTES
+from rapidgen.wire.simple_message.spec import Port
 
 _CHUNK = 64 * FRAME_BYTES
 _RECEIVE = 65536

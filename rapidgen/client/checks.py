@@ -15,7 +15,7 @@ from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.group import Group
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, suggest
-from rapidgen.protocol.spec import PAIR_LIMIT, PAIR_SCALE
+from rapidgen.wire.simple_message.spec import PAIR_LIMIT, PAIR_SCALE
 
 _SPEED_ROUNDING = 1 + 1e-4
 """float32 positions and durations may ask for this much more than was meant."""

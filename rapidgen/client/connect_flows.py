@@ -10,8 +10,8 @@ from rapidgen.client.errors import (
     fault,
 )
 from rapidgen.client.group import Group
-from rapidgen.protocol import messages
-from rapidgen.protocol.spec import HELLO, MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.spec import HELLO, MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
 
 _RETRY = 0.5
 """s between two attempts to connect again."""

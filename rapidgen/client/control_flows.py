@@ -6,8 +6,8 @@ from rapidgen.client.effects import Flow, Wait
 from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout, fault
 from rapidgen.client.motion import reason_of, reason_text
 from rapidgen.diagnostics import suggest
-from rapidgen.protocol import messages
-from rapidgen.protocol.spec import Feature, Port
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.spec import Feature, Port
 
 
 def pause(core: Core, paused: bool) -> Flow[None]:

@@ -28,9 +28,9 @@ from rapidgen.client.stream import StreamRun
 from rapidgen.client.talk import Conversation, Pending
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol import ContentError, FramingError, decode, encode, messages
-from rapidgen.protocol.codec import number_of
-from rapidgen.protocol.spec import (
+from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
+from rapidgen.wire.simple_message.codec import number_of
+from rapidgen.wire.simple_message.spec import (
     HEARTBEAT,
     INDEX_WRAP,
     JOINT_TRAJ_PT,

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from rapidgen.client.motion import Motion
-from rapidgen.protocol.spec import Port
+from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
 INTERRUPTIONS = (KeyboardInterrupt, CancelledError)

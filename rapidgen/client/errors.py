@@ -29,7 +29,7 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 if TYPE_CHECKING:
     from rapidgen.client.state import State
-    from rapidgen.protocol.spec import Reason
+    from rapidgen.wire.simple_message.spec import Reason
 
 
 class RobotError(DiagnosticError):

@@ -11,7 +11,7 @@ from rapidgen.client.run import Run
 from rapidgen.client.state import Progress
 from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol.spec import TrajectoryState
+from rapidgen.wire.simple_message.spec import TrajectoryState
 
 
 class Feed:

@@ -11,8 +11,8 @@ from rapidgen.client.run import Run
 from rapidgen.client.stop_flows import PER_POINT, stop_and_leave
 from rapidgen.client.talk import Pending
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol.bulk import FRAME_BYTES, encode_trajectory
-from rapidgen.protocol.spec import JOINT_TRAJ_PT, Port, TrajectoryState
+from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
+from rapidgen.wire.simple_message.spec import JOINT_TRAJ_PT, Port, TrajectoryState
 
 
 def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:

@@ -11,8 +11,8 @@ import numpy.typing as npt
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.errors import IncompatibleDriver, fault
 from rapidgen.config.model import Joint, MotionGroup, RobotConfig, Signal, TrajectoryPolicy
-from rapidgen.protocol.mapping import mapping_hash
-from rapidgen.protocol.messages import HelloReply
+from rapidgen.wire.simple_message.mapping import mapping_hash
+from rapidgen.wire.simple_message.messages import HelloReply
 
 Array = npt.NDArray[np.float64]
 

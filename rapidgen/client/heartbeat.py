@@ -1,7 +1,7 @@
 """When the controller must hear from this client, while something moves. Sans-IO."""
 
 from rapidgen.client.talk import Pending
-from rapidgen.protocol import messages
+from rapidgen.wire.simple_message import messages
 
 _OFTEN = 4
 """Heartbeats in the time within which the controller awaits one, ..."""

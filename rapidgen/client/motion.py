@@ -17,8 +17,8 @@ from rapidgen.client.state import Progress, State
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic
-from rapidgen.protocol import messages
-from rapidgen.protocol.spec import REASON_TEXTS, Reason, TrajectoryState, TriState
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.spec import REASON_TEXTS, Reason, TrajectoryState, TriState
 
 Way = Literal["download", "stream"]
 """download: sent whole before anything moves; stream: sent while the robot moves."""

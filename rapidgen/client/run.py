@@ -14,7 +14,7 @@ from rapidgen.client.motion import Motion, Phase
 from rapidgen.client.state import Progress, State, trajectory_state
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
-from rapidgen.protocol.spec import REASON_TEXTS, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import REASON_TEXTS, TrajectoryState, TriState
 
 GOAL_TOLERANCE = 0.01
 """rad or m: as industrial_robot_client."""

@@ -3,8 +3,8 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from rapidgen.protocol import messages
-from rapidgen.protocol.spec import (
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.spec import (
     EventType,
     Feature,
     Mode,

@@ -7,7 +7,7 @@ from rapidgen.client.core import Core
 from rapidgen.client.effects import Flow, Wait
 from rapidgen.client.errors import NotSupported, RobotTimeout, fault
 from rapidgen.client.state import Event, Feedback, State
-from rapidgen.protocol.spec import Feature
+from rapidgen.wire.simple_message.spec import Feature
 
 
 def wait_until(

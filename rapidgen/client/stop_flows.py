@@ -13,8 +13,8 @@ from rapidgen.client.errors import (
 from rapidgen.client.motion import Motion, Phase
 from rapidgen.client.state import State
 from rapidgen.client.talk import Pending
-from rapidgen.protocol import messages
-from rapidgen.protocol.spec import Port, TriState
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.spec import Port, TriState
 
 PER_POINT = 0.02
 """s that a controller may take to read one point."""

@@ -23,9 +23,9 @@ from rapidgen.client.state import Progress, trajectory_state
 from rapidgen.client.talk import Pending
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
-from rapidgen.protocol import messages
-from rapidgen.protocol.bulk import Words, pack_points, points_frame
-from rapidgen.protocol.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
+from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
 
 
 @dataclass(slots=True)

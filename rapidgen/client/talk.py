@@ -3,7 +3,7 @@
 from collections import deque
 from dataclasses import dataclass, field
 
-from rapidgen.protocol import FrameSplitter, messages
+from rapidgen.wire.simple_message import FrameSplitter, messages
 
 
 @dataclass(slots=True, eq=False)

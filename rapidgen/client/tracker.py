@@ -17,9 +17,9 @@ from rapidgen.client.state import (
     status_of,
     trajectory_state,
 )
-from rapidgen.protocol import ContentError, FrameSplitter, decode, messages, spec
-from rapidgen.protocol.frames import Frame
-from rapidgen.protocol.spec import FEEDBACK_WRAP, EventType
+from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, messages, spec
+from rapidgen.wire.simple_message.frames import Frame
+from rapidgen.wire.simple_message.spec import FEEDBACK_WRAP, EventType
 
 KEPT_EVENTS = 64
 KEPT_MESSAGES = 32

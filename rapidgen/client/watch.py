@@ -5,7 +5,7 @@ from collections import deque
 import numpy as np
 
 from rapidgen.client.state import Event, State, Status
-from rapidgen.protocol.spec import REASON_TEXTS, Mode, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import REASON_TEXTS, Mode, TrajectoryState, TriState
 
 _WINDOW = 500
 _ACTIVITIES = {TrajectoryState.STARVED: "starved", TrajectoryState.PAUSED: "paused"}

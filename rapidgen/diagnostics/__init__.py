@@ -6,6 +6,7 @@ from rapidgen.diagnostics.model import (
     Label,
     Severity,
     Span,
+    error,
     suggest,
 )
 from rapidgen.diagnostics.render import Format, render
@@ -17,6 +18,7 @@ __all__ = [
     "Label",
     "Severity",
     "Span",
+    "error",
     "render",
     "suggest",
 ]

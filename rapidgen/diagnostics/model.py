@@ -54,6 +54,21 @@ class Diagnostic:
     related: tuple[Label, ...] = ()
 
 
+def error(
+    code: str,
+    at: Span | None,
+    message: str,
+    mend: str = "",
+    *,
+    label: str = "",
+    notes: Sequence[str] = (),
+    related: Sequence[Label] = (),
+    severity: Severity = Severity.ERROR,
+) -> Diagnostic:
+    """A finding: the one way to make one. `at` is its place, `mend` says what to do."""
+    return Diagnostic(code, severity, message, at, label, mend, tuple(notes), tuple(related))
+
+
 class DiagnosticError(Exception):
     """A user's fault that ends what was under way. The only exception commands show.
 

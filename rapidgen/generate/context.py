@@ -10,8 +10,8 @@ from rapidgen.config.model import Frame, Joint, Load, MotionGroup, RobotConfig, 
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
-from rapidgen.protocol import rapid, spec
-from rapidgen.protocol.spec import ReplyCode
+from rapidgen.wire.simple_message import rapid, spec
+from rapidgen.wire.simple_message.spec import ReplyCode
 
 # Clients that the state port serves at a time.
 STATE_CLIENTS = 3

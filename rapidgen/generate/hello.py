@@ -5,9 +5,9 @@ import re
 from rapidgen import __version__
 from rapidgen.config.model import MotionGroup, RobotConfig
 from rapidgen.generate.numbers import literal
-from rapidgen.protocol import spec
-from rapidgen.protocol.mapping import mapping_hash
-from rapidgen.protocol.spec import Feature, ReplyCode, Wire
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.mapping import mapping_hash
+from rapidgen.wire.simple_message.spec import Feature, ReplyCode, Wire
 
 
 def features(config: RobotConfig, group: MotionGroup) -> Feature:

@@ -14,24 +14,24 @@ from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.controller.controller import Deadlock, VirtualController
+from rapidgen.controller.faults import FaultPlan
+from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Span
-from rapidgen.protocol import WireError, encode, messages, spec
+from rapidgen.machine.log import Domain
+from rapidgen.machine.network.interface import NetworkFault
+from rapidgen.motion.settings import MotionSettings
 from rapidgen.proving.link import Link, Point, Position, point_frame
 from rapidgen.proving.model import Broken, Series
 from rapidgen.proving.positions import distance, off
 from rapidgen.rapid import parse
-from rapidgen.rapid.nodes import Module
+from rapidgen.rapid.syntax.nodes import Module
+from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.switches import Dialect
 from rapidgen.system.model import System
-from rapidgen.virtual.compiler.program import LoadedModule, Program
-from rapidgen.virtual.compiler.symbols import Routine
-from rapidgen.virtual.controller import Deadlock, VirtualController
-from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.errors import FatalError, RapidError
-from rapidgen.virtual.faults import FaultPlan
-from rapidgen.virtual.log import Domain
-from rapidgen.virtual.motion.settings import MotionSettings
-from rapidgen.virtual.network.interface import NetworkFault
-from rapidgen.virtual.tracing import Coverage
+from rapidgen.wire.simple_message import WireError, encode, messages, spec
 
 Lines: TypeAlias = dict[str, dict[int, int]]
 """How often each line of RAPID with a statement was reached, by module file."""
@@ -107,7 +107,7 @@ class Bench:
         self.orders: list[Order] = []
         self.commanded: list[tuple[float, list[Point]]] = []
         """Downloads that were sent to their end, and when."""
-        self._next = self.controller.kernel.after(0, self._sample)
+        self._next = self.controller.scheduler.after(0, self._sample)
         self.controller.motion.group(self.group.name).changed.add(self._sample)
 
     def _boot(self) -> VirtualController:
@@ -173,7 +173,7 @@ class Bench:
             self.track.append((self.now, here))
         self._next.cancel()
         wait = SAMPLE_STANDING if self.standing else SAMPLE
-        self._next = self.controller.kernel.after(wait, self._sample)
+        self._next = self.controller.scheduler.after(wait, self._sample)
 
     def close(self) -> None:
         """Give the controller back."""

@@ -19,17 +19,17 @@ from itertools import pairwise
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.protocol import messages, spec
+from rapidgen.controller.faults import Direction, FaultPlan, NetworkRule
+from rapidgen.controller.tracing import Trace
 from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
 from rapidgen.proving.positions import distance, off
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.rapid import parse
-from rapidgen.rapid.nodes import DataDeclaration
+from rapidgen.rapid.syntax.nodes import DataDeclaration
 from rapidgen.system.model import System
-from rapidgen.virtual.faults import Direction, FaultPlan, NetworkRule
-from rapidgen.virtual.tracing import Trace
+from rapidgen.wire.simple_message import messages, spec
 
 CORNER = 0.08
 """rad or m by which zones and a change of trajectory may lead off the straight way."""

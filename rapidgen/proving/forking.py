@@ -10,7 +10,7 @@ import warnings
 from collections.abc import Callable
 from typing import TypeVar
 
-from rapidgen.virtual.files import remove_scratch_folders
+from rapidgen.machine.files import remove_scratch_folders
 
 R = TypeVar("R")
 

@@ -3,8 +3,16 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, TypeAlias, TypeVar
 
-from rapidgen.protocol import Frame, FrameSplitter, WireError, decode, encode, messages, spec
-from rapidgen.virtual.network.interface import Endpoint, NetworkFault
+from rapidgen.machine.network.interface import Endpoint, NetworkFault
+from rapidgen.wire.simple_message import (
+    Frame,
+    FrameSplitter,
+    WireError,
+    decode,
+    encode,
+    messages,
+    spec,
+)
 
 if TYPE_CHECKING:
     from rapidgen.proving.bench import Bench

@@ -7,8 +7,9 @@ routine where an operator fits is a mutant, equivalent ones included.
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
+from rapidgen.controller.tracing import STATEMENTS
 from rapidgen.rapid import parse
-from rapidgen.rapid.nodes import (
+from rapidgen.rapid.syntax.nodes import (
     Assignment,
     Branch,
     CompactIf,
@@ -22,8 +23,7 @@ from rapidgen.rapid.nodes import (
     TryNext,
     While,
 )
-from rapidgen.virtual.tracing import STATEMENTS
-from rapidgen.virtual.values import single
+from rapidgen.runtime.values import single
 
 _SWAPS = {
     "<": "<=",

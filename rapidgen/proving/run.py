@@ -9,16 +9,16 @@ from multiprocessing import get_context
 from typing import Any, TextIO, TypeVar
 
 from rapidgen.config.model import RobotConfig
+from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
+from rapidgen.motion.settings import MotionSettings
 from rapidgen.proving.bench import FAILURES, Bench, Setting, add_lines
 from rapidgen.proving.explore import Explored, explore
 from rapidgen.proving.forking import in_a_fork
 from rapidgen.proving.model import Case, Outcome, Report
 from rapidgen.proving.suite import CASES
+from rapidgen.runtime.switches import NOT_THE_DRIVERS, Dialect
 from rapidgen.system.model import System
-from rapidgen.virtual.cell import in_its_cell
-from rapidgen.virtual.dialect import NOT_THE_DRIVERS, Dialect
-from rapidgen.virtual.motion.settings import MotionSettings
 
 R = TypeVar("R")
 

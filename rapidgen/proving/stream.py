@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rapidgen.protocol import bulk, messages, spec
-from rapidgen.protocol.spec import StreamFlag
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Link, Point
 from rapidgen.proving.model import Broken
+from rapidgen.wire.simple_message import bulk, messages, spec
+from rapidgen.wire.simple_message.spec import StreamFlag
 
 BEGIN, END, FLUSH = StreamFlag.BEGIN, StreamFlag.END, StreamFlag.FLUSH
 NONE = StreamFlag(0)

@@ -3,11 +3,11 @@
 from typing import TYPE_CHECKING
 
 from rapidgen.rapid.dialect import Dialect
-from rapidgen.rapid.parser import parse
+from rapidgen.rapid.syntax.parser import parse
 
 if TYPE_CHECKING:
-    from rapidgen.rapid.checker import check
-    from rapidgen.rapid.formatter import format_source
+    from rapidgen.rapid.checks import check
+    from rapidgen.rapid.syntax.format import format_source
 
 __all__ = ["Dialect", "check", "format_source", "parse"]
 
@@ -15,11 +15,11 @@ __all__ = ["Dialect", "check", "format_source", "parse"]
 def __getattr__(name: str) -> object:
     """Checker and formatter are imported when they are asked for: most users only parse."""
     if name == "check":
-        from rapidgen.rapid.checker import check
+        from rapidgen.rapid.checks import check
 
         return check
     if name == "format_source":
-        from rapidgen.rapid.formatter import format_source
+        from rapidgen.rapid.syntax.format import format_source
 
         return format_source
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

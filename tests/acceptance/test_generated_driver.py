@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
 from rapidgen.generate import build, write
-from rapidgen.virtual import VirtualController
 from tests.acceptance.driving import Ports, next_state, read, too_many, until
 from tests.acceptance.frames import (
     FIVE_POINTS,

@@ -1,6 +1,6 @@
 """A scripted controller on real sockets: does what a test tells it, right or wrong.
 
-Not a model of ABB's controller (that is rapidgen.virtual): it plays points by time and answers
+Not a model of ABB's controller (that is rapidgen.controller): it plays points by time and answers
 as told. Bytes are made by `struct` here, not by rapidgen's codec.
 """
 

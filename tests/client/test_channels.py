@@ -4,7 +4,7 @@ import socket
 
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
-from rapidgen.protocol.spec import Port
+from rapidgen.wire.simple_message.spec import Port
 
 
 def test_a_channel_that_comes_with_the_end_is_closed():

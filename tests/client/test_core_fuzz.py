@@ -20,7 +20,7 @@ from rapidgen.client.group import Group
 from rapidgen.client.motion import Phase
 from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.protocol import (
+from rapidgen.wire.simple_message import (
     ContentError,
     FrameSplitter,
     decode,
@@ -28,8 +28,8 @@ from rapidgen.protocol import (
     encode_reply,
     messages,
 )
-from rapidgen.protocol.bulk import decode_batches
-from rapidgen.protocol.spec import Comm, Feature, Port, StreamFlag, TrajectoryState
+from rapidgen.wire.simple_message.bulk import decode_batches
+from rapidgen.wire.simple_message.spec import Comm, Feature, Port, StreamFlag, TrajectoryState
 
 RING = 40
 PAD = (0.0,) * 4

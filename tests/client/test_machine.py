@@ -24,10 +24,10 @@ from rapidgen.client import (
 )
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
+from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
-from rapidgen.protocol.spec import Port, Reason
-from rapidgen.virtual.asyncio_clock import VirtualLoop
-from rapidgen.virtual.controller import VirtualController
+from rapidgen.testing.asyncio_clock import VirtualLoop
+from rapidgen.wire.simple_message.spec import Port, Reason
 
 CONFIG = load_config("irb120")
 SYSTEM = make_system(CONFIG, build(CONFIG))

@@ -29,7 +29,7 @@ from rapidgen.client import (
 )
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel
-from rapidgen.protocol.spec import Mode, Port, Reason, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import Mode, Port, Reason, TrajectoryState, TriState
 
 GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, GOAL], seconds=0.1)
@@ -386,7 +386,7 @@ def test_stop_from_another_thread_while_sending(fake, quick):
         sender = threading.Thread(target=send)
         sender.start()
         assert _comes(lambda: len(controller.frames) > 5)
-        # The fake reads so slowly that STOP waits behind what lies in the kernel.
+        # The fake reads so slowly that STOP waits behind what lies in the scheduler.
         controller.script.read_pause = 0.0
         controller.script.read_bytes = 65536
         robot.stop()

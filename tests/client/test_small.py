@@ -29,7 +29,7 @@ from rapidgen.client.target import groups_of, resolve
 from rapidgen.client.watch import changes, error_text
 from rapidgen.config.model import Ports
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.protocol.spec import Mode, Port, Reason, TriState
+from rapidgen.wire.simple_message.spec import Mode, Port, Reason, TriState
 
 PATH = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.2] * 6], seconds=0.15)
 LONG = PATH.scaled(0.05)

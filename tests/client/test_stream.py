@@ -26,7 +26,7 @@ from rapidgen.client import (
 )
 from rapidgen.config import load_config
 from rapidgen.config.model import Signal
-from rapidgen.protocol.spec import EventType, Reason, TrajectoryState
+from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 SPEED = 40
 """The scripted robot plays so many times faster than asked."""

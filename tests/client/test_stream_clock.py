@@ -21,8 +21,8 @@ from rapidgen.client import (
     Timeouts,
     Trajectory,
 )
-from rapidgen.protocol import spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 
 def wave(step=0.1):
@@ -118,7 +118,7 @@ def test_indices_wrap(monkeypatch):
     import fake_stream
 
     from rapidgen.client import stream as module
-    from rapidgen.protocol import bulk
+    from rapidgen.wire.simple_message import bulk
 
     for place in (module, bulk):
         monkeypatch.setattr(place, "INDEX_WRAP", 512)

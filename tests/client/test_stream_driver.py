@@ -22,11 +22,11 @@ from rapidgen.client import (
 from rapidgen.client import checks as client_checks
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
+from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
-from rapidgen.protocol.spec import EventType, Feature, Reason, TrajectoryState
 from rapidgen.system.model import SignalSpec
-from rapidgen.virtual.asyncio_clock import run
-from rapidgen.virtual.controller import VirtualController
+from rapidgen.testing.asyncio_clock import run
+from rapidgen.wire.simple_message.spec import EventType, Feature, Reason, TrajectoryState
 
 NOT_IN_TIME = 59901
 """Event of the virtual controller: a move took longer than was programmed."""

@@ -198,7 +198,7 @@ def test_plot_of_names_that_want_out(tmp_path):
 
 
 def test_plot_thins_long_recordings(tmp_path):
-    from rapidgen.client.plot import Curve, write_plot
+    from rapidgen.view.plot import Curve, write_plot
 
     times = np.arange(200_000) * 0.01
     values = np.sin(times)[:, None]
@@ -211,7 +211,7 @@ def test_plot_thins_long_recordings(tmp_path):
 
 
 def test_plot_without_points(tmp_path):
-    from rapidgen.client.plot import Curve, write_plot
+    from rapidgen.view.plot import Curve, write_plot
 
     empty = Trajectory(np.zeros(0), np.zeros((0, 2)), ("a", "b"))
     write_plot(tmp_path / "e.png", tmp_path / "e.html", [Curve("nothing", empty)], title="empty")
@@ -325,7 +325,7 @@ def test_words_of_a_monitor():
 
     from rapidgen.client import Event, Status
     from rapidgen.client.watch import Watcher
-    from rapidgen.protocol.spec import EventType, TrajectoryState
+    from rapidgen.wire.simple_message.spec import EventType, TrajectoryState
 
     watcher = Watcher()
     for number, trajectory in enumerate((TrajectoryState.MOVING, TrajectoryState.STARVED)):

@@ -23,9 +23,9 @@ from rapidgen.client import (
 )
 from rapidgen.client.address import Address
 from rapidgen.config import load_config, shipped_names
+from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
-from rapidgen.protocol.spec import Feature, Reason, TrajectoryState, TriState
-from rapidgen.virtual.controller import VirtualController
+from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState, TriState
 
 SPEED = 10
 PATIENT = Timeouts(state=20, ready=10, silence=20, send=20, reply=20, stop=20, heartbeat=10)

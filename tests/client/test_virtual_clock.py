@@ -16,10 +16,10 @@ from rapidgen.client import (
 )
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
+from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
-from rapidgen.protocol.spec import Reason, TrajectoryState, TriState
-from rapidgen.virtual.asyncio_clock import run
-from rapidgen.virtual.controller import VirtualController
+from rapidgen.testing.asyncio_clock import run
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState, TriState
 
 _SYSTEMS = {}
 

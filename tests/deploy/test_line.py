@@ -13,13 +13,13 @@ from rapidgen.cli.doctor import _hello
 from rapidgen.client import Robot, RobotError, Trajectory
 from rapidgen.client.address import Address
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
 from rapidgen.deploy import Access, TransportFault, apply, connect, make_plan, parse_target
 from rapidgen.deploy.folder import FolderTransport
 from rapidgen.deploy.session import wanted_set
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.protocol.spec import TriState
-from rapidgen.services import serve_ftp, serve_sftp
-from rapidgen.virtual import VirtualController
+from rapidgen.faces import serve_ftp, serve_sftp
+from rapidgen.wire.simple_message.spec import TriState
 
 
 def booted(home, folder, **options):

@@ -13,7 +13,7 @@ from rapidgen.cli.uninstall import uninstall
 from rapidgen.deploy import parse_target
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.diagnostics import DiagnosticError, render
-from rapidgen.services import serve_ftp, serve_sftp
+from rapidgen.faces import serve_ftp, serve_sftp
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 VERBS = (plan, deploy, rollback, uninstall, doctor)

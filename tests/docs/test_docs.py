@@ -19,7 +19,7 @@ import pytest
 import typer
 
 from rapidgen.cli.app import VERBS, _app
-from rapidgen.virtual.faults import read_plan
+from rapidgen.controller.faults import read_plan
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

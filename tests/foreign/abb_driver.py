@@ -11,8 +11,8 @@ import sys
 from pathlib import Path
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
 from rapidgen.system.model import ModuleFile, SignalSpec, System, SystemOutput, TaskSpec
-from rapidgen.virtual import VirtualController
 from tests.acceptance.driving import Ports, next_state, read, too_many, until
 from tests.acceptance.frames import (
     FIVE_POINTS,

@@ -9,9 +9,10 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 
-from rapidgen.rapid import nodes as n
-from rapidgen.rapid import parse, signatures
-from rapidgen.rapid.walk import walk
+from rapidgen.rapid import parse
+from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 _GIVEN = {"tooldata": "tool0", "wobjdata": "wobj0", "loaddata": "load0"}

@@ -10,9 +10,9 @@ import sys
 from pathlib import Path
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
 from rapidgen.system import read_files
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.mechanics import groups_for
 
 BLEND = """MODULE mGodel_Blend
   PROC Godel_Blend()

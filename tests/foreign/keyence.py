@@ -15,10 +15,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
+from rapidgen.runtime.switches import Dialect
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.mechanics import groups_for
 from tests.foreign.cell import furnish
 
 PORT = 8500

@@ -21,9 +21,9 @@ import abb_motion_program_exec as mp
 import abb_motion_program_exec.abb_motion_program_exec_client as client_module
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
 from rapidgen.system import read_system
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.mechanics import groups_for
 from tests.foreign.rws import Face
 
 

@@ -17,9 +17,9 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
 from rapidgen.system import read_system
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.mechanics import groups_for
 
 BACKUPS = "src/abb_communication/robotstudio"
 JOB = "A009 Stefana"

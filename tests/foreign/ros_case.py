@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rapidgen.protocol import spec
+from rapidgen.wire.simple_message import spec
 from tests.foreign.ros_cell import Cell
 
 FIVE = ([0.0], [0.125], [0.25, 0.125], [0.5, 0.25, 0, 0, 0, 0.125], [0.5, 0.25, -0.5, 0, 0, 0.25])

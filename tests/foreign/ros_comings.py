@@ -4,7 +4,7 @@ import time
 from contextlib import suppress
 from signal import SIGCONT, SIGINT, SIGKILL, SIGSTOP
 
-from rapidgen.protocol import spec
+from rapidgen.wire.simple_message import spec
 from tests.foreign.ros import HOST, until
 from tests.foreign.ros_case import FIVE, SUCCEEDED, Findings, begin_moving, case, code
 from tests.foreign.ros_cell import FALSE, TRUE, Cell

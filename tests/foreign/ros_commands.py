@@ -4,7 +4,7 @@ import time
 from itertools import pairwise
 from signal import SIGINT
 
-from rapidgen.protocol import spec
+from rapidgen.wire.simple_message import spec
 from tests.foreign.ros import until
 from tests.foreign.ros_case import FIVE, PREEMPTED, SUCCEEDED, Findings, begin_moving, case, code
 from tests.foreign.ros_cell import FALSE, TRUE, Cell

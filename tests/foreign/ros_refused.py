@@ -1,6 +1,6 @@
 """Cases of the trial with ROS nodes: what the driver refuses."""
 
-from rapidgen.protocol import spec
+from rapidgen.wire.simple_message import spec
 from tests.foreign.ros_case import PREEMPTED, SUCCEEDED, Findings, case, code
 from tests.foreign.ros_cell import FALSE, TRUE, Cell
 

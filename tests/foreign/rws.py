@@ -8,7 +8,7 @@ stays as it is.
 from collections import namedtuple
 from datetime import UTC, datetime
 
-from rapidgen.virtual import VirtualController
+from rapidgen.controller import VirtualController
 
 _Execution = namedtuple("_Execution", "ctrlexecstate cycle")
 _Entry = namedtuple("_Entry", "seqnum msgtype code tstamp args title desc conseqs causes actions")

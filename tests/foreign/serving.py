@@ -6,9 +6,9 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
 from rapidgen.system.model import System
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.mechanics import groups_for
 
 
 @contextmanager

@@ -16,10 +16,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
+from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import DiagnosticError, Severity
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.mechanics import groups_for
-from rapidgen.virtual.tracing import Coverage
 from tests.foreign.cell import furnish
 from tests.foreign.programs import Program, programs
 
@@ -91,7 +91,7 @@ def _fault(fault: object) -> str:
 
 def _run(controller: VirtualController) -> str:
     """Let time pass while inputs change and dialogs are answered; how it ended."""
-    kernel = controller.kernel
+    scheduler = controller.scheduler
     inputs = [s for s in controller.io.signals.values() if s.spec.type in ("DI", "GI", "AI")]
     price = controller.costs.statement
     presses = 0
@@ -103,11 +103,11 @@ def _run(controller: VirtualController) -> str:
             controller.start_program()
         elif "running" not in states:
             return "ends" if not _faults(controller) else "stops"
-        if kernel.now - kernel.idle > _STATEMENTS * price:
+        if scheduler.now - scheduler.idle > _STATEMENTS * price:
             break
         for signal in inputs:
-            if kernel.rng.random() < 0.3:
-                controller.io.set(signal, kernel.rng.randrange(2))
+            if scheduler.rng.random() < 0.3:
+                controller.io.set(signal, scheduler.rng.randrange(2))
         for question in tuple(controller.operator.questions):
             _answer(controller, question.number, question.choices)
     return "stops" if _faults(controller) else f"runs on ({controller.now:.0f} s)"

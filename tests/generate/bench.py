@@ -7,8 +7,8 @@ joints, velocity, duration; little endian), not by rapidgen's own codec.
 import math
 import struct
 
+from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
-from rapidgen.virtual.controller import VirtualController
 
 POINT = struct.Struct("<4ii10fff")
 STOP = POINT.pack(64, 11, 2, 0, -4, *[0.0] * 12)

@@ -145,4 +145,4 @@ def progress_of(state):
 def hold(b, task, seconds):
     """Let a task wait where it is."""
     b.vc.rapid_tasks[task].hold()
-    b.vc.kernel.after(round(seconds * 1e9), b.vc.rapid_tasks[task].release)
+    b.vc.scheduler.after(round(seconds * 1e9), b.vc.rapid_tasks[task].release)

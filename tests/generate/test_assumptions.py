@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from rapidgen.virtual.costs import Costs
-from rapidgen.virtual.dialect import Dialect
+from rapidgen.machine.costs import Costs
+from rapidgen.runtime.switches import Dialect
 from tests.generate.bench import STOP, close_to, trajectory
 from tests.generate.driving import (
     FIVE,

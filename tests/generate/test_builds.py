@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from rapidgen.virtual.controller import VirtualController
+from rapidgen.controller.controller import VirtualController
 from tests.generate.bench import STOP, point, trajectory
 from tests.generate.driving import (
     FIVE,

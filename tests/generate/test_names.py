@@ -4,7 +4,8 @@ import pytest
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
-from rapidgen.rapid import check, format_source, nodes, parse
+from rapidgen.rapid import check, format_source, parse
+from rapidgen.rapid.syntax import nodes
 
 ROBOTS = ["irb120", "irb14000"]
 

@@ -9,8 +9,8 @@ from dataclasses import replace
 
 import pytest
 
+from rapidgen.controller.controller import VirtualController
 from rapidgen.system import SignalSpec
-from rapidgen.virtual.controller import VirtualController
 from tests.generate.bench import STOP
 from tests.generate.driving import move_well
 from tests.generate.streams import SIGNAL, reply, request

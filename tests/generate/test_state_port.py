@@ -6,7 +6,7 @@ import struct
 
 import pytest
 
-from rapidgen.virtual.dialect import Dialect
+from rapidgen.runtime.switches import Dialect
 from tests.generate.bench import close_to, trajectory
 
 JOINT, STATUS, FEEDBACK, HELLO, PROGRESS, EVENT = 10, 13, 15, 1300, 1301, 1308
@@ -127,10 +127,10 @@ def test_hello_is_answered_within_a_second_at_any_rate(bench):
     second = b.state_client()
     hello(second)
     hello(first)
-    asked = b.vc.kernel.now
+    asked = b.vc.scheduler.now
     for client in (first, second):
         assert b.vc.run_until(lambda c=client: HELLO in map(kind, c.frames()), timeout=0.9)
-    assert b.vc.kernel.now - asked < 0.9e9
+    assert b.vc.scheduler.now - asked < 0.9e9
 
 
 def test_the_next_client_does_not_wait_for_the_turn_of_the_last(bench):
@@ -148,12 +148,12 @@ def test_the_rate_of_one_is_kept_while_others_come_and_go(bench):
     steady = b.state_client()
     b.vc.run_for(1)
     steady.frames()
-    begun, count = b.vc.kernel.now, 0
+    begun, count = b.vc.scheduler.now, 0
     for n in range(40):
         other = b.state_client() if n % 2 else subscribed(b, WANT_PROGRESS | WANT_FEEDBACK)
         b.vc.run_for(0.73)
         count += len([f for f in steady.frames() if kind(f) == STATUS])
-        assert abs(count - (b.vc.kernel.now - begun) * 1e-8) <= 1
+        assert abs(count - (b.vc.scheduler.now - begun) * 1e-8) <= 1
         other.close()
 
 
@@ -167,7 +167,7 @@ def longest_gap(b, client, seconds):
     for _ in range(round(seconds / 0.02)):
         b.vc.run_for(0.02)
         if any(kind(f) == STATUS for f in client.frames()):
-            times.append(b.vc.kernel.now * 1e-9)
+            times.append(b.vc.scheduler.now * 1e-9)
     return max(late - early for early, late in itertools.pairwise(times))
 
 
@@ -260,10 +260,10 @@ def test_feedback_is_time_position_and_speed(bench, name):
     client.send(b"".join(trajectory([here, there], [10, 2.0])))
     b.vc.run_for(0.9)
     state.frames()
-    before, begun = b.joints(), b.vc.kernel.now
+    before, begun = b.joints(), b.vc.scheduler.now
     b.vc.run_for(0.5)
     told = feedback_of(state.frames())
-    seconds = (b.vc.kernel.now - begun) * 1e-9
+    seconds = (b.vc.scheduler.now - begun) * 1e-9
     speeds = [(v - w) / seconds for v, w in zip(b.joints(), before, strict=True)]
     assert len(told) == pytest.approx(25, abs=1)
     for valid, _, positions, velocities in told:
@@ -309,7 +309,7 @@ def test_the_time_stamp_counts_a_thousand_seconds(bench):
             assert valid == 7
             assert velocities == [0.0] * 10
             if last is None:
-                begun = b.vc.kernel.now * 1e-9
+                begun = b.vc.scheduler.now * 1e-9
             else:
                 step = (time - last) % 1000
                 assert step == pytest.approx(0.37, abs=0.01)

@@ -18,11 +18,11 @@ from math import inf
 import numpy as np
 
 from rapidgen.axes import frames
-from rapidgen.virtual.errors import FatalError, RapidError
-from rapidgen.virtual.kernel import S
-from rapidgen.virtual.motion import MotionSettings
-from rapidgen.virtual.motion.moves import CartesianMove, JointMove, Speed
-from rapidgen.virtual.task import Task
+from rapidgen.machine.scheduler import S
+from rapidgen.motion import MotionSettings
+from rapidgen.motion.moves import CartesianMove, JointMove, Speed
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.task.task import Task
 from tests.motion.cell import Cell, zone
 
 RADII = (0, 0.3, 1, 10, 50, 200)
@@ -158,7 +158,7 @@ def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outco
         task = cell.start(joint_program(cell, rng))
 
     def over() -> bool:
-        late = cell.kernel.now > (RELEASED + 0.1) * S
+        late = cell.scheduler.now > (RELEASED + 0.1) * S
         return late and not task.alive and cell.group.is_standing
 
     cell.sample(over, PERIOD, limit=90)

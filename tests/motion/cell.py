@@ -1,4 +1,4 @@
-"""A robot alone: kernel, log, I/O and motion; Python functions stand for RAPID tasks."""
+"""A robot alone: scheduler, log, I/O and motion; Python functions stand for RAPID tasks."""
 
 from collections.abc import Callable
 from types import SimpleNamespace
@@ -6,14 +6,14 @@ from types import SimpleNamespace
 import numpy as np
 
 from rapidgen.config import load_config
+from rapidgen.machine.io import IOSystem
+from rapidgen.machine.log import EventLog
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.motion import MotionSettings, MotionSystem
+from rapidgen.motion.moves import Zone
+from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
-from rapidgen.virtual.dialect import Dialect
-from rapidgen.virtual.io import IOSystem
-from rapidgen.virtual.kernel import Kernel, S
-from rapidgen.virtual.log import EventLog
-from rapidgen.virtual.motion import MotionSettings, MotionSystem
-from rapidgen.virtual.motion.moves import Zone
-from rapidgen.virtual.task import Task
 
 
 def zone(millimetres: float) -> Zone:
@@ -30,23 +30,23 @@ class Cell:
 
     def __init__(self, robot: str = "irb120", settings: MotionSettings | None = None) -> None:
         self.config = load_config(robot).groups[0]
-        self.kernel = Kernel()
-        self.log = EventLog(self.kernel)
-        io = IOSystem(self.kernel, self.log, System("cell", ()))
-        self.motion = MotionSystem(self.kernel, [self.config], self.log, io, settings)
+        self.scheduler = Scheduler()
+        self.log = EventLog(self.scheduler)
+        io = IOSystem(self.scheduler, self.log, System("cell", ()))
+        self.motion = MotionSystem(self.scheduler, [self.config], self.log, io, settings)
         self.group = self.motion.group(self.config.name)
         self.times: list[int] = []
         self.samples: list[tuple[float, ...]] = []
 
     def start(self, program: Callable[[Task], None]) -> Task:
         """Launch a program."""
-        task = Task(self.kernel, "T_ROB1", SimpleNamespace(dialect=Dialect()))
+        task = Task(self.scheduler, "T_ROB1", SimpleNamespace(dialect=Dialect()))
         task.launch(lambda: program(task))
         return task
 
     def at(self, seconds: float, act: Callable[[], None]) -> None:
         """Do something at a time."""
-        self.kernel.at(round(seconds * S), act)
+        self.scheduler.at(round(seconds * S), act)
 
     def run(self, program: Callable[[Task], None], *, period: float = 0.002, limit: float = 60.0):
         """Run a program to its end and standstill, sampling the axes."""
@@ -58,18 +58,18 @@ class Cell:
     def sample(self, done: Callable[[], bool], period: float = 0.002, limit: float = 60.0) -> None:
         """Let time pass until `done()`, sampling the axes."""
         over = False
-        end = self.kernel.now + round(limit * S)
+        end = self.scheduler.now + round(limit * S)
 
         def look() -> None:
             nonlocal over
-            self.times.append(self.kernel.now)
+            self.times.append(self.scheduler.now)
             self.samples.append(self.group.positions())
-            over = done() or self.kernel.now > end
+            over = done() or self.scheduler.now > end
             if not over:
-                self.kernel.after(round(period * S), look)
+                self.scheduler.after(round(period * S), look)
 
-        self.kernel.after(0, look)
-        self.kernel.advance(until=end + S, stop=lambda: over)
+        self.scheduler.after(0, look)
+        self.scheduler.advance(until=end + S, stop=lambda: over)
 
     @property
     def path(self) -> np.ndarray:

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.virtual.controller import VirtualController
-from rapidgen.virtual.motion.moves import JointMove, Speed, Zone
+from rapidgen.controller.controller import VirtualController
+from rapidgen.motion.moves import JointMove, Speed, Zone
 from tests.motion.cell import Cell, zone
 
 

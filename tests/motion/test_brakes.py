@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from rapidgen.virtual.kernel import S
-from rapidgen.virtual.motion import MotionSettings
+from rapidgen.machine.scheduler import S
+from rapidgen.motion import MotionSettings
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\n"
@@ -105,7 +105,7 @@ def test_an_emergency_stop_by_category(rapid, choice):
     )
     controller, group = program.controller, program.group
     controller.motion.settings = MotionSettings(emergency_stop=choice)
-    controller.kernel.at(round(1.0 * S), lambda: controller.perform("e-stop"))
+    controller.scheduler.at(round(1.0 * S), lambda: controller.perform("e-stop"))
     controller.run_for(2.0)
     assert (group.off_path[0] > 1e-5) is (choice == "brakes")
     for action in ("reset-e-stop", "motors-on", "start"):

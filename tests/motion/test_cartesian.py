@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from rapidgen.axes import frames
-from rapidgen.virtual.errors import FatalError, RapidError
-from rapidgen.virtual.kernel import S
-from rapidgen.virtual.motion.events import CIRCLE_UNCERTAIN, NOT_COMPATIBLE, SINGULARITY
-from rapidgen.virtual.motion.moves import Carrier, CartesianMove, Singularities, Speed
+from rapidgen.machine.scheduler import S
+from rapidgen.motion.events import CIRCLE_UNCERTAIN, NOT_COMPATIBLE, SINGULARITY
+from rapidgen.motion.moves import Carrier, CartesianMove, Singularities, Speed
+from rapidgen.runtime.errors import FatalError, RapidError
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))

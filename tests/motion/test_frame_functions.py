@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.registry import bound
-from rapidgen.virtual.values import ConfData, ExtJoint, Orient, Pos, Pose, RobTarget, WobjData
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.registry import bound
+from rapidgen.runtime.values import ConfData, ExtJoint, Orient, Pos, Pose, RobTarget, WobjData
 
 TURN_Z = Orient(0.70710678, 0, 0, 0.70710678)
 UNIT = Orient(1, 0, 0, 0)

@@ -5,10 +5,10 @@ import math
 import numpy as np
 import pytest
 
-from rapidgen.virtual.errors import FatalError, RapidError
-from rapidgen.virtual.kernel import S
-from rapidgen.virtual.motion import MotionSettings
-from rapidgen.virtual.motion.events import CORNER_PATH_FAILURE, TIME_NOT_MET
+from rapidgen.machine.scheduler import S
+from rapidgen.motion import MotionSettings
+from rapidgen.motion.events import CORNER_PATH_FAILURE, TIME_NOT_MET
+from rapidgen.runtime.errors import FatalError, RapidError
 
 MS = 1_000_000
 
@@ -23,7 +23,7 @@ def test_time_includes_the_ramps(cell, joint):
 
     def program(task):
         cell.group.move(task, joint(30, 20, time=1.5))
-        ends.append(task.kernel.now / S)
+        ends.append(task.scheduler.now / S)
 
     cell.run(program)
     assert ends[0] == pytest.approx(1.5, abs=1e-6)
@@ -38,7 +38,7 @@ def test_a_trajectory_takes_the_sum_of_its_times(cell, joint):
         for k, time in enumerate((0.5, 0.3, 0.6, 0.2, 0.5)):
             task.charge(MS)
             cell.group.move(task, joint(8 * (k + 1), 5 * k, z=10 if k < 4 else 0, time=time))
-        ends.append(task.kernel.now / S)
+        ends.append(task.scheduler.now / S)
 
     cell.run(program)
     assert ends[0] == pytest.approx(2.1 + 0.001, abs=0.002)
@@ -68,9 +68,9 @@ def test_the_program_runs_ahead_by_the_planning_lead_and_waits_at_fine(cell, joi
 
     def program(task):
         cell.group.move(task, joint(20, z=10, time=1.0))
-        returned.append(task.kernel.now / S)
+        returned.append(task.scheduler.now / S)
         cell.group.move(task, joint(40, z=0, time=1.0))
-        returned.append(task.kernel.now / S)
+        returned.append(task.scheduler.now / S)
 
     cell.run(program)
     assert 0.7 < returned[0] < 0.9
@@ -170,7 +170,7 @@ def test_stop_clear_start_at_once_leaves_the_robot_where_it_comes_to_rest(cell, 
 
     def program(task):
         group.move(task, joint(60, time=1.2))
-        ended.append(task.kernel.now / S)
+        ended.append(task.scheduler.now / S)
         group.move(task, joint(0, time=2.0))
 
     cell.run(program)
@@ -248,7 +248,7 @@ def test_concurrent_moves_return_at_once_but_five_at_most(cell, joint):
     def program(task):
         for k in range(5):
             cell.group.move(task, joint(k + 1, z=1, time=0.5, concurrent=True))
-        assert task.kernel.now == 0
+        assert task.scheduler.now == 0
         with pytest.raises(RapidError) as error:
             cell.group.move(task, joint(9, concurrent=True))
         refused.append(error.value.name)
@@ -306,7 +306,7 @@ def test_dense_points_keep_moving(cell, joint):
             task.charge(MS)
             degrees = 20 * (1 - math.cos(math.pi * (k + 1) / 100))
             cell.group.move(task, joint(degrees, z=1 if k < 99 else 0, time=0.01))
-        ends.append(task.kernel.now / S)
+        ends.append(task.scheduler.now / S)
 
     cell.run(program)
     assert cell.events(CORNER_PATH_FAILURE) == 0
@@ -317,7 +317,7 @@ def test_dense_points_keep_moving(cell, joint):
 
 def test_an_idle_robot_costs_no_events(cell, joint):
     cell.run(lambda task: cell.group.move(task, joint(10, time=1.0)))
-    assert cell.kernel.next_event() is None
+    assert cell.scheduler.next_event() is None
 
 
 def test_the_measured_position_follows_by_the_servo_lag(make_cell, joint):
@@ -336,9 +336,9 @@ def test_reset_forgets_path_stops_and_settings(cell, joint):
     group.stop("move task")
     group.modal.speed_override = 0.3
     task = cell.start(lambda task: group.move(task, joint(30, time=1.0)))
-    cell.kernel.advance(until=S)
+    cell.scheduler.advance(until=S)
     group.reset()
-    cell.kernel.advance(until=2 * S)
+    cell.scheduler.advance(until=2 * S)
     assert not task.alive
     assert group.stop_reasons == ()
     assert group.modal.speed_override == 1.0
@@ -352,7 +352,7 @@ def test_a_stop_point_waits_for_the_settling_time_from_the_first_move_on(make_ce
     def program(task):
         for degrees in (10, 20):
             cell.group.move(task, joint(degrees))
-            ended.append((task.kernel.now - cell.group.motion.end) / S)
+            ended.append((task.scheduler.now - cell.group.motion.end) / S)
 
     cell.run(program)
     assert ended == pytest.approx([0.2, 0.2], abs=1e-6)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rapidgen.axes import frames
-from rapidgen.virtual.kernel import S
+from rapidgen.machine.scheduler import S
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\nVAR robtarget q;\nVAR clock c;\n"
@@ -16,13 +16,13 @@ HOME = "MoveAbsJ [[0,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, fine, tool0;
 def sampled(program, seconds=30.0, period=0.004):
     """Postures every 4 ms, and what the program wrote."""
     found = []
-    kernel = program.controller.kernel
+    scheduler = program.controller.scheduler
 
     def look():
         found.append(program.group.positions())
-        kernel.after(round(period * S), look)
+        scheduler.after(round(period * S), look)
 
-    kernel.after(0, look)
+    scheduler.after(0, look)
     return found, program.run(seconds)
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from rapidgen.axes import frames
-from rapidgen.virtual.kernel import S
+from rapidgen.machine.scheduler import S
 
 OBJECT = (
     'PERS wobjdata w := [FALSE,FALSE,"STN_1",[[9,9,9],[1,0,0,0]],[[0,-450,100],[1,0,0,0]]];\n'
@@ -31,13 +31,13 @@ def in_object(group, posture):
 
 def samples(program, seconds, period=0.004):
     found = []
-    kernel = program.controller.kernel
+    scheduler = program.controller.scheduler
 
     def look():
         found.append(program.group.positions())
-        kernel.after(round(period * S), look)
+        scheduler.after(round(period * S), look)
 
-    kernel.after(0, look)
+    scheduler.after(0, look)
     out = program.run(seconds)
     return np.array(found), out
 

@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.virtual.controller import VirtualController
-from rapidgen.virtual.motion import MotionSettings
+from rapidgen.controller.controller import VirtualController
+from rapidgen.motion import MotionSettings
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\nVAR robtarget q;\nVAR jointtarget j;\n"

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rapidgen.virtual.motion import smoothing
+from rapidgen.motion import smoothing
 from tests.motion import campaign
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from rapidgen.cli.app import main
-from rapidgen.virtual.motion.recorder import is_recording, read_recording
+from rapidgen.motion.recorder import is_recording, read_recording
 
 BODY = """
     MoveAbsJ [[10,0,0,0,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]], v1000, z10, tool0;

@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rapidgen.virtual.motion import sampling
-from rapidgen.virtual.motion.pieces import AxisLimits
+from rapidgen.motion import sampling
+from rapidgen.motion.pieces import AxisLimits
 
 LIMITS = AxisLimits((4.0,), (30.0,), 0.8)
 TOO_MUCH = 1 + 1e-3

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from rapidgen.virtual.kernel import S
-from rapidgen.virtual.motion import MotionSettings, smoothing
-from rapidgen.virtual.motion.moves import JointMove, Speed
-from rapidgen.virtual.motion.timelaw import brake, plan
+from rapidgen.machine.scheduler import S
+from rapidgen.motion import MotionSettings, smoothing
+from rapidgen.motion.moves import JointMove, Speed
+from rapidgen.motion.timelaw import brake, plan
 from tests.motion.campaign import disturb
 from tests.motion.test_timelaw import Stretch, paths
 
@@ -132,7 +132,7 @@ def test_acceleration_has_no_jump_on_straight_ways_whatever_happens(make_cell, z
             cell.group.move(task, JointMove(target=tuple(values), speed=Speed(1.0), zone=zones(0)))
 
     task = cell.start(program)
-    cell.sample(lambda: not task.alive and cell.kernel.now > 4.1 * S, limit=90)
+    cell.sample(lambda: not task.alive and cell.scheduler.now > 4.1 * S, limit=90)
     jerk = np.abs(np.diff(cell.path, n=3, axis=0)) / 0.002**3
     allowed = np.array(
         [2 * j.acceleration / MotionSettings().ramp_time for j in cell.config.joints]
@@ -146,10 +146,10 @@ def test_the_programmed_time_is_exact_with_any_ramp(make_cell, joint, ramp):
     times = []
 
     def program(task):
-        start = task.kernel.now
+        start = task.scheduler.now
         for degrees, z in ((10, 20), (22, 20), (33, 0), (20, 0)):
             cell.group.move(task, joint(degrees, z=z, time=0.6))
-        times.append((task.kernel.now - start) / S)
+        times.append((task.scheduler.now - start) / S)
 
     cell.run(program)
     assert times[0] == pytest.approx(4 * 0.6, abs=1e-6)

@@ -3,8 +3,8 @@
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.virtual.controller import VirtualController
-from rapidgen.virtual.kernel import S
+from rapidgen.controller.controller import VirtualController
+from rapidgen.machine.scheduler import S
 
 SHARED = """
     PERS tasks both{2} := [["T_ROB_L"],["T_ROB_R"]];
@@ -43,12 +43,12 @@ def spans(controller, seconds=30):
             if standing != was[name]:
                 was[name] = standing
                 if standing:
-                    row[-1].append(controller.kernel.now / S)
+                    row[-1].append(controller.scheduler.now / S)
                 else:
-                    row.append([controller.kernel.now / S])
-        controller.kernel.after(round(0.001 * S), look)
+                    row.append([controller.scheduler.now / S])
+        controller.scheduler.after(round(0.001 * S), look)
 
-    controller.kernel.after(0, look)
+    controller.scheduler.after(0, look)
     controller.run_for(seconds)
     return found["rob_l"], found["rob_r"]
 

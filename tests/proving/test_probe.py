@@ -7,9 +7,9 @@ import pytest
 from rapidgen._data import data_folder
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
 from rapidgen.rapid import check, parse
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.dialect import Dialect, parse_dialect
+from rapidgen.runtime.switches import Dialect, parse_dialect
 
 PROBE = data_folder("templates") / "ROS_probe.mod"
 ASKED = {

@@ -8,10 +8,10 @@ import pytest
 from rapidgen._data import data_folder
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
+from rapidgen.controller import VirtualController
+from rapidgen.machine.operator import Answer
+from rapidgen.motion.settings import MotionSettings
 from rapidgen.rapid import check, parse
-from rapidgen.virtual import VirtualController
-from rapidgen.virtual.motion.settings import MotionSettings
-from rapidgen.virtual.operator import Answer
 
 PROBE = data_folder("templates") / "ROS_probe_motion.mod"
 ASKED = {

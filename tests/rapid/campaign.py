@@ -6,7 +6,8 @@ import sys
 from collections import defaultdict
 from contextlib import contextmanager, suppress
 
-from rapidgen.rapid import parse, signatures
+from rapidgen.rapid import parse
+from rapidgen.rapid.builtins import signatures
 from tests.rapid import conformance_files
 from tests.rapid.mutants import ROOT, NoProgram, of_builtins, of_functions, of_tables
 

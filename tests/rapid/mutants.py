@@ -17,10 +17,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import CodeType
 
-import rapidgen.rapid.checker
-from rapidgen.rapid import signatures
+import rapidgen.rapid.checks
+from rapidgen.rapid.builtins import signatures
 
-ROOT = Path(rapidgen.rapid.checker.__file__).parents[1]
+ROOT = Path(rapidgen.rapid.checks.__file__).parents[1]
 PACKAGE = "rapidgen.rapid"
 _SWAPPED = {
     ast.Eq: ast.NotEq, ast.NotEq: ast.Eq, ast.In: ast.NotIn, ast.NotIn: ast.In,

@@ -2,8 +2,9 @@
 
 import pytest
 
-from rapidgen.rapid import Dialect, check, parse, signatures
-from rapidgen.rapid.signatures import Signature
+from rapidgen.rapid import Dialect, check, parse
+from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.builtins.signatures import Signature
 
 
 def codes(body, data="", rest="", **options):

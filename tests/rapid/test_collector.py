@@ -5,7 +5,8 @@ import weakref
 
 import pytest
 
-from rapidgen.rapid import parse, parser
+from rapidgen.rapid import parse
+from rapidgen.rapid.syntax import parser
 
 
 class Cycle:

@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.rapid import check, format_source, parse
-from rapidgen.rapid.lexer import KEYWORDS
-from rapidgen.rapid.walk import walk
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.rapid.syntax.walk import walk
 from tests.rapid.conformance_files import all_files
 from tests.rapid.programs import program
 

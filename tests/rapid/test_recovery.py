@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid import check, parse
-from rapidgen.rapid.walk import walk
+from rapidgen.rapid.syntax.walk import walk
 
 
 def places(text):

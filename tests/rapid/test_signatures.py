@@ -2,7 +2,7 @@
 
 import pytest
 
-from rapidgen.rapid import signatures
+from rapidgen.rapid.builtins import signatures
 
 
 def test_every_type_that_a_header_names_exists():

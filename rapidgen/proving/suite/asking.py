@@ -3,13 +3,13 @@
 import struct
 from functools import partial
 
-from rapidgen.protocol import decode, encode, messages, spec
-from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
 from rapidgen.proving.suite.controlling import done, if_there, not_done, stop
+from rapidgen.wire.simple_message import decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
 

@@ -5,14 +5,14 @@ from functools import partial
 
 import numpy as np
 
-from rapidgen.protocol import bulk, messages, spec
-from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streaming import way
+from rapidgen.wire.simple_message import bulk, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
 
 _NONE = StreamFlag(0)
 _LARGEST = 2**23 - 1

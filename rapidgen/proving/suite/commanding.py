@@ -1,13 +1,13 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
-from rapidgen.protocol import encode, messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.controlling import if_there, not_done, stop
 from rapidgen.proving.suite.streaming import way
+from rapidgen.wire.simple_message import encode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
 _FAILED = TrajectoryState.FAILED

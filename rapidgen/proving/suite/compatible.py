@@ -1,10 +1,10 @@
 """What the unmodified ROS-Industrial nodes send and expect."""
 
-from rapidgen.protocol import decode, messages, spec
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
+from rapidgen.wire.simple_message import decode, messages, spec
 
 _REPLY = 2.0
 

@@ -3,10 +3,10 @@
 from dataclasses import replace
 from functools import partial
 
-from rapidgen.protocol import spec
-from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.model import Broken, Case
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.spec import Reason
 
 
 def _back_to_work(bench: Bench) -> None:

@@ -3,8 +3,6 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from rapidgen.protocol import encode, messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
@@ -12,6 +10,8 @@ from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.moving import patience
 from rapidgen.proving.suite.streaming import way
+from rapidgen.wire.simple_message import encode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
 

@@ -12,12 +12,12 @@ from typing import Any, NamedTuple, cast
 
 from rapidgen.axes import frames
 from rapidgen.config.model import Joint
+from rapidgen.motion.moves import JointMove, Move, Zone
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Point, Position
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.moving import begins
-from rapidgen.rapid import signatures
-from rapidgen.virtual.motion.moves import JointMove, Move, Zone
+from rapidgen.rapid.builtins import signatures
 
 _SHARE = 0.3
 """Of an axis' acceleration."""

@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 
 from rapidgen.generate.context import WRAP
-from rapidgen.protocol import decode, messages, spec
-from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
@@ -12,6 +10,8 @@ from rapidgen.proving.positions import changed, small_unit
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streaming import way
 from rapidgen.proving.suite.taking import fast_ends
+from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
 
 _NONE = StreamFlag(0)
 _SLOW = 30.0

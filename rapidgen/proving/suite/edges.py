@@ -3,13 +3,13 @@
 import math
 from itertools import pairwise
 
-from rapidgen.protocol import decode, messages, spec
-from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import SETTLED, Bench
 from rapidgen.proving.link import STOP, Link, Point, Position, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import changed, distance, small_unit
 from rapidgen.proving.suite.refusals import refused
+from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason
 
 _LONGEST = 3600.0
 

@@ -4,13 +4,13 @@ import re
 from dataclasses import replace
 
 from rapidgen.generate.context import WRAP
-from rapidgen.protocol import spec
-from rapidgen.protocol.spec import Reason
+from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Broken, Case
-from rapidgen.virtual.builtins.clocks import Clock
-from rapidgen.virtual.log import EventType
+from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.spec import Reason
 
 _COUNTERS = (
     ("head", "tail"),
@@ -243,10 +243,10 @@ def _idle_costs_nothing(bench: Bench) -> None:
     if bench.group.ports.control:
         bench.control()
     bench.run(2)
-    kernel = bench.controller.kernel
-    idle, start = kernel.idle, kernel.now
+    scheduler = bench.controller.scheduler
+    idle, start = scheduler.idle, scheduler.now
     bench.run(20)
-    share = 1 - (kernel.idle - idle) / (kernel.now - start)
+    share = 1 - (scheduler.idle - idle) / (scheduler.now - start)
     # The state server has some 3 ms of work in each period.
     if share > len(bench.config.groups) * (0.06 + 0.004 / bench.config.state_period):
         raise Broken(f"an idle driver takes {share:.0%} of the controller's processor")

@@ -5,13 +5,13 @@ from dataclasses import replace
 from itertools import pairwise
 
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.protocol.spec import TrajectoryState
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
+from rapidgen.runtime.values import Cell
 from rapidgen.system.model import ModuleFile, System
-from rapidgen.virtual.values import Cell
+from rapidgen.wire.simple_message.spec import TrajectoryState
 
 
 def _back_to_work(bench: Bench, *actions: str) -> None:

@@ -2,10 +2,10 @@
 
 import random
 
-from rapidgen.protocol import spec
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.wire.simple_message import spec
 
 ROUNDS = 60
 """Malformed openings of one run; `campaign` has more."""

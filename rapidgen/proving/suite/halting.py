@@ -1,7 +1,6 @@
 """The supervisor seen from outside: how soon it answers, why a trajectory ended, pauses."""
 
-from rapidgen.protocol import decode, encode, messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
+from rapidgen.machine.log import Event, EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, point_frame
 from rapidgen.proving.model import Broken, Case
@@ -14,7 +13,8 @@ from rapidgen.proving.suite.moving import (
     patience,
     unit_of,
 )
-from rapidgen.virtual.log import Event, EventType
+from rapidgen.wire.simple_message import decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _PROMPT = 0.055
 """s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""

@@ -2,13 +2,13 @@
 
 from itertools import pairwise
 
-from rapidgen.protocol import messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import SETTLED, Bench
 from rapidgen.proving.link import Point, Position, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import changed, distance
 from rapidgen.proving.suite.taking import Table
+from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
 _TAKEN = messages.Acknowledged()

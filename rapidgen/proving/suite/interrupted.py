@@ -7,16 +7,16 @@ from functools import partial
 from typing import Any
 
 from rapidgen.generate.context import WRAP
-from rapidgen.protocol import messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
+from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.failing import set_counters
 from rapidgen.proving.suite.moving import at_call, begins, datum, patience, unit_of
+from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
-from rapidgen.virtual.errors import RapidError
-from rapidgen.virtual.log import EventType
+from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _TRAJ = spec.JOINT_TRAJ_PT.number
 

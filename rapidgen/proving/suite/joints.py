@@ -2,13 +2,13 @@
 
 from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
-from rapidgen.protocol.spec import Reason, TriState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Link, Point, point_frame
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import changed, distance
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.streaming import way
+from rapidgen.wire.simple_message.spec import Reason, TriState
 
 _BEYOND = 0.01
 """rad or m outside a limit: more than rounding."""

@@ -5,13 +5,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rapidgen.config.model import Joint
-from rapidgen.protocol import decode, messages
-from rapidgen.protocol.spec import Comm, Reason
+from rapidgen.machine.configuration import arm_name
+from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import Link, Position, raw_point
 from rapidgen.proving.model import Broken, Case
-from rapidgen.virtual.configuration import arm_name
-from rapidgen.virtual.log import EventType
+from rapidgen.wire.simple_message import decode, messages
+from rapidgen.wire.simple_message.spec import Comm, Reason
 
 _SAID = {
     "are narrower": (EventType.WARNING, "Those of the controller count."),

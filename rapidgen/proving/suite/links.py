@@ -2,13 +2,13 @@
 
 from functools import partial
 
-from rapidgen.protocol import decode, encode, messages, spec
-from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import SETTLED, Bench
 from rapidgen.proving.link import STOP, Link, Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, Streamer
+from rapidgen.wire.simple_message import decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason
 
 
 def _leaves_in_a_download(bench: Bench) -> None:

@@ -5,14 +5,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rapidgen.protocol import decode, encode, messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
+from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.virtual.log import EventType
+from rapidgen.wire.simple_message import decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 SOON = 0.15
 """s in which the driver does what nothing hinders."""
@@ -140,13 +140,13 @@ class _Meter:
 
     def begin(self) -> None:
         """Count from here."""
-        kernel = self._bench.controller.kernel
-        self._now, self._idle = kernel.now, kernel.idle
+        scheduler = self._bench.controller.scheduler
+        self._now, self._idle = scheduler.now, scheduler.idle
 
     def end(self, doing: str) -> None:
         """Broken unless it was little, as it is for a driver that waits."""
-        kernel, config = self._bench.controller.kernel, self._bench.config
-        share = 1 - (kernel.idle - self._idle) / (kernel.now - self._now)
+        scheduler, config = self._bench.controller.scheduler, self._bench.config
+        share = 1 - (scheduler.idle - self._idle) / (scheduler.now - self._now)
         if share > len(config.groups) * (0.06 + 0.004 / config.state_period):
             raise Broken(f"{doing} the driver takes {share:.0%} of the processor")
         self.begin()

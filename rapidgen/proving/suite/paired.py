@@ -7,11 +7,11 @@ from itertools import pairwise
 from rapidgen import __version__
 from rapidgen.client.group import Group
 from rapidgen.generate.hello import features
-from rapidgen.protocol import decode, encode, messages, spec
-from rapidgen.protocol.spec import Feature, Reason, TrajectoryState
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link, Point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.wire.simple_message import decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
 
 
 def _float32(value: float) -> float:

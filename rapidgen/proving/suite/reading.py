@@ -5,13 +5,13 @@ from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
-from rapidgen.protocol import Frame, decode, encode, messages, spec
-from rapidgen.protocol.spec import Feature, Reason, TrajectoryState
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance, small_unit
-from rapidgen.virtual.builtins.clocks import Clock
+from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.wire.simple_message import Frame, decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
 
 C = TypeVar("C")
 _NONE = Feature(0)

@@ -3,11 +3,11 @@
 import math
 from collections.abc import Sequence
 
-from rapidgen.protocol import decode, messages, spec
-from rapidgen.protocol.spec import Reason
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Point, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
+from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason
 
 
 def refused(

@@ -3,10 +3,10 @@
 import struct
 from itertools import product
 
-from rapidgen.protocol import encode, messages, spec
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Link
 from rapidgen.proving.model import Broken, Case
+from rapidgen.wire.simple_message import encode, messages, spec
 
 _PING = encode(messages.Ping(), spec.Comm.REQUEST)
 
@@ -66,10 +66,10 @@ def _ports_open(bench: Bench) -> None:
         bench.controller.perform(action)
     taken = [network.bind("", port) for port in wanted]
     bench.start_again()
-    kernel = bench.controller.kernel
-    idle, since = kernel.idle, kernel.now
+    scheduler = bench.controller.scheduler
+    idle, since = scheduler.idle, scheduler.now
     bench.run(2.5)
-    share = 1 - (kernel.idle - idle) / (kernel.now - since)
+    share = 1 - (scheduler.idle - idle) / (scheduler.now - since)
     if share > 0.1 * len(bench.config.groups):
         raise Broken(f"while ports are taken the driver takes {share:.0%} of the processor")
     for port in wanted:

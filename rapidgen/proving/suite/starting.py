@@ -1,11 +1,11 @@
 """What a driver finds at its start: modules of other builds, and what was under way before."""
 
-from rapidgen.protocol import spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, Streamer
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 
 def _one_other(bench: Bench) -> None:

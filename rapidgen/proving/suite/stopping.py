@@ -1,10 +1,10 @@
 """STOP, and trajectories that take each other's place."""
 
-from rapidgen.protocol import decode, messages, spec
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
+from rapidgen.wire.simple_message import decode, messages, spec
 
 
 def _stops_on_the_path(bench: Bench) -> None:

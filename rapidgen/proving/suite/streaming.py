@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from rapidgen.protocol import messages, spec
-from rapidgen.protocol.spec import Reason, StreamFlag, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
+from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
 
 _NONE = StreamFlag(0)
 

@@ -4,13 +4,13 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.config.model import Joint
-from rapidgen.protocol import decode, messages, spec
-from rapidgen.protocol.spec import Reason, TrajectoryState
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, Link, Position, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import changed, small_unit
 from rapidgen.proving.suite.moving import datum
+from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
 _TAKEN = messages.Acknowledged()

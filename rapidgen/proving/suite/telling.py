@@ -1,11 +1,11 @@
 """What the operator reads: lines on the pendant and in the event log."""
 
-from rapidgen.protocol import spec
-from rapidgen.protocol.spec import Reason
+from rapidgen.machine.log import Event, EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Link, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
-from rapidgen.virtual.log import Event, EventType
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.spec import Reason
 
 
 class _Pendant:

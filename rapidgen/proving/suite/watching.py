@@ -6,16 +6,16 @@ from dataclasses import replace
 from itertools import pairwise
 
 from rapidgen.generate.context import WRAP
-from rapidgen.protocol import decode, encode, messages, spec
-from rapidgen.protocol.spec import Feature
+from rapidgen.machine.log import EventType
+from rapidgen.machine.network.interface import BUFFER, NetworkFault
+from rapidgen.machine.network.memory import MemoryEndpoint
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import Link, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.suite.reading import PLAIN, on_turn, rounds, subscribe
 from rapidgen.proving.suite.refusals import refused
-from rapidgen.virtual.log import EventType
-from rapidgen.virtual.network.interface import BUFFER, NetworkFault
-from rapidgen.virtual.network.memory import MemoryEndpoint
+from rapidgen.wire.simple_message import decode, encode, messages, spec
+from rapidgen.wire.simple_message.spec import Feature
 
 _CLIENTS = 3
 """Clients that the state port serves at a time, as docs/driver.md promises."""

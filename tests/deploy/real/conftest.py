@@ -22,7 +22,7 @@ import pytest
 
 from rapidgen.deploy import Access, connect, parse_target
 from rapidgen.deploy.target import Target
-from rapidgen.services import serve_ftp, serve_sftp
+from rapidgen.faces import serve_ftp, serve_sftp
 
 ROOT = Path(__file__).parents[3]
 UNPACKED = ROOT / "build" / "servers" / "root"

@@ -1,0 +1,168 @@
+"""A plan of what goes wrong: with connections, and with the controller.
+
+A plan is data read from YAML (`sim --faults FILE`). `network/faulty.py` carries out the part about
+connections; the part about the controller is put on its clock by `schedule`.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any, Literal, Protocol, get_args
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+from rapidgen.machine.scheduler import S, Scheduler
+
+NetworkAction = Literal["split", "merge", "delay", "reset", "half-open", "silent", "slow"]
+Direction = Literal["in", "out", "both"]
+ControllerAction = Literal[
+    "e-stop", "reset-e-stop", "motors-on", "motors-off", "auto", "manual", "start", "stop",
+    "power-loss",
+]  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class NetworkRule:
+    """What happens to the connections of a port once `after` bytes have passed.
+
+    `port` 0 and `connection` 0 mean all; a direction is seen from the program (`in`: what it
+    receives). `bytes`: the size of the pieces (split) or bytes a second (slow). `seconds`: the
+    gap between pieces (split), how long bytes are gathered (merge) or held back (delay).
+    """
+
+    do: NetworkAction
+    port: int = 0
+    direction: Direction = "both"
+    connection: int = 0
+    after: int = 0
+    bytes: int = 1
+    seconds: float = 0.001
+
+    def concerns(self, port: int, connection: int) -> bool:
+        """Whether the rule is about that connection, counted from 1 for each port."""
+        return self.port in (0, port) and self.connection in (0, connection)
+
+
+@dataclass(frozen=True, slots=True)
+class ControllerRule:
+    """What happens to the controller at a time (s), or before a statement is executed.
+
+    A statement is `task`, `module` and `line`; `pass_` counts how often it is reached.
+    """
+
+    do: ControllerAction
+    at: float = -1.0
+    task: str = ""
+    module: str = ""
+    line: int = 0
+    pass_: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class FaultPlan:
+    """All rules of one run."""
+
+    network: tuple[NetworkRule, ...] = ()
+    controller: tuple[ControllerRule, ...] = ()
+
+
+class Controllable(Protocol):
+    """What a plan does to a controller."""
+
+    @property
+    def scheduler(self) -> Scheduler:
+        """Its clock."""
+
+    def perform(self, action: str) -> None:
+        """Carry out one of `ControllerAction`."""
+
+    def before_statement(
+        self, task: str, module: str, line: int, count: int, action: Callable[[], None]
+    ) -> None:
+        """Call `action` when a statement is reached for the `count`-th time."""
+
+
+def schedule(plan: FaultPlan, controller: Controllable) -> None:
+    """Put the controller's part of a plan on its clock."""
+    for rule in plan.controller:
+        action = _action(controller, rule.do)
+        if rule.line:
+            controller.before_statement(rule.task, rule.module, rule.line, rule.pass_, action)
+        else:
+            controller.scheduler.at(round(rule.at * S), action)
+
+
+def _action(controller: Controllable, name: str) -> Callable[[], None]:
+    return lambda: controller.perform(name)
+
+
+def read_plan(path: Path) -> FaultPlan:
+    """A plan from YAML. Raises DiagnosticError RG421."""
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import YAMLError
+
+    try:
+        content = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise _unusable(path, error.strerror or str(error)) from error
+    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
+        raise _unusable(path, str(error).splitlines()[0]) from error
+    if not isinstance(content, dict) or set(content) - {"network", "controller"}:
+        raise _unusable(path, "it is no mapping with `network` and `controller`")
+    network = _rules(path, content.get("network"), "network", NetworkRule)
+    controller = _rules(path, content.get("controller"), "controller", ControllerRule)
+    for i, rule in enumerate(controller, 1):
+        if (rule.at >= 0) == bool(rule.line):
+            raise _unusable(path, f"controller rule {i}: either `at`, or `module` and `line`")
+    return FaultPlan(tuple(network), tuple(controller))
+
+
+def _rules(path: Path, entries: object, where: str, kind: type[Any]) -> list[Any]:
+    if entries is None:
+        return []
+    if not isinstance(entries, list):
+        raise _unusable(path, f"`{where}` is no list")
+    return [_rule(path, f"{where} rule {i}", entry, kind) for i, entry in enumerate(entries, 1)]
+
+
+def _rule(path: Path, where: str, entry: object, kind: type[Any]) -> object:
+    if not isinstance(entry, Mapping):
+        raise _unusable(path, f"{where} is no mapping")
+    known = {f.name.rstrip("_"): f for f in fields(kind)}
+    chosen: dict[str, object] = {}
+    for key, value in entry.items():
+        field = known.get(str(key))
+        if field is None:
+            raise _unusable(path, f"{where}: unknown key '{key}'", suggest(str(key), list(known)))
+        chosen[field.name] = _checked(path, f"{where}: `{key}`", value, field.type)
+    if "do" not in chosen:
+        raise _unusable(path, f"{where}: `do` is missing")
+    return kind(**chosen)
+
+
+def _checked(path: Path, where: str, value: object, wanted: Any) -> object:  # noqa: ANN401
+    allowed = get_args(wanted)
+    if allowed:
+        if value not in allowed:
+            raise _unusable(
+                path, f"{where} is one of {', '.join(allowed)}", suggest(str(value), allowed)
+            )
+    elif wanted is str:
+        if not isinstance(value, str):
+            raise _unusable(path, f"{where} is no text")
+    elif isinstance(value, bool) or not isinstance(value, int | float) or value < 0:
+        raise _unusable(path, f"{where} is no number from 0 on")
+    elif wanted is int and not isinstance(value, int):
+        raise _unusable(path, f"{where} is not whole")
+    return value
+
+
+def _unusable(path: Path, reason: str, help: str = "") -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            code="RG421",
+            severity=Severity.ERROR,
+            message=f"the fault plan cannot be used: {reason}",
+            span=Span(str(path), 1, 1),
+            help=help or "`rapidgen explain RG421` shows a plan",
+        )
+    )

@@ -1,0 +1,184 @@
+"""A JSON socket beside the controller: one JSON object a line, one answer a line.
+
+Request `{"do": "signals", ...}` with an optional `id`; answer `{"ok": true, "result": ...}` or
+`{"ok": false, "error": "..."}` with the same `id`. After `{"do": "subscribe"}` events come in
+between as `{"event": ...}`. What can be done is `control_commands.py`'s; here are lines, limits and
+clients that misbehave: garbage gets an answer, too long a line or too slow a reader is cut off.
+"""
+
+import json
+import math
+import selectors
+import socket
+from collections.abc import Callable, Mapping
+from typing import Any
+
+from rapidgen.machine.scheduler import Scheduler
+
+MAX_CLIENTS = 16
+MAX_LINE = 65_536
+MAX_UNREAD = 1_048_576
+"""Bytes that may wait for a client that does not read."""
+
+Request = Mapping[str, Any]
+Subscribe = Callable[[Callable[[Mapping[str, Any]], None]], Callable[[], None]]
+
+
+def _finite(text: str) -> float:
+    """A number of a request. ValueError: it is none that an answer could carry."""
+    value = float(text)
+    if not math.isfinite(value):
+        raise ValueError(f"{text} is no number")
+    return value
+
+
+class CommandError(Exception):
+    """A request cannot be carried out; the text goes to the client."""
+
+
+class _Client:
+    __slots__ = ("end", "input", "output", "socket")
+
+    def __init__(self, own: socket.socket) -> None:
+        self.socket = own
+        self.input = bytearray()
+        self.output = bytearray()
+        self.end: Callable[[], None] | None = None
+        """Ends the subscription."""
+
+
+class ControlSocket:
+    """Serves `commands` on a port of this machine, through the scheduler's selector.
+
+    `subscribe(listener)` makes events flow and returns what ends that. OSError: the port cannot
+    be had.
+    """
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        commands: Mapping[str, Callable[[Request], object]],
+        subscribe: Subscribe,
+        *,
+        host: str = "127.0.0.1",
+        port: int = 0,
+    ) -> None:
+        self._scheduler = scheduler
+        self._commands = commands
+        self._subscribe = subscribe
+        self._clients: dict[_Client, None] = {}
+        self._server = socket.create_server((host, port), backlog=MAX_CLIENTS)
+        self._server.setblocking(False)
+        self.address: tuple[str, int] = self._server.getsockname()[:2]
+        scheduler.selector.register(self._server, selectors.EVENT_READ, self._accept)
+
+    def close(self) -> None:
+        """Stop serving."""
+        for client in tuple(self._clients):
+            self._drop(client)
+        self._scheduler.selector.unregister(self._server)
+        self._server.close()
+
+    def _accept(self, _mask: int) -> None:
+        try:
+            own, _ = self._server.accept()
+        except OSError:
+            return  # the client has gone already, or the machine is out of handles: not our end
+        if len(self._clients) >= MAX_CLIENTS:
+            own.close()
+            return
+        own.setblocking(False)
+        client = _Client(own)
+        self._clients[client] = None
+        self._watch(client, selectors.EVENT_READ, new=True)
+
+    def _watch(self, client: _Client, events: int, *, new: bool = False) -> None:
+        selector = self._scheduler.selector
+        change = selector.register if new else selector.modify
+        change(client.socket, events, lambda mask: self._ready(client, mask))
+
+    def _drop(self, client: _Client) -> None:
+        if client not in self._clients:
+            return
+        del self._clients[client]
+        if client.end is not None:
+            client.end()
+        self._scheduler.selector.unregister(client.socket)
+        client.socket.close()
+
+    def _ready(self, client: _Client, mask: int) -> None:
+        if client in self._clients and mask & selectors.EVENT_WRITE:
+            self._flush(client)
+        if client in self._clients and mask & selectors.EVENT_READ:
+            self._read(client)
+
+    def _read(self, client: _Client) -> None:
+        try:
+            data = client.socket.recv(MAX_LINE)
+        except BlockingIOError:
+            return
+        except OSError:
+            data = b""
+        if not data:
+            self._drop(client)
+            return
+        client.input += data
+        while (end := client.input.find(b"\n")) >= 0:
+            line = bytes(client.input[:end])
+            del client.input[: end + 1]
+            if line.strip():
+                self._send(client, self._answer(client, line))
+            if client not in self._clients:
+                return
+        if len(client.input) > MAX_LINE:
+            self._send(client, {"ok": False, "error": f"a line has at most {MAX_LINE} bytes"})
+            self._drop(client)
+
+    def _answer(self, client: _Client, line: bytes) -> dict[str, Any]:
+        try:
+            request = json.loads(line, parse_float=_finite, parse_constant=_finite)
+        except (ValueError, RecursionError) as error:
+            return {"ok": False, "error": f"not JSON: {error}"}
+        if not isinstance(request, dict) or not isinstance(request.get("do"), str):
+            return {"ok": False, "error": 'a request is an object with "do"'}
+        if not isinstance(request.get("id", ""), str | int):
+            return {"ok": False, "error": "an id is a text or a whole number"}
+        answer: dict[str, Any] = {"id": request["id"]} if "id" in request else {}
+        try:
+            result = self._perform(client, request)
+        except CommandError as error:
+            return {**answer, "ok": False, "error": str(error)}
+        return {**answer, "ok": True, "result": result}
+
+    def _perform(self, client: _Client, request: dict[str, Any]) -> object:
+        name = request["do"]
+        if name == "subscribe":
+            if client.end is None:
+                client.end = self._subscribe(lambda event: self._send(client, event))
+            return None
+        command = self._commands.get(name)
+        if command is None:
+            known = ", ".join(sorted([*self._commands, "subscribe"]))
+            raise CommandError(f"cannot do '{name}'; can do {known}")
+        return command(request)
+
+    def _send(self, client: _Client, message: Mapping[str, Any]) -> None:
+        if client not in self._clients:
+            return
+        client.output += json.dumps(message, allow_nan=False).encode() + b"\n"
+        if len(client.output) > MAX_UNREAD:
+            self._drop(client)
+            return
+        self._flush(client)
+
+    def _flush(self, client: _Client) -> None:
+        try:
+            sent = client.socket.send(client.output)
+        except BlockingIOError:
+            sent = 0
+        except OSError:
+            self._drop(client)
+            return
+        del client.output[:sent]
+        events = selectors.EVENT_READ | (selectors.EVENT_WRITE if client.output else 0)
+        self._watch(client, events)

@@ -1,0 +1,202 @@
+"""The controller's disks: HOME:, TEMP:, RAMDISK: and their like are folders of one folder.
+
+There is no way out: a path is taken apart as text, `..` never leaves its device, and what a
+link points to must lie inside. Names are found without case where the exact name is missing, as
+on the controller's own disks.
+"""
+
+import os
+import shutil
+import tempfile
+import weakref
+from pathlib import Path
+from typing import BinaryIO
+
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.values import register_type
+
+_DEVICES = {
+    "home:": "HOME",
+    "temp:": "TEMP",
+    "ramdisk:": "RAMDISK",
+    "ram1disk:": "RAMDISK",
+    "backup:": "BACKUP",
+    "usb:": "USB",
+    "flp1:": "FLP1",
+    "release:": "RELEASE",
+}
+CAPACITY = 256 * 1024 * 1024
+"""Bytes that a controller's programs may write in all; then the disk is full."""
+_LONGEST_NAME = 255
+"""Bytes of a file's name."""
+MAX_OPEN = 64
+"""Files and folders of one controller that may be open at a time."""
+
+
+class IODevice:
+    """An `iodev` datum: an open file, or nothing."""
+
+    __slots__ = ("binary", "file", "path", "readable", "writable")
+
+    def __init__(self) -> None:
+        self.file: BinaryIO | None = None
+        self.path = Path()
+        self.binary = False
+        self.readable = False
+        self.writable = False
+
+
+class Directory:
+    """A `dir` datum: the names of a folder that are still to be read, or None."""
+
+    __slots__ = ("names",)
+
+    def __init__(self) -> None:
+        self.names: list[str] | None = None
+
+
+register_type("iodev", IODevice)
+register_type("dir", Directory)
+
+
+_SCRATCH: dict[Path, int] = {}
+"""Scratch folders that are there, and the process that made each: a fork inherits them."""
+
+
+def _remove(folder: Path) -> None:
+    """Remove a scratch folder, unless this is a forked copy of the process that made it."""
+    if _SCRATCH.pop(folder, None) == os.getpid():
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def remove_scratch_folders() -> None:
+    """Remove what controllers of this process left, where it ends by `os._exit`."""
+    for folder in tuple(_SCRATCH):
+        _remove(folder)
+
+
+class FileSystem:
+    """Disks of one controller in `folder`, or in a scratch folder that `close` removes.
+
+    A scratch folder is made when it is needed: few drivers touch a file. A controller that nobody
+    closed takes its own with it, too. HOME: starts as a copy of `home`; links in it are left out.
+    """
+
+    def __init__(self, folder: Path | None = None, *, home: Path | None = None) -> None:
+        self._room = CAPACITY
+        self._open: dict[IODevice | Directory, str] = {}
+        self._scratch: weakref.finalize[[Path], FileSystem] | None = None
+        self._folder = None if folder is None else _with_devices(folder)
+        if home is not None:
+            shutil.copytree(home, self.folder / "HOME", ignore=_links, dirs_exist_ok=True)
+
+    @property
+    def folder(self) -> Path:
+        """The folder that holds the devices."""
+        if self._folder is None:
+            self._folder = _with_devices(Path(tempfile.mkdtemp(prefix="rapidgen-")))
+            _SCRATCH[self._folder] = os.getpid()
+            self._scratch = weakref.finalize(self, _remove, self._folder)
+        return self._folder
+
+    def close(self) -> None:
+        """Close every file and remove a scratch folder."""
+        for device in tuple(self._open):
+            self.release(device)
+        if self._scratch is not None:
+            self._scratch()
+
+    def path(self, text: str, file: str = "") -> Path:
+        """Where a RAPID path (with \\File behind it) lies; relative ones are in HOME:.
+
+        RapidError ERR_FILEACC: it names no disk, or leads out of it.
+        """
+        if file:
+            text = text.rstrip("/\\") + "/" + file if not text.endswith(":") else text + file
+        device, rest = _split(text)
+        folder = _DEVICES.get(device)
+        if folder is None or "\0" in rest:
+            raise RapidError("ERR_FILEACC", f"no disk for '{text}'")
+        place = self.folder / folder
+        for part in rest.replace("\\", "/").split("/"):
+            if part in ("", "."):
+                continue
+            if part == "..":
+                if place == self.folder / folder:
+                    raise RapidError("ERR_FILEACC", f"'{text}' leads out of {device.upper()}")
+                place = place.parent
+            else:
+                place = _find(place, part)
+        if not self._inside(place):
+            raise RapidError("ERR_FILEACC", f"'{text}' leads out of the controller")
+        return place
+
+    def _inside(self, place: Path) -> bool:
+        """Whether a place lies in the folder, behind all links; a loop of links lies nowhere."""
+        if len(os.fsencode(place.name)) > _LONGEST_NAME:
+            return False
+        try:
+            return place.resolve().is_relative_to(self.folder)
+        except (OSError, RuntimeError):  # RuntimeError: a loop, before Python 3.13
+            return False
+
+    def hold(self, device: IODevice | Directory, task: str) -> None:
+        """A file or folder is open for a task; ERR_FILEOPEN when too many are."""
+        if len(self._open) >= MAX_OPEN:
+            raise RapidError("ERR_FILEOPEN", f"{MAX_OPEN} files are open")
+        self._open[device] = task
+
+    def release(self, device: IODevice | Directory) -> None:
+        """Close a file or folder; harmless when it is closed."""
+        self._open.pop(device, None)
+        if isinstance(device, Directory):
+            device.names = None
+        elif device.file is not None:
+            device.file.close()
+            device.file = None
+
+    def close_task(self, task: str) -> None:
+        """Close what a task has open (PP to main, PP to routine, restart)."""
+        for device in [d for d, owner in self._open.items() if owner == task]:
+            self.release(device)
+
+    def spend(self, count: int) -> None:
+        """Account for bytes that are written; ERR_FILEACC when the disk is full."""
+        if count > self._room:
+            raise RapidError("ERR_FILEACC", "the disk is full")
+        self._room -= count
+
+    @property
+    def room(self) -> int:
+        """Bytes that may still be written."""
+        return self._room
+
+
+def _with_devices(folder: Path) -> Path:
+    for name in dict.fromkeys(_DEVICES.values()):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    return folder.resolve()
+
+
+def _split(text: str) -> tuple[str, str]:
+    start, colon, rest = text.partition(":")
+    if colon and "/" not in start and "\\" not in start:
+        return start.lower() + ":", rest
+    if text.startswith(("/", "\\")):
+        return "", text
+    return "home:", text
+
+
+def _find(folder: Path, name: str) -> Path:
+    exact = folder / name
+    if os.path.lexists(exact) or not folder.is_dir():
+        return exact
+    wanted = name.casefold()
+    for entry in sorted(os.listdir(folder)):
+        if entry.casefold() == wanted:
+            return folder / entry
+    return exact
+
+
+def _links(folder: str, names: list[str]) -> set[str]:
+    return {name for name in names if os.path.islink(os.path.join(folder, name))}

@@ -1,0 +1,372 @@
+"""Signals: values, delayed and pulsed changes, cross connections, system outputs and inputs.
+
+A signal without a device is a virtual one, and here every signal is: inputs keep what a test, a
+control socket or a cross connection gives them. Sources: the S4 user's guide (pulses, delays, cross
+connections); abb_driver's documentation for the seven system outputs that it wants.
+"""
+
+import math
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from typing import Final
+
+from rapidgen.machine.log import EventLog
+from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.values import register_type
+from rapidgen.system.model import CrossConnection, SignalSpec, System
+
+# How a status is spelled in SYSSIG_OUT. First of each row: the name used by `report`. "Error",
+# "TaskExecuting" are seen in public cfg files; the other spellings are remembered or taken from
+# the words on the FlexPendant, so that all of them are understood.
+_STATUS_ROWS: Final = """
+    MotorOn MotOn MotorsOn MotOnState MotorsOnState
+    MotorOff MotOff MotorsOff MotOffState MotorsOffState
+    AutoOn
+    CycleOn
+    EmStop EmergencyStop
+    ExecError ExecutionError
+    Error
+    RunchOk RunchainOk
+    TaskExecuting
+    MechUnitNotMoving MechanicalUnitNotMoving
+    MechUnitActive MechanicalUnitActive
+    TCPSpeed
+    TCPSpeedRef TCPSpeedReference
+    PowerFailError
+    SimMode SimulatedIO
+    ProdExecError ProductionExecutionError
+    PathReturnRegionError
+    MotSupOn MotionSupervisionOn
+    MotSupTrigg MotionSupervisionTriggered
+"""
+STATUSES: Final[dict[str, str]] = {
+    spelling.lower(): row.split()[0]
+    for row in _STATUS_ROWS.strip().splitlines()
+    for spelling in row.split()
+}
+# Without an argument such a status holds when it holds for all; every other one for any.
+_FOR_ALL: Final = frozenset({"MechUnitNotMoving", "MechUnitActive"})
+
+
+def status_name(spelling: str) -> str | None:
+    """Our name of a SYSSIG_OUT status, or None when it is not one we know."""
+    return STATUSES.get(spelling.replace(" ", "").replace("_", "").lower())
+
+
+class Signal:
+    """One signal. `value` is int for digital and group signals, float for analogue ones."""
+
+    __slots__ = ("changed", "crossed", "pending", "sharers", "spec", "value")
+
+    def __init__(self, spec: SignalSpec) -> None:
+        self.spec = spec
+        self.value: float = 0
+        self.changed = WaitSet()
+        self.crossed: list[CrossConnection] = []
+        """Cross connections that this signal is an actor of."""
+        self.pending: list[Timer] = []
+        """Changes ordered for later."""
+        self.sharers: list[Signal] = []
+        """Signals that are mapped to some of the same bits."""
+
+    @property
+    def name(self) -> str:
+        """The name in EIO.cfg."""
+        return self.spec.name
+
+    @property
+    def signal(self) -> "Signal":
+        """This signal; of an alias the one behind it."""
+        return self
+
+    @property
+    def largest(self) -> float:
+        """The largest value that fits; infinite for an analogue signal without limits."""
+        if self.spec.type in ("AI", "AO"):
+            return self.spec.high if self.spec.low or self.spec.high else math.inf
+        return 2**self.spec.size - 1 if self.spec.type in ("GI", "GO") else 1
+
+    def fit(self, value: float) -> float:
+        """`value` as this signal holds it. ValueError: it does not fit."""
+        if self.spec.type in ("AI", "AO"):
+            low, high = self.spec.low, self.spec.high
+            if not math.isfinite(value):
+                raise ValueError(f"{value} is no value for {self.name}")
+            if (low or high) and not low <= value <= high:
+                raise ValueError(f"{value:g} does not fit {self.name} ({low:g} to {high:g})")
+            return float(value)
+        if not math.isfinite(value) or value != int(value) or not 0 <= value <= self.largest:
+            raise ValueError(f"{value:g} does not fit {self.name} (0 to {self.largest:g})")
+        return int(value)
+
+
+class SignalAlias:
+    """A signal that a program declares: nothing until AliasIO connects it."""
+
+    __slots__ = ("target", "type")
+
+    def __init__(self, type: str) -> None:
+        self.type = type
+        self.target: Signal | None = None
+
+    @property
+    def signal(self) -> Signal:
+        """The signal behind the alias; ERR_NO_ALIASIO_DEF when there is none."""
+        if self.target is None:
+            raise RapidError("ERR_NO_ALIASIO_DEF")
+        return self.target
+
+    @property
+    def value(self) -> float:
+        """Its value, for expressions such as `IF di1 = 1`."""
+        return self.signal.value
+
+
+AnySignal = Signal | SignalAlias
+"""What a VAR signalxx argument is: both have `.signal` and `.value`."""
+
+for _type in ("DI", "DO", "GI", "GO", "AI", "AO"):
+    register_type(f"signal{_type}", lambda type=_type: SignalAlias(type), "semivalue")  # type: ignore[misc]
+
+
+@dataclass(frozen=True, slots=True)
+class _Output:
+    status: str
+    argument: str
+    signal: Signal
+
+
+class IOSystem:
+    """All signals of one controller. Names are compared without case."""
+
+    def __init__(
+        self, scheduler: Scheduler, log: EventLog, system: System, *, lowest_first: bool = True
+    ) -> None:
+        """`lowest_first`: the first bit of a group's map is its lowest (switch `bit_order`)."""
+        self._scheduler = scheduler
+        self._log = log
+        self.signals: dict[str, Signal] = {}
+        for spec in system.signals:
+            bits = spec.bits if lowest_first else spec.bits[::-1]
+            self.signals.setdefault(spec.name.lower(), Signal(replace(spec, bits=bits)))
+        self.on_action: Callable[[str, str], None] | None = None
+        """Called with (action, argument) when the signal of a system input rises."""
+        self.on_end: Callable[[str], None] | None = None
+        """Called with the action when it falls."""
+        self._states: dict[str, dict[str, float]] = {}
+        self._outputs = [*self._system_outputs(system)]
+        self._actions: dict[int, list[tuple[str, str]]] = {}
+        for entry in system.inputs:
+            signal = self._configured(entry.signal, f"system input {entry.action}")
+            if signal is not None:
+                actions = self._actions.setdefault(id(signal), [])
+                actions.append((entry.action, entry.argument))
+        self._share()
+        self._connect(system.cross)
+        for signal in self.signals.values():
+            if signal.spec.default:
+                self._store(signal, signal.spec.default)
+        self._settle(system.cross)
+
+    # -- reading and finding ----------------------------------------------------------------
+
+    def get(self, name: str) -> Signal | None:
+        """The signal of that name, or None."""
+        return self.signals.get(name.lower())
+
+    def __getitem__(self, name: str) -> Signal:
+        return self.signals[name.lower()]
+
+    # -- changing ---------------------------------------------------------------------------
+
+    def set(self, signal: Signal, value: float, *, delay: float = 0.0) -> None:
+        """Order a value, at once or after `delay` s. Later orders drop earlier pending ones.
+
+        Raises ValueError when the value does not fit the signal.
+        """
+        fitting = signal.fit(value)
+        self._drop_pending(signal)
+        if delay > 0:
+            timer = self._scheduler.after(round(delay * S), lambda: self._later(signal, fitting))
+            signal.pending.append(timer)
+        else:
+            self._store(signal, fitting)
+
+    def pulse(self, signal: Signal, length: float, *, high: bool = False) -> None:
+        """Invert a digital signal for `length` s (`high`: to 1 whatever it was, then to 0)."""
+        back = 0.0 if high else signal.value
+        self._drop_pending(signal)
+        self._store(signal, 1 if high else 1 - signal.value, spread=False)
+        timer = self._scheduler.after(
+            round(length * S), lambda: self._later(signal, back, spread=False)
+        )
+        signal.pending.append(timer)
+
+    def power_up(self) -> None:
+        """Outputs take their default values; pending changes are gone."""
+        for signal in self.signals.values():
+            self._drop_pending(signal)
+            if signal.spec.type[1] == "O":
+                self._store(signal, signal.spec.default)
+        for output in self._outputs:
+            self._show(output)
+
+    def _later(self, signal: Signal, value: float, *, spread: bool = True) -> None:
+        signal.pending.clear()
+        self._store(signal, value, spread=spread)
+
+    @staticmethod
+    def _drop_pending(signal: Signal) -> None:
+        for timer in signal.pending:
+            timer.cancel()
+        signal.pending.clear()
+
+    def _store(self, signal: Signal, value: float, *, spread: bool = True) -> None:
+        before = signal.value
+        if value == before:
+            return
+        self._take(signal, value)
+        # A pulse of an actor does not travel on [S4 user's guide].
+        changed = [signal, *self._follow(signal)]
+        if spread:
+            for one in changed:
+                for connection in one.crossed:
+                    self._apply(connection)
+
+    def _take(self, signal: Signal, value: float) -> None:
+        before, signal.value = signal.value, value
+        signal.changed.notify()
+        if bool(value) is bool(before):
+            return
+        for action, argument in self._actions.get(id(signal), ()):
+            if value and self.on_action is not None:
+                self.on_action(action, argument)
+            elif not value and self.on_end is not None:
+                self.on_end(action)
+
+    # -- shared bits ------------------------------------------------------------------------
+
+    def _share(self) -> None:
+        """Find signals of one device and direction that share bits of it."""
+        users: dict[tuple[str, str, int], list[Signal]] = {}
+        for signal in self.signals.values():
+            if signal.spec.device and signal.spec.type[0] != "A":
+                for bit in signal.spec.bits:
+                    users.setdefault((signal.spec.device, signal.spec.type[1], bit), []).append(
+                        signal
+                    )
+        for together in users.values():
+            for signal in together:
+                signal.sharers += [
+                    s for s in together if s is not signal and s not in signal.sharers
+                ]
+
+    def _follow(self, signal: Signal) -> list[Signal]:
+        """Give the bits of a digital or group signal to those that share them; who changed."""
+        changed = []
+        for other in signal.sharers:
+            value = int(other.value)
+            for place, bit in enumerate(other.spec.bits):
+                if bit in signal.spec.bits:
+                    own = int(signal.value) >> signal.spec.bits.index(bit) & 1
+                    value = value & ~(1 << place) | own << place
+            if value != other.value:
+                self._take(other, value)
+                changed.append(other)
+        return changed
+
+    # -- cross connections ------------------------------------------------------------------
+
+    def _connect(self, connections: Iterable[CrossConnection]) -> None:
+        targets: dict[str, set[str]] = {}
+        for connection in connections:
+            names = (connection.result, *(name for name, _ in connection.actors))
+            found = [self._configured(n, f"cross connection {connection.name}") for n in names]
+            if any(signal is None for signal in found):
+                continue
+            result = connection.result.lower()
+            actors = {name.lower() for name, _ in connection.actors}
+            if result in actors or actors & _reachable(result, targets):
+                self._log.error(
+                    71_100, "Cross connection refused", connection.name, "it closes a loop"
+                )
+                continue
+            for actor in actors:
+                targets.setdefault(actor, set()).add(result)
+                self.signals[actor].crossed.append(connection)
+
+    def _apply(self, connection: CrossConnection) -> None:
+        values = [bool(self[name].value) != inverted for name, inverted in connection.actors]
+        outcome = values[0]
+        for operator, value in zip(connection.operators, values[1:], strict=False):
+            outcome = outcome and value if operator == "AND" else outcome or value
+        result = self[connection.result]
+        self._drop_pending(result)
+        self._store(result, int(outcome))
+
+    def _settle(self, connections: Iterable[CrossConnection]) -> None:
+        for connection in connections:
+            first = self.get(connection.actors[0][0]) if connection.actors else None
+            if first is not None and connection in first.crossed:
+                self._apply(connection)
+
+    # -- system outputs ---------------------------------------------------------------------
+
+    def report(self, status: str, value: float, argument: str = "") -> None:
+        """A status of the controller is now `value`, for `argument` (a task, a unit) if it has one.
+
+        `status` is one of the names that `STATUSES` maps to.
+        """
+        states = self._states.setdefault(status, {})
+        if states.get(argument.lower()) == value:
+            return
+        states[argument.lower()] = value
+        for output in self._outputs:
+            if output.status == status:
+                self._show(output)
+
+    def _system_outputs(self, system: System) -> Iterable[_Output]:
+        for entry in system.outputs:
+            signal = self._configured(entry.signal, f"system output {entry.status}")
+            status = status_name(entry.status)
+            if status is None:
+                self._log.warning(
+                    71_101, "System output not simulated", entry.status, f"signal {entry.signal}"
+                )
+            elif signal is not None:
+                yield _Output(status, entry.argument.lower(), signal)
+
+    def _show(self, output: _Output) -> None:
+        states = self._states.get(output.status)
+        if states is None:
+            return
+        if output.argument:
+            value = states.get(output.argument)
+            if value is None:
+                value = states.get("", 0)
+        elif output.status in _FOR_ALL:
+            value = min(states.values())
+        else:
+            value = max(states.values())
+        if output.signal.spec.type in ("DI", "DO"):
+            value = int(bool(value))
+        self._drop_pending(output.signal)
+        self._store(output.signal, value)
+
+    def _configured(self, name: str, user: str) -> Signal | None:
+        signal = self.get(name)
+        if signal is None:
+            self._log.error(71_102, "Signal not defined", f"{user} names '{name}'")
+        return signal
+
+
+def _reachable(start: str, targets: dict[str, set[str]]) -> set[str]:
+    seen: set[str] = set()
+    front = [start]
+    while front:
+        for target in targets.get(front.pop(), ()):
+            if target not in seen:
+                seen.add(target)
+                front.append(target)
+    return seen

@@ -1,0 +1,220 @@
+"""The operator's side: the FlexPendant's screen and the dialogs that wait for an answer.
+
+Dialogs are answered by a script (`Answers`), by the control socket or by a test. With none of
+them there is no FlexPendant, and every dialog raises ERR_TP_NO_CLIENT.
+"""
+
+from collections import deque
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from itertools import count
+from pathlib import Path
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.machine.scheduler import S, Scheduler, WaitSet
+
+ROW = 40
+ROWS = 20
+"""Characters of a row, and rows, of the operator window [S4 TPWrite]; rows are our choice."""
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """One scripted answer. Empty conditions fit every dialog.
+
+    `task` and `dialog` are whole names (`TPReadNum`), `text` is contained in the question;
+    `after` is the operator's time to think in s.
+    """
+
+    value: str
+    task: str = ""
+    dialog: str = ""
+    text: str = ""
+    after: float = 0.0
+
+    def fits(self, question: "Question") -> bool:
+        """Whether this answers that question."""
+        return (
+            self.task.lower() in ("", question.task.lower())
+            and self.dialog.lower() in ("", question.dialog.lower())
+            and self.text.lower() in question.text.lower()
+        )
+
+
+@dataclass(slots=True, eq=False)
+class Question:
+    """A dialog on the screen. `check` returns an answer's value, or raises ValueError."""
+
+    number: int
+    task: str
+    dialog: str
+    text: str
+    choices: tuple[str, ...]
+    check: Callable[[str], object]
+    answer: object = None
+    answered: bool = False
+    refused: str = ""
+    """The script's answer that did not fit, and why."""
+    changed: WaitSet = field(default_factory=WaitSet)
+
+
+class Operator:
+    """Screen and dialogs of one controller."""
+
+    def __init__(self, scheduler: Scheduler, answers: Iterable[Answer] | None = None) -> None:
+        self._scheduler = scheduler
+        self._script = None if answers is None else list(answers)
+        self._numbers = count(1)
+        self._listeners: list[Callable[[str, str], None]] = []
+        self._attached = 0
+        self.rows: deque[str] = deque(maxlen=ROWS)
+        """What the screen shows, oldest row first."""
+        self.questions: list[Question] = []
+        """Dialogs that wait, in the order in which they came."""
+        self.asked = WaitSet()
+        """Notified when a question comes or goes."""
+
+    @property
+    def present(self) -> bool:
+        """Whether anybody can answer."""
+        return self._script is not None or self._attached > 0
+
+    def attach(self) -> Callable[[], None]:
+        """Somebody answers from now on; the returned function ends that."""
+        self._attached += 1
+
+        def detach() -> None:
+            self._attached -= 1
+
+        return detach
+
+    # -- screen -----------------------------------------------------------------------------
+
+    def show(self, text: str) -> None:
+        """Show a text on new rows of 40 characters."""
+        for start in range(0, max(len(text), 1), ROW):
+            self.rows.append(text[start : start + ROW])
+
+    def write(self, task: str, text: str) -> None:
+        """A program's own text: shown, and listeners get it whole."""
+        self.show(text)
+        for listener in tuple(self._listeners):
+            listener(task, text)
+
+    def erase(self) -> None:
+        """Clear the screen."""
+        self.rows.clear()
+
+    def subscribe(self, listener: Callable[[str, str], None]) -> Callable[[], None]:
+        """Call `listener(task, text)` for each text; the returned function ends that."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    # -- dialogs ----------------------------------------------------------------------------
+
+    def ask(
+        self,
+        task: str,
+        dialog: str,
+        text: str,
+        choices: Iterable[str],
+        check: Callable[[str], object],
+    ) -> Question:
+        """Put a dialog on the screen; `withdraw` it in the end."""
+        question = Question(next(self._numbers), task, dialog, text, tuple(choices), check)
+        self.questions.append(question)
+        for line in text.split("\n"):
+            self.show(line)
+        self.asked.notify()
+        script = self._script or []
+        answer = next((a for a in script if a.fits(question)), None)
+        if answer is not None:
+            script.remove(answer)
+            self._scheduler.after(
+                round(answer.after * S), lambda: self._scripted(question, answer.value)
+            )
+        return question
+
+    def waits(self, task: str) -> str:
+        """What a task waits for on the screen, or an empty text."""
+        for question in self.questions:
+            if question.task == task:
+                asked = question.text.replace("\n", " ")
+                reason = f"; {question.refused}" if question.refused else ""
+                return f"{question.dialog} waits for an answer to '{asked}'{reason}"
+        return ""
+
+    def withdraw(self, question: Question) -> None:
+        """Take a dialog off the screen."""
+        if question in self.questions:
+            self.questions.remove(question)
+            self.asked.notify()
+
+    def answer(self, number: int, value: str) -> None:
+        """Answer a question. KeyError: no such question; ValueError: not an answer to it."""
+        for question in self.questions:
+            if question.number == number:
+                question.answer = question.check(value)
+                question.answered = True
+                question.changed.notify()
+                return
+        raise KeyError(number)
+
+    def _scripted(self, question: Question, value: str) -> None:
+        if question in self.questions:
+            try:
+                self.answer(question.number, value)
+            except ValueError as error:
+                question.refused = f"answer '{value}' refused: {error}"
+                self.show(question.refused)
+
+
+def read_answers(path: Path) -> list[Answer]:
+    """A script of answers: a YAML list of values or of mappings with `answer`.
+
+    Raises DiagnosticError RG420.
+    """
+    from ruamel.yaml import YAML
+    from ruamel.yaml.error import YAMLError
+
+    try:
+        entries = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise _unreadable(path, error.strerror or str(error)) from error
+    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
+        raise _unreadable(path, str(error).splitlines()[0]) from error
+    if not isinstance(entries, list):
+        raise _unreadable(path, "it holds no list")
+    return [_entry(path, i, entry) for i, entry in enumerate(entries, 1)]
+
+
+def _entry(path: Path, number: int, entry: object) -> Answer:
+    if not isinstance(entry, dict):
+        return Answer(_text(entry))
+    unknown = set(entry) - {"answer", "task", "dialog", "text", "after"}
+    if unknown or "answer" not in entry:
+        wrong = f"unknown key '{sorted(map(str, unknown))[0]}'" if unknown else "no 'answer'"
+        raise _unreadable(path, f"entry {number}: {wrong}")
+    after = entry.get("after", 0.0)
+    if not isinstance(after, int | float) or after < 0:
+        raise _unreadable(path, f"entry {number}: 'after' is no time")
+    task, dialog, text = (_text(entry.get(key, "")) for key in ("task", "dialog", "text"))
+    return Answer(_text(entry["answer"]), task, dialog, text, float(after))
+
+
+def _text(value: object) -> str:
+    if isinstance(value, bool):
+        return "Yes" if value else "No"
+    return str(value)
+
+
+def _unreadable(path: Path, reason: str) -> DiagnosticError:
+    return DiagnosticError(
+        Diagnostic(
+            code="RG420",
+            severity=Severity.ERROR,
+            message=f"the script of answers cannot be used: {reason}",
+            span=Span(str(path), 1, 1),
+            help="a YAML list: `- 2`, or `- {dialog: TPReadNum, text: parts, answer: 2}`",
+        )
+    )

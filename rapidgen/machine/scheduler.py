@@ -1,0 +1,509 @@
+"""Time, events and the one CPU that all RAPID tasks share.
+
+Everything of one controller runs on one thread: events are plain callbacks that never wait,
+processes are greenlets. `now` is integer nanoseconds. On the virtual clock time passes only by
+what processes are charged and by jumping to the next event; on the real clock the same
+accounting is held back to the wall clock, and the operating system's sockets are served
+between slices.
+
+A running process counts down `b`, the nanoseconds until anything can concern it: the next
+event, the end of its slice or of the run. `now` is therefore `deadline - b` while it runs, and
+compiled code needs one subtraction and one test for clock, preemption, traps and stops.
+"""
+
+import heapq
+import os
+import random
+import selectors
+import time
+from collections import deque
+from collections.abc import Callable, Iterable
+from itertools import count
+from typing import Literal, TypeAlias, get_args
+
+import greenlet
+
+ClockKind: TypeAlias = Literal["virtual", "real"]
+Schedule: TypeAlias = Literal["round-robin", "random"]
+Outcome: TypeAlias = Literal["time", "stop", "idle"]
+
+MS = 1_000_000
+S = 1_000_000_000
+QUANTUM = 2 * MS
+# Single-digit integers of CPython, which it subtracts fastest, and short enough that endless
+# recursion is found before it costs much memory.
+_LARGEST_BUDGET = 50 * MS
+_SERVE_EVERY = 2 * MS
+_LAG = 200 * MS
+"""Real ns by which a busy machine may be behind, and catches up."""
+
+
+class Timer:
+    """One event on the heap; `cancel()` makes it nothing."""
+
+    __slots__ = ("function", "time")
+
+    def __init__(self, time: int, function: Callable[[], None]) -> None:
+        self.time = time
+        self.function: Callable[[], None] | None = function
+
+    @property
+    def active(self) -> bool:
+        """Whether the event is still to come."""
+        return self.function is not None
+
+    def cancel(self) -> None:
+        """Take the event back; harmless when it has already happened."""
+        self.function = None
+
+
+class WaitSet:
+    """Something that changes. Whoever waits for it is woken by `notify()` and looks again."""
+
+    __slots__ = ("w",)
+
+    def __init__(self) -> None:
+        # Compiled code tests this list after every store into a PERS.
+        self.w: list[Callable[[], None]] = []
+
+    def add(self, wake: Callable[[], None]) -> None:
+        """Call `wake` at every change until it is removed."""
+        self.w.append(wake)
+
+    def remove(self, wake: Callable[[], None]) -> None:
+        """Undo one `add`."""
+        self.w.remove(wake)
+
+    def notify(self) -> None:
+        """Tell everybody, in the order in which they came."""
+        for wake in tuple(self.w):
+            wake()
+
+    def __bool__(self) -> bool:
+        return bool(self.w)
+
+
+class Process:
+    """A greenlet that is charged for what it does. RAPID tasks are processes.
+
+    `body` runs in the greenlet; `attend()` is called at every poll and after every wait and is
+    where a task serves traps and stops.
+    """
+
+    __slots__ = ("_blocked", "_greenlet", "b", "name", "scheduler", "slice_end")
+
+    def __init__(self, scheduler: "Scheduler", name: str) -> None:
+        self.scheduler = scheduler
+        self.name = name
+        self.b = 0
+        self.slice_end = 0
+        self._blocked = False
+        self._greenlet: greenlet.greenlet | None = None
+
+    # -- for the scheduler and its owner -----------------------------------------------------------
+
+    def launch(self, body: Callable[[], None]) -> None:
+        """Start `body` in a fresh greenlet at the next turn."""
+        self._greenlet = greenlet.greenlet(body)
+        self._blocked = False
+        self.scheduler.ready.append(self)
+
+    def abandon(self) -> None:
+        """End the greenlet where it is; nothing wakes it any more. It can be launched again."""
+        self._blocked = False
+        self._greenlet = None
+
+    @property
+    def alive(self) -> bool:
+        """Whether the body has been launched and has not returned."""
+        return self._greenlet is not None and not self._greenlet.dead
+
+    @property
+    def frame(self) -> object:
+        """Innermost Python frame of a suspended process, for call stacks."""
+        return self._greenlet.gr_frame if self._greenlet is not None else None
+
+    def wake(self) -> None:
+        """Make a blocked process ready; it looks at the reason itself."""
+        if self._blocked:
+            self._blocked = False
+            self.scheduler.ready.append(self)
+
+    def attend(self) -> None:
+        """Hook: called in the process after every poll and every wait."""
+
+    # -- inside the process ----------------------------------------------------------------------
+
+    def block(self) -> None:
+        """Give the CPU away until somebody calls `wake()`; then `attend()`."""
+        self._blocked = True
+        self.scheduler.suspend(self)
+        self.attend()
+
+    def poll(self, b: int) -> int:
+        """Account for a spent budget, let the world go on, return the next budget."""
+        self.b = b
+        scheduler = self.scheduler
+        if scheduler.catch_up(self):
+            scheduler.suspend(self)
+        else:
+            scheduler.grant(self)
+        self.attend()
+        return self.b
+
+    def give_way(self) -> None:
+        """Go to the end of the queue when others are ready; then `attend()`."""
+        self.switch()
+        self.attend()
+
+    def switch(self) -> None:
+        """Go to the end of the queue when others are ready, in the middle of a statement."""
+        scheduler = self.scheduler
+        if scheduler.catch_up(self):
+            scheduler.suspend(self)
+        elif scheduler.ready:
+            scheduler.ready.append(self)
+            scheduler.suspend(self)
+        else:
+            scheduler.grant(self)
+
+    def charge(self, cost: int) -> None:
+        """Spend `cost` nanoseconds of CPU."""
+        self.b -= cost
+        if self.b < 0:
+            self.poll(self.b)
+
+    def kick(self) -> None:
+        """Let `attend()` be called before the next statement."""
+        scheduler = self.scheduler
+        if scheduler.running is self:
+            scheduler.deadline -= self.b + 1
+            self.b = -1
+        else:
+            self.wake()
+
+
+class Scheduler:
+    """Clock, event heap, scheduler, random sources. Bound to the thread that steps it."""
+
+    def __init__(
+        self,
+        *,
+        clock: ClockKind = "virtual",
+        seed: int = 0,
+        speed: float = 1.0,
+        quantum: int = QUANTUM,
+        schedule: Schedule = "round-robin",
+    ) -> None:
+        if clock not in get_args(ClockKind):
+            raise ValueError(f"clock={clock!r} is none of {', '.join(get_args(ClockKind))}")
+        self.clock: ClockKind = clock
+        self.speed = speed
+        self.quantum = quantum
+        self.schedule: Schedule = schedule
+        self.seed = seed
+        self.rng = random.Random(f"{seed}")
+        self._order = random.Random(f"{seed} schedule")
+        self.ready: deque[Process] = deque()
+        self.running: Process | None = None
+        self.deadline = 0
+        self.switches = 0
+        self.idle = 0
+        """Nanoseconds in which no process was ready."""
+        self._now = 0
+        self._heap: list[tuple[int, int, Timer]] = []
+        self._serial = count()
+        self._front: Process | None = None
+        self._until: int | None = None
+        self._stop: Callable[[], bool] | None = None
+        self._stopping = False
+        self._hub: greenlet.greenlet | None = None
+        self._posted: deque[Callable[[], None]] = deque()
+        self._selector: selectors.BaseSelector | None = None
+        self._pipe: tuple[int, int] | None = None
+        self._served_at = 0
+        self._origin = (0, time.monotonic_ns())
+
+    # -- time and events -------------------------------------------------------------------------
+
+    @property
+    def now(self) -> int:
+        """Nanoseconds since the controller was made."""
+        process = self.running
+        return self._now if process is None else self.deadline - process.b
+
+    def at(self, time_ns: int, function: Callable[[], None]) -> Timer:
+        """Call `function` at a time (at once on the next turn when that has passed)."""
+        timer = Timer(time_ns, function)
+        heapq.heappush(self._heap, (time_ns, next(self._serial), timer))
+        process = self.running
+        if process is not None and time_ns < self.deadline:
+            process.b -= self.deadline - time_ns
+            self.deadline = time_ns
+        return timer
+
+    def after(self, delay_ns: int, function: Callable[[], None]) -> Timer:
+        """Call `function` after a delay."""
+        return self.at(self.now + max(0, delay_ns), function)
+
+    def post(self, function: Callable[[], None]) -> None:
+        """Run `function` on the scheduler's thread. The only method for other threads."""
+        self._posted.append(function)
+        if self._pipe is not None:
+            os.write(self._pipe[1], b"\0")
+
+    @property
+    def selector(self) -> selectors.BaseSelector:
+        """Sockets of the operating system; `data` of a key is called with the event mask."""
+        if self._selector is None:
+            self._selector = selectors.DefaultSelector()
+            if self.clock == "real":
+                self._pipe = os.pipe()
+                os.set_blocking(self._pipe[0], False)
+                os.set_blocking(self._pipe[1], False)
+                self._selector.register(self._pipe[0], selectors.EVENT_READ, self._drain)
+        return self._selector
+
+    def close(self) -> None:
+        """Give back the operating system's handles."""
+        if self._selector is not None:
+            self._selector.close()
+            self._selector = None
+        if self._pipe is not None:
+            for handle in self._pipe:
+                os.close(handle)
+            self._pipe = None
+
+    def close_processes(self, processes: Iterable[Process]) -> None:
+        """Forget what is ready and end the processes' greenlets, on the thread they ran on.
+
+        The collector does not see through a suspended greenlet: one that is left so keeps
+        everything that its frames refer to.
+        """
+        self.ready.clear()
+        self._front = None
+        self._heap.clear()
+        for process in processes:
+            process.abandon()
+
+    @property
+    def preempted(self) -> Process | None:
+        """The process that goes on first when time passes again."""
+        return self._front
+
+    def next_event(self) -> int | None:
+        """Time of the next event that has not been cancelled."""
+        heap = self._heap
+        while heap and heap[0][2].function is None:
+            heapq.heappop(heap)
+        return heap[0][0] if heap else None
+
+    # -- the loop --------------------------------------------------------------------------------
+
+    def advance(self, until: int | None = None, stop: Callable[[], bool] | None = None) -> Outcome:
+        """Let time pass.
+
+        Returns "time" when `until` is reached, "stop" when `stop()` said so after something
+        happened, "idle" when nothing is ready and nothing is ahead (virtual clock only).
+        """
+        self._hub = greenlet.getcurrent()
+        self._until, self._stop, self._stopping = until, stop, False
+        if self.clock == "real":
+            return self._advance_real()
+        while True:
+            if self._posted:
+                self._run_posted()
+            if self._stopping or (stop is not None and stop()):
+                return "stop"
+            if until is not None and self._now >= until:
+                return "time"
+            if self._front is not None or self.ready:
+                self._dispatch()
+                continue
+            ahead = self.next_event()
+            if ahead is None or (until is not None and ahead > until):
+                if until is None:
+                    return "idle"
+                self.idle += until - self._now
+                self._now = until
+                return "time"
+            self.idle += max(0, ahead - self._now)
+            self._fire(ahead, one=True)
+
+    def _advance_real(self) -> Outcome:
+        until, stop = self._until, self._stop
+        while True:
+            if self._posted:
+                self._come_up(self._wall())
+                self._run_posted()
+            if self._stopping or (stop is not None and stop()):
+                return "stop"
+            if until is not None and self._now >= until:
+                return "time"
+            busy = self._front is not None or bool(self.ready)
+            wall = self._wall_behind(self._now if busy else self.next_event())
+            if busy and self._now <= wall + MS:
+                if wall - self._served_at > _SERVE_EVERY:
+                    self._serve(0.0)
+                self._dispatch()
+                continue
+            ahead = self._now if busy else self.next_event()
+            target = until if ahead is None else ahead if until is None else min(ahead, until)
+            if target is None or wall < target:
+                timeout = None if target is None else (target - wall) / (S * self.speed)
+                self._serve(timeout)
+                continue
+            if wall - self._served_at > _SERVE_EVERY:
+                self._serve(0.0)
+            if not busy:
+                self._fire(max(target, self._now))
+
+    def _wall(self) -> int:
+        start, wall = self._origin
+        return start + int((time.monotonic_ns() - wall) * self.speed)
+
+    def _wall_behind(self, due: int | None) -> int:
+        """The real clock. What this machine could not do in time makes it later, not faster: a
+        burst would be time that the outside never had."""
+        wall = self._wall()
+        latest = wall if due is None else due + int(_LAG * self.speed)
+        if wall <= latest:
+            return wall
+        self._origin = (latest, time.monotonic_ns())
+        self._served_at -= wall - latest
+        return latest
+
+    def rebase(self) -> None:
+        """Tie the real clock to `now`: after a pause nothing is caught up."""
+        self._origin = (self._now, time.monotonic_ns())
+
+    def _serve(self, timeout: float | None) -> None:
+        events = self.selector.select(timeout)
+        self._served_at = self._wall()
+        if events:
+            self._come_up(self._served_at)
+            for key, mask in events:
+                key.data(mask)
+
+    def _come_up(self, wall: int) -> None:
+        """What comes from outside comes now, not when the last event was."""
+        if self._front is None and not self.ready:
+            ahead = self.next_event()
+            self._now = max(self._now, wall if ahead is None else min(wall, ahead))
+
+    def _drain(self, _mask: int) -> None:
+        assert self._pipe is not None
+        while True:
+            try:
+                if len(os.read(self._pipe[0], 4096)) < 4096:
+                    return
+            except BlockingIOError:
+                return
+
+    def _run_posted(self) -> None:
+        for _ in range(len(self._posted)):
+            self._posted.popleft()()
+
+    def _fire(self, end: int, *, one: bool = False) -> None:
+        heap, stop = self._heap, self._stop
+        while heap and heap[0][0] <= end:
+            when, _, timer = heapq.heappop(heap)
+            function = timer.function
+            if function is None:
+                continue
+            timer.function = None
+            if when > self._now:
+                self._now = when
+            function()
+            if stop is not None and stop():
+                self._stopping = True
+            if one:
+                return
+        if end > self._now:
+            self._now = end
+
+    def _fire_before(self, end: int) -> None:
+        """Events that come before a process reaches `end`; those at `end` itself come after
+        what it does there, however the time was cut into pieces."""
+        if self._heap and self._heap[0][0] < end:
+            self._fire(end - 1)
+        if end > self._now:
+            self._now = end
+
+    def _dispatch(self) -> None:
+        process = self._front
+        if process is not None:
+            self._front = None
+        else:
+            if self.schedule == "random" and len(self.ready) > 1:
+                self.ready.rotate(-self._order.randrange(len(self.ready)))
+            process = self.ready.popleft()
+            process.slice_end = self._now + self._slice()
+        self.switches += 1
+        self.grant(process)
+        body = process._greenlet
+        assert body is not None
+        if not body:  # not started: when it ends, the loop goes on here
+            body.parent = greenlet.getcurrent()
+        body.switch()
+        if self.running is process:  # the body returned while charged for
+            self._now = self.deadline - process.b
+            self.running = None
+
+    def tosses(self) -> bool:
+        """Whether a random schedule switches at this point."""
+        return self.schedule == "random" and bool(self.ready) and self._order.random() < 0.5
+
+    def _slice(self) -> int:
+        if self.schedule == "random":
+            return self._order.randrange(1, self.quantum)
+        return self.quantum
+
+    # -- called by processes ---------------------------------------------------------------------
+
+    def grant(self, process: Process) -> None:
+        """Give the CPU to `process`: its budget lasts until something may concern it."""
+        now = self._now
+        limit = now + _LARGEST_BUDGET
+        ahead = self.next_event()
+        if ahead is not None and ahead < limit:
+            limit = ahead
+        if self._until is not None and self._until < limit:
+            limit = self._until
+        if (self.ready or self.clock == "real") and process.slice_end < limit:
+            limit = process.slice_end
+        self.deadline = limit
+        process.b = limit - now
+        self.running = process
+
+    def catch_up(self, process: Process) -> bool:
+        """Account for what `process` spent; True when it must give way now."""
+        end = self.deadline - process.b
+        self.running = None
+        self._fire_before(end)
+        if self._posted:
+            self._run_posted()
+        over = end > process.slice_end
+        if over and self.ready:
+            self.ready.append(process)
+            return True
+        if over:
+            process.slice_end = end + self._slice()
+        until, stop = self._until, self._stop
+        if (
+            self._stopping
+            or (until is not None and end >= until)
+            or (over and (self.clock == "real" or (stop is not None and stop())))
+        ):
+            self._front = process
+            return True
+        return False
+
+    def suspend(self, process: Process) -> None:
+        """Switch to the loop; returns when `process` is dispatched again."""
+        if self.running is process:
+            end = self.deadline - process.b
+            self.running = None
+            self._fire_before(end)
+        assert self._hub is not None
+        self._hub.switch()

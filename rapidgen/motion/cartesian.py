@@ -1,0 +1,273 @@
+"""Cartesian ways: the TCP on a line or a circle, axes by inverse kinematics."""
+
+from bisect import bisect_right
+from itertools import pairwise
+from math import ceil
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
+from rapidgen.axes.limits import outside
+from rapidgen.motion import events
+from rapidgen.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
+from rapidgen.motion.moves import (
+    NO_TURN,
+    CartesianMove,
+    Measure,
+    Posture,
+    Singularities,
+    largest,
+    nominal_time,
+)
+from rapidgen.motion.pieces import AxisLimits, Curve, Piece
+from rapidgen.motion.sampling import interval_limits, largest_step, spaced
+from rapidgen.motion.singular import put_tcp, wrist_end, wrist_places
+from rapidgen.motion.timed import SHORTEST, timed
+from rapidgen.runtime.errors import FatalError, RapidError
+
+_STEP = 0.12
+"""rad or m of one axis that an interval of the sampling should not exceed."""
+_FEWEST, _MOST = 8, 512
+_JUMP = 0.6
+"""rad between the finest nodes that no axis can follow: a singularity."""
+
+
+class CartesianWay:
+    """The way of a CartesianMove over its nominal time."""
+
+    __slots__ = (
+        "_ceilings",
+        "_external",
+        "_kinematics",
+        "_nodes",
+        "_places",
+        "_shares",
+        "_turns",
+        "_wrist",
+        "carrier",
+        "duration",
+        "limits",
+        "measure",
+        "shape",
+        "strength",
+        "target",
+    )
+
+    def __init__(
+        self,
+        origin: Posture,
+        move: CartesianMove,
+        kinematics: Kinematics,
+        limits: AxisLimits,
+        *,
+        from_rest: bool,
+        check: ConfigurationCheck,
+    ) -> None:
+        self._kinematics = kinematics
+        self.carrier = move.carrier
+        self.limits = limits
+        self._places = external_places(kinematics)
+        self.shape = _shape(move.carrier.at(origin).pose(kinematics.forward(origin)), move)
+        self._external = (origin, move.external)
+        self.measure = Measure(
+            self.shape.length, self.shape.angle, *_external_measure(kinematics, origin, move)
+        )
+        self._wrist: tuple[Posture, Posture] | None = None
+        if move.singularities is not Singularities.OFF:
+            self._wrist = origin, wrist_end(kinematics, move, origin, check)
+        self._turns = self.measure.angle > NO_TURN
+        count = _FEWEST
+        while True:
+            self._shares, self._nodes = self._sample(origin, count)
+            fastest, self.strength = self._bounds()
+            self.duration = self._nominal(move, fastest, from_rest + move.zone.fine)
+            count = len(self._nodes) - 1
+            spacing = self.duration / count
+            self._ceilings, close = interval_limits(self._nodes, spacing, limits)
+            if close or 2 * count > _MOST:
+                break
+            count *= 2
+        self.target = self._nodes[-1]
+
+    def _nominal(self, move: CartesianMove, fastest: float, rests: int) -> float:
+        """Nominal s of the move, which stands at `rests` of its ends."""
+        if move.time is None:
+            return max(nominal_time(self.measure, move.speed), SHORTEST)
+        total = move.time - rests * self.limits.ramp / 2
+        return timed(total, fastest, self.strength, rests / 2)
+
+    @property
+    def tcp(self) -> float:
+        """m that the TCP goes in a nominal s."""
+        return self.measure.tcp / self.duration
+
+    def posture(self, time: float) -> Posture:
+        """Axis values at a nominal time of the way."""
+        share = time / self.duration
+        return self._solve(share, self._guess(share))
+
+    def pose(self, time: float) -> Pose:
+        """TCP in the object. Times may lie outside the way."""
+        return self._pose(time / self.duration)
+
+    @property
+    def orientation(self) -> frames.Quaternion | None:
+        """The orientation when it is the same all along."""
+        return None if self._turns else self.shape.start[1]
+
+    def velocity(self, time: float) -> frames.Vector:
+        """TCP in the object, m per nominal s."""
+        return frames.scale(self.shape.tangent(time / self.duration), 1 / self.duration)
+
+    def external(self, time: float) -> Posture:
+        """All axes by linear interpolation: right for the external ones."""
+        share = time / self.duration
+        return self._linear(share)
+
+    def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
+        """One piece for each interval of the sampling that lies between start and end."""
+        count = len(self._nodes) - 1
+        spacing = self.duration / count
+
+        def at(place: float) -> Posture:
+            return self.posture(place - begin)
+
+        found: list[Piece] = []
+        for k in range(count):
+            left, right = begin + k * spacing, begin + (k + 1) * spacing
+            if k == count - 1:
+                right = begin + self.duration
+            low, high = max(left, start), min(right, end)
+            if high - low > 1e-12:
+                found.append(Curve(low, high, at, self._ceilings[k], self.tcp))
+        if found:
+            found[0].start, found[-1].end = start, end
+        return found
+
+    # -- inverse kinematics along the way -----------------------------------------------------
+
+    def _sample(self, origin: Posture, count: int) -> tuple[list[float], list[Posture]]:
+        """Nodes at `count` equal shares, or at more of them where the steps were too long."""
+        while True:
+            shares = spaced(0.0, 1.0, count)
+            nodes = [origin]
+            for share in shares[1:]:
+                nodes.append(self._solve(share, nodes[-1]))
+            step = largest_step(nodes)
+            if step <= _STEP:
+                break
+            if count >= _MOST:
+                if step > _JUMP:
+                    raise FatalError(
+                        events.SINGULARITY,
+                        "Close to singularity",
+                        "an axis would have to turn at once",
+                    )
+                break
+            count = min(_MOST, max(2 * count, min(4 * count, ceil(count * step / _STEP))))
+        for node in nodes:
+            faults = outside(self._kinematics.group.joints, node)
+            if faults:
+                raise RapidError("ERR_ROBLIMIT", str(faults[0]))
+        return shares, nodes
+
+    def _pose(self, share: float) -> Pose:
+        shape = self.shape
+        return (
+            shape.position(share),
+            shape.orientation(share) if self._turns else shape.start[1],
+        )
+
+    def _solve(self, share: float, near: Posture) -> Posture:
+        pose = self._pose(share)
+        if self._places:
+            near = with_external(near, self._linear(share), self._places)
+        if self._wrist is not None:
+            return self._solve_wrist(share, near)
+        found = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
+        if found is None:
+            raise RapidError("ERR_OUTSIDE_REACH", f"{tuple(round(v, 4) for v in pose[0])} m")
+        return found
+
+    def _solve_wrist(self, share: float, near: Posture) -> Posture:
+        """Wrist axes on their straight way, the main axes put the TCP on its own."""
+        assert self._wrist is not None
+        wrist, (first, last) = wrist_places(self._kinematics), self._wrist
+        values = list(near)
+        for i in wrist:
+            values[i] = first[i] + (last[i] - first[i]) * share
+        found = put_tcp(self._kinematics, self.carrier, self.shape.position(share), tuple(values))
+        if found is None:
+            raise RapidError("ERR_OUTSIDE_REACH", "with SingArea \\Wrist")
+        return found
+
+    @property
+    def joins_poses(self) -> bool:
+        """Whether a corner may be made from poses: the orientation is that of the shape."""
+        return self._wrist is None
+
+    def _linear(self, share: float) -> Posture:
+        first, last = self._external
+        return tuple([a + (b - a) * share for a, b in zip(first, last, strict=True)])
+
+    def _guess(self, share: float) -> Posture:
+        shares = self._shares
+        k = min(max(0, bisect_right(shares, share) - 1), len(shares) - 2)
+        part = (share - shares[k]) / (shares[k + 1] - shares[k])
+        part = min(1.0, max(0.0, part))
+        return tuple(
+            [a + (b - a) * part for a, b in zip(self._nodes[k], self._nodes[k + 1], strict=True)]
+        )
+
+    def _bounds(self) -> tuple[float, float]:
+        """Nominal time at full axis speed, and the way's acceleration in shares per s^2."""
+        spacing = 1.0 / (len(self._nodes) - 1)
+        fastest, acceleration = SHORTEST, float("inf")
+        for a, b in pairwise(self._nodes):
+            for x, y, v, acc in zip(
+                a, b, self.limits.speeds, self.limits.accelerations, strict=True
+            ):
+                rate = abs(y - x) / spacing
+                if rate > 0.0:
+                    fastest = max(fastest, rate / v)
+                    acceleration = min(acceleration, acc / rate)
+        return fastest, acceleration
+
+
+def external_places(kinematics: Kinematics) -> tuple[int, ...]:
+    """Where the external axes are in wire order."""
+    joints = kinematics.group.joints
+    return tuple(i for i, joint in enumerate(joints) if joint.axis.startswith("eax"))
+
+
+def with_external(posture: Posture, external: Posture, places: tuple[int, ...]) -> Posture:
+    """A posture with the external axes of another one."""
+    values = list(posture)
+    for place in places:
+        values[place] = external[place]
+    return tuple(values)
+
+
+def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
+    if move.via is None:
+        return Line(start, move.target)
+    arc = arc_through(start, move.via, move.target, move.circle)
+    if arc is None:
+        raise FatalError(
+            events.CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"
+        )
+    if arc.sweep > LARGEST_ARC:
+        raise FatalError(
+            events.CIRCLE_UNCERTAIN, "Circle uncertain", "more than 240 degrees in one MoveC"
+        )
+    return arc
+
+
+def _external_measure(
+    kinematics: Kinematics, origin: Posture, move: CartesianMove
+) -> tuple[float, float]:
+    linear, rotary = [0.0], [0.0]
+    for joint, a, b in zip(kinematics.group.joints, origin, move.external, strict=True):
+        if joint.axis.startswith("eax"):
+            (rotary if joint.kind == "revolute" else linear).append(b - a)
+    return largest(linear), largest(rotary)

@@ -1,0 +1,65 @@
+"""Stops by the brakes: every axis comes to rest by itself, so the robot leaves its path.
+
+S4 overview 5-23: a quick stop by the brakes deviates most; at the next start the robot first
+returns to the point of the path where it should have stopped.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil
+
+from rapidgen.config.model import Joint
+from rapidgen.machine.scheduler import S
+from rapidgen.motion.moves import Posture
+
+_STEP = 1e-6
+"""s over which the axes' speeds are measured."""
+
+
+@dataclass(frozen=True, slots=True)
+class Coast:
+    """Axes that slow down each at its own rate. Times are scheduler ns."""
+
+    since: int
+    origin: Posture
+    rates: Posture
+    """rad/s and m/s"""
+    slowing: Posture
+    """Decelerations, positive."""
+
+    @property
+    def end(self) -> int:
+        """When the last axis stands."""
+        longest = max(abs(v) / a for v, a in zip(self.rates, self.slowing, strict=True))
+        return self.since + ceil(longest * S)
+
+    def posture(self, now: int) -> Posture:
+        """Axis values at a time."""
+        time = (now - self.since) / S
+        found = []
+        for q, v, a in zip(self.origin, self.rates, self.slowing, strict=True):
+            t = min(time, abs(v) / a)
+            found.append(q + v * t - (a if v > 0 else -a) * t * t / 2)
+        return tuple(found)
+
+
+def coast(
+    now: int, here: Posture, before: Posture, joints: Sequence[Joint], factor: float
+) -> Coast:
+    """From a posture, and the one a moment earlier; `factor` times the axes' acceleration.
+
+    An axis that would leave its range stops harder, at the end of it.
+    """
+    rates, slowing = [], []
+    for q, p, joint in zip(here, before, joints, strict=True):
+        rate = (q - p) / _STEP
+        room = (joint.upper - q) if rate > 0 else (q - joint.lower)
+        least = rate * rate / (2 * room) if room > 0 else 0.0
+        rates.append(rate)
+        slowing.append(max(joint.acceleration * factor, least))
+    return Coast(now, here, tuple(rates), tuple(slowing))
+
+
+def moment_before(now: int) -> int:
+    """The time, scheduler ns, at which `coast` wants the earlier posture."""
+    return now - round(_STEP * S)

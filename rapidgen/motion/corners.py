@@ -1,0 +1,354 @@
+"""Corners: what replaces a fly-by point between two legs.
+
+Two joint legs get a parabola in joint space. Two Cartesian legs of one tool and one object get
+a parabola of the TCP inside the TCP zone, and of orientation and external axes inside the
+extended zone. Anything else is joined in joint space along the tangents of both ways.
+"""
+
+from collections.abc import Callable
+from itertools import pairwise
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose, Quaternion, Vector
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.motion.cartesian import CartesianWay, external_places, with_external
+from rapidgen.motion.legs import Geometry, JointWay, Leg
+from rapidgen.motion.moves import (
+    NO_TURN,
+    NO_WAY,
+    Carrier,
+    Posture,
+    Zone,
+    corner_shares,
+    extended_share,
+)
+from rapidgen.motion.pieces import AxisLimits, Curve, Piece, joint_corner
+from rapidgen.motion.sampling import interval_limits, largest_step, sample, spaced
+from rapidgen.runtime.errors import RapidError
+
+Bend = tuple[float, float, list[Piece]]
+"""Start and end on the path, and the pieces between."""
+Ceilings = list[tuple[float, float]]
+"""Path speed and acceleration for each of some equal intervals."""
+_SMALLEST = 1e-7
+_FEWEST, _MOST = 5, 80
+"""Intervals of one section of a corner."""
+_STEP = 0.1
+"""rad or m of one axis that an interval should not exceed."""
+
+
+def corner(
+    before: Leg, after: Geometry, size: float, limits: AxisLimits, kinematics: Kinematics | None
+) -> Bend | None:
+    """The corner between a leg and the way of its successor; None: a stop.
+
+    `size` (0 to 1) shrinks the zone where the path cannot be met otherwise.
+    """
+    way, zone = before.way, before.move.zone
+    shares = corner_shares(zone, way.measure, after.measure)
+    if shares is None:
+        return None
+    inside, outside = shares[0] * size * way.duration, shares[1] * size * after.duration
+    if min(inside, outside) < _SMALLEST:
+        return None
+    if isinstance(way, JointWay) and isinstance(after, JointWay):
+        start, end = before.end - inside, before.end + outside
+        rates = (way.rates, inside), (after.rates, outside)
+        tcp = max(way.tcp, after.tcp)
+        return start, end, joint_corner(start, way.target, *rates, limits, tcp)
+    if isinstance(way, CartesianWay) and isinstance(after, CartesianWay):
+        if (way.measure.tcp > NO_WAY) != (after.measure.tcp > NO_WAY):
+            return None  # TCP motion next to pure reorientation (S4 overview p.5-17)
+        poses = way.joins_poses and after.joins_poses and way.carrier == after.carrier
+        if poses and kinematics is not None:
+            wide = _extended(zone, way, after, size, (inside, outside))
+            return _cartesian(before, way, after, (inside, outside), wide, limits, kinematics)
+    return _mixed(before, way, after, (inside, outside), limits)
+
+
+def _extended(
+    zone: Zone, way: Geometry, after: Geometry, size: float, least: tuple[float, float]
+) -> tuple[float, float]:
+    """Nominal times of the extended zone on both sides, not below those of the TCP zone."""
+    measures = way.measure, after.measure
+    if all(m.angle + m.linear + m.rotary < NO_TURN for m in measures):
+        return least  # nothing but the TCP moves
+    first, second = extended_share(zone, way.measure), extended_share(zone, after.measure)
+    if way.measure.tcp > NO_WAY:
+        radius = min(first * way.measure.tcp, second * after.measure.tcp)
+        first, second = radius / way.measure.tcp, radius / after.measure.tcp
+    return (
+        max(least[0], first * size * way.duration),
+        max(least[1], second * size * after.duration),
+    )
+
+
+# -- the corner's own parameter -------------------------------------------------------------------
+
+
+def _parameter(before: float, after: float) -> Callable[[float], float]:
+    """w from 0 to 1 over nominal times -before to after: see `pieces.Parabola`."""
+    middle = 1 / (before + after)
+    first, last = 1 / (2 * before), 1 / (2 * after)
+    half = 0.25 + before * middle / 2
+
+    def w(time: float) -> float:
+        if time < 0.0:
+            t = time + before
+            return (first + (middle - first) / before * t / 2) * t
+        return half + (middle + (last - middle) / after * time / 2) * time
+
+    return w
+
+
+def _curve(points: tuple[Posture, ...], w: float) -> Posture:
+    """Cubic over four control points."""
+    v = 1 - w
+    a, b, c, d = v * v * v, 3 * v * v * w, 3 * v * w * w, w * w * w
+    p, q, r, s = points
+    return tuple([a * i + b * j + c * k + d * m for i, j, k, m in zip(p, q, r, s, strict=True)])
+
+
+def _turn(points: tuple[Quaternion, ...], w: float) -> Quaternion:
+    """The same for orientations: repeated even turns."""
+    row = list(points)
+    while len(row) > 1:
+        row = [frames.slerp(a, b, w) for a, b in pairwise(row)]
+    return row[0]
+
+
+# -- Cartesian ------------------------------------------------------------------------------
+
+
+def _cartesian(
+    before: Leg,
+    way: CartesianWay,
+    after: CartesianWay,
+    near: tuple[float, float],
+    wide: tuple[float, float],
+    limits: AxisLimits,
+    kinematics: Kinematics,
+) -> Bend | None:
+    point = before.end
+    position = _position(way, after, near)
+    orientation = _orientation(way, after, wide)
+    external = _external(way, after, wide) if external_places(kinematics) else None
+
+    def pose(time: float) -> Pose:
+        return position(time), orientation(time)
+
+    # The second derivatives jump where a zone begins and at the point: no interval lies across.
+    ends = sorted({-wide[0], -near[0], 0.0, near[1], wide[1]})
+    sections = [(point + a, point + b) for a, b in pairwise(ends) if b - a > _SMALLEST]
+    origin = way.posture(way.duration - wide[0])
+    solve = _Tracker(kinematics, way.carrier, pose, external)
+    return _sampled(solve, point, sections, origin, limits, max(way.tcp, after.tcp))
+
+
+def _position(
+    way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
+) -> Callable[[float], Vector]:
+    inside, outside = zone
+    w = _parameter(inside, outside)
+    first, last = way.pose(way.duration - inside)[0], after.pose(outside)[0]
+    points = (
+        first,
+        frames.add(first, frames.scale(way.velocity(way.duration - inside), inside * 2 / 3)),
+        frames.add(last, frames.scale(after.velocity(outside), -outside * 2 / 3)),
+        last,
+    )
+
+    def at(time: float) -> Vector:
+        if time <= -inside:
+            return way.pose(way.duration + time)[0]
+        if time >= outside:
+            return after.pose(time)[0]
+        x, y, z = _curve(points, w(time))
+        return x, y, z
+
+    return at
+
+
+def _orientation(
+    way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
+) -> Callable[[float], Quaternion]:
+    constant = way.orientation
+    if constant is not None and after.orientation is not None:
+        return lambda _time: constant
+    inside, outside = zone
+    w = _parameter(inside, outside)
+    first, last = way.pose(way.duration - inside)[1], after.pose(outside)[1]
+    points = (
+        first,
+        frames.multiply(_spun(way, way.duration - inside, inside * 2 / 3), first),
+        frames.multiply(_spun(after, outside, -outside * 2 / 3), last),
+        last,
+    )
+
+    def at(time: float) -> Quaternion:
+        return _turn(points, min(1.0, max(0.0, w(time))))
+
+    return at
+
+
+def _spun(way: CartesianWay, time: float, span: float) -> Quaternion:
+    """How far the tool would turn in `span` at the rate that it has at `time`."""
+    step = 1e-4 * way.duration
+    ahead, behind = way.pose(time + step)[1], way.pose(time - step)[1]
+    axis, angle = frames.to_axis(frames.multiply(ahead, frames.conjugate(behind)))
+    return frames.about(axis, angle * span / (2 * step))
+
+
+def _external(
+    way: CartesianWay, after: CartesianWay, zone: tuple[float, float]
+) -> Callable[[float], Posture]:
+    inside, outside = zone
+    w = _parameter(inside, outside)
+    points = (
+        way.external(way.duration - inside),
+        way.external(way.duration - inside / 3),
+        after.external(outside / 3),
+        after.external(outside),
+    )
+    return lambda time: _curve(points, min(1.0, max(0.0, w(time))))
+
+
+class _Tracker:
+    """Postures along poses, on one branch."""
+
+    def __init__(
+        self,
+        kinematics: Kinematics,
+        carrier: Carrier,
+        pose: Callable[[float], Pose],
+        external: Callable[[float], Posture] | None,
+    ) -> None:
+        self._kinematics = kinematics
+        self._carrier = carrier
+        self._pose = pose
+        self._external = external
+        self._places = external_places(kinematics)
+
+    def __call__(self, time: float, near: Posture) -> Posture:
+        if self._external is not None:
+            near = with_external(near, self._external(time), self._places)
+        found = self._kinematics.follow(self._carrier.at(near).flange(self._pose(time)), near)
+        if found is None:
+            raise RapidError("ERR_OUTSIDE_REACH", "in a corner")
+        return found
+
+
+def _sampled(
+    solve: _Tracker,
+    point: float,
+    sections: list[tuple[float, float]],
+    origin: Posture,
+    limits: AxisLimits,
+    tcp: float,
+) -> Bend | None:
+    pieces: list[Piece] = []
+    try:
+        for low, high in sections:
+            found = _section(solve, point, (low, high), origin, limits)
+            if found is None:
+                return None
+            at, origin, ceilings = found
+            pieces += _curves(at, (low, high), ceilings, tcp)
+    except RapidError:
+        return None  # the corner cannot be reached: the point itself can
+    return sections[0][0], sections[-1][1], pieces
+
+
+def _section(
+    solve: _Tracker,
+    point: float,
+    bounds: tuple[float, float],
+    origin: Posture,
+    limits: AxisLimits,
+) -> tuple[Callable[[float], Posture], Posture, Ceilings] | None:
+    """Posture at a place, the last one, and the limits of each interval; None: a jump."""
+    (low, high), count = bounds, _FEWEST
+    while True:
+        places = spaced(low, high, count)
+        spacing = (high - low) / count
+        nodes = [origin]
+        for place in places[1:]:
+            nodes.append(solve(place - point, nodes[-1]))
+        if largest_step(nodes) <= _STEP:
+            ceilings, close = interval_limits(nodes, spacing, limits)
+            if close or count >= _MOST:
+                break
+        elif count >= _MOST:
+            return None
+        count *= 2
+
+    def at(place: float) -> Posture:
+        k = min(count - 1, max(0, int((place - low) / spacing)))
+        part = (place - places[k]) / spacing
+        near = tuple([a + (b - a) * part for a, b in zip(nodes[k], nodes[k + 1], strict=True)])
+        return solve(place - point, near)
+
+    return at, nodes[-1], ceilings
+
+
+def _curves(
+    at: Callable[[float], Posture], bounds: tuple[float, float], ceilings: Ceilings, tcp: float
+) -> list[Piece]:
+    """A piece for each interval."""
+    places = pairwise(spaced(*bounds, len(ceilings)))
+    return [Curve(*ends, at, own, tcp) for ends, own in zip(places, ceilings, strict=True)]
+
+
+# -- joint space along both tangents ------------------------------------------------------------
+
+
+def _mixed(
+    before: Leg,
+    way: Geometry,
+    after: Geometry,
+    zone: tuple[float, float],
+    limits: AxisLimits,
+) -> Bend:
+    inside, outside = zone
+    point = before.end
+    first, last = way.posture(way.duration - inside), after.posture(outside)
+    rate_in, rate_out = _rate(way, way.duration - inside), _rate(after, outside)
+    points = (
+        first,
+        tuple([q + r * inside * 2 / 3 for q, r in zip(first, rate_in, strict=True)]),
+        tuple([q - r * outside * 2 / 3 for q, r in zip(last, rate_out, strict=True)]),
+        last,
+    )
+    w = _parameter(inside, outside)
+
+    def at(place: float) -> Posture:
+        return _curve(points, min(1.0, max(0.0, w(place - point))))
+
+    start, end = point - inside, point + outside
+    # The two halves have different slopes: sampled apart, so that no node lies across.
+    pieces: list[Piece] = []
+    for low, high in ((start, point), (point, end)):
+        count = _FEWEST
+        while True:
+            nodes, spacing = sample(at, low, high, count), (high - low) / count
+            ceilings, close = interval_limits(nodes, spacing, limits)
+            if close or count >= _MOST:
+                break
+            count *= 2
+        pieces += _curves(at, (low, high), ceilings, max(way.tcp, after.tcp))
+    return start, end, pieces
+
+
+def _rate(way: Geometry, time: float) -> Posture:
+    step = min(1e-4 * way.duration, time, way.duration - time)
+    ahead, behind = way.posture(time + step), way.posture(time - step)
+    return tuple([(a - b) / (2 * step) for a, b in zip(ahead, behind, strict=True)])
+
+
+def zone_entry(leg: Leg) -> float:
+    """Where the largest corner that its end may get would begin."""
+    shares = corner_shares(leg.move.zone, leg.way.measure, leg.way.measure)
+    if shares is None:
+        return leg.end
+    share = max(shares[0], min(0.5, extended_share(leg.move.zone, leg.way.measure)))
+    return leg.end - share * leg.way.duration

@@ -1,0 +1,195 @@
+"""A path in time: the motion under way, how it is planned anew, braked and watched."""
+
+from collections.abc import Callable, Sequence
+from math import inf
+
+from rapidgen.config.model import Joint
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.motion import smoothing
+from rapidgen.motion.coasting import Coast, coast, moment_before
+from rapidgen.motion.motion import Motion
+from rapidgen.motion.moves import Posture
+from rapidgen.motion.path import Path
+from rapidgen.motion.pieces import Piece
+from rapidgen.motion.settings import MotionSettings
+from rapidgen.motion.timelaw import Span, TimeLaw, brake, plan
+
+MANUAL_REDUCED = 0.25
+"""m/s of the TCP in manual mode with reduced speed."""
+_STANDING = 1e-6
+"""Path speed that counts as none: times are whole nanoseconds."""
+_NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
+
+
+class Drive:
+    """Runs one path. What is on the path, and when to stop, is the business of `group.py`."""
+
+    __slots__ = (
+        "_history",
+        "_planned",
+        "_scheduler",
+        "motion",
+        "observers",
+        "override",
+        "ramp",
+        "reduced",
+        "refresh",
+        "refreshed",
+        "settings",
+        "tcp_limit",
+    )
+
+    def __init__(self, scheduler: Scheduler, settings: MotionSettings, start: Posture) -> None:
+        self._scheduler = scheduler
+        self.settings = settings
+        self.override = 1.0
+        """Of the controller, 0 to 1."""
+        self.refresh = 1.0
+        """Of the program (SpeedRefresh), 0 to 1."""
+        self.refreshed = True
+        """The newest move heeds it."""
+        self.tcp_limit = inf
+        """m/s of the TCP (SpeedLimCheckPoint)."""
+        self.reduced = False
+        """Manual mode with reduced speed."""
+        self.ramp = 0.0
+        """s in which acceleration builds up; may change at a standstill only."""
+        self.observers: list[Callable[[Motion], None]] = []
+        """Called with every new motion (the recorder)."""
+        self.motion = Motion(scheduler.now, scheduler.now, TimeLaw(0.0), (), start)
+        self._history: list[Motion] = []
+        self._planned = _NOT_PLANNED
+        """The law found last: appending asks for it twice."""
+
+    # -- where it is ------------------------------------------------------------------------
+
+    def measured(self) -> Posture:
+        """Axis values now, behind the commanded ones by the servo lag."""
+        now = self._scheduler.now
+        if not self._history:
+            return self.motion.posture(now)
+        then = now - round(self.settings.servo_lag * S)
+        for motion in reversed((*self._history, self.motion)):
+            if motion.since <= then:
+                return motion.posture(then)
+        return self._history[0].posture(then)
+
+    def commanded(self) -> Posture:
+        """Axis values now, as planned."""
+        return self.motion.posture(self._scheduler.now)
+
+    def place(self) -> float:
+        """Where the robot is on its path."""
+        return self.motion.place(self._scheduler.now)
+
+    def planned(self) -> tuple[float, float]:
+        """Place and speed from which on the path may still be planned anew."""
+        return self.motion.planned(self._scheduler.now)
+
+    @property
+    def settled(self) -> int:
+        """When it stands and the settling time is over too, scheduler ns."""
+        return self.motion.end + round(self.settings.settle * S)
+
+    # -- planning ---------------------------------------------------------------------------
+
+    def forget(self) -> None:
+        """Speeds have changed: what was planned ahead does not hold."""
+        self._planned = _NOT_PLANNED
+
+    def law(self, pieces: tuple[Piece, ...]) -> TimeLaw | None:
+        """The law over pieces from the present state on; None: it is too fast for them."""
+        now = self._scheduler.now
+        planned_at, planned, law = self._planned
+        if planned is pieces and planned_at == now:
+            return law
+        place, speed = self.planned()
+        rest = 0.0
+        if speed < _STANDING:
+            speed, rest = 0.0, self._rest(place)
+        law = self._plan(pieces, place, speed, rest)
+        self._planned = now, pieces, law
+        return law
+
+    def _rest(self, place: float) -> float:
+        """s until the robot stands, too, where the law does: nothing is planned before that."""
+        now, motion = self._scheduler.now, self.motion
+        if now >= motion.end:
+            return 0.0
+        stood = (now - motion.start) / S - motion.law.time_at(place)
+        return max(0.0, self.ramp - stood)
+
+    def _plan(
+        self, pieces: tuple[Piece, ...], place: float, speed: float, wait: float
+    ) -> TimeLaw | None:
+        limit = min(self.tcp_limit, MANUAL_REDUCED if self.reduced else inf)
+        cap = self.override * (self.refresh if self.refreshed else 1.0)
+        return plan(self._spans(pieces), place, speed, cap, limit, self.ramp, wait)
+
+    def _spans(self, pieces: tuple[Piece, ...]) -> tuple[Span, ...] | list[Span]:
+        if self.ramp <= 0.0 or not pieces:
+            return pieces
+        return smoothing.widened(pieces, pieces[0].start, self.ramp / 2)
+
+    def replan(self, path: Path) -> bool:
+        """Go from the present state to the end of the path; False: it is there."""
+        path.prune(self.place())
+        place, _ = self.planned()
+        if not path.pieces or path.end <= place:
+            return False
+        law = self.law(path.pieces)
+        if law is not None:
+            self.run(law, path)
+            return True
+        # It brakes to a stop that cannot be taken back; then on from there.
+        stop = self.motion.law
+        onwards = self._plan(path.pieces, stop.place, 0.0, 0.0)
+        assert onwards is not None  # from rest every limit can be kept
+        self.put(stop.then(onwards, self.ramp), self.motion.start, path)
+        return True
+
+    def brake(self, path: Path, quick: bool) -> None:
+        """Slow down to a standstill on the path."""
+        path.prune(self.place())
+        factor = self.settings.quick_factor if quick else 1.0
+        self.run(brake(self._spans(path.pieces), *self.planned(), factor), path)
+
+    def coast(self, path: Path, joints: Sequence[Joint]) -> None:
+        """Stop each axis by its brake; the law tells where on the path it should have been."""
+        now, factor = self._scheduler.now, self.settings.quick_factor
+        before = self.motion.posture(max(self.motion.since, moment_before(now)))
+        stop = coast(now, self.commanded(), before, joints, factor)
+        path.prune(self.place())
+        law = brake(self._spans(path.pieces), *self.planned(), factor)
+        self.run(law, path, stop)
+
+    def run(self, law: TimeLaw, path: Path, stop: Coast | None = None) -> None:
+        """A law holds from now on; what was planned until now is still felt."""
+        now = self._scheduler.now
+        before = self.motion
+        if now < before.end:
+            law = law.after(before.law, (now - before.start) / S, self.ramp)
+        self.put(law, now, path, None if stop is None else stop.posture(stop.end), stop)
+
+    def put(
+        self,
+        law: TimeLaw,
+        start: int,
+        path: Path,
+        rest: Posture | None = None,
+        stop: Coast | None = None,
+    ) -> None:
+        """A law that began at `start` and ends at a place of the path, unless at `rest`."""
+        if rest is None:
+            rest = path.target if law.place >= path.end else path.at(law.place)
+        now = self._scheduler.now
+        self.forget()
+        if self.settings.servo_lag > 0:
+            old = now - round(self.settings.servo_lag * S)
+            later = [m for m in self._history if m.since > old]
+            kept = self._history[-len(later) - 1 :] if self._history else []
+            self._history = [*kept, self.motion]
+        legs = tuple((leg.end, leg.move) for leg in path.legs)
+        self.motion = Motion(now, start, law, path.pieces, rest, legs, self.ramp, stop)
+        for observer in self.observers:
+            observer(self.motion)

@@ -1,0 +1,192 @@
+"""Legs: one move instruction each, placed on the path; joint ways."""
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import inf
+from typing import Protocol
+
+from rapidgen.axes import frames
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.config.model import MotionGroup
+from rapidgen.motion.moves import (
+    Carrier,
+    JointMove,
+    Measure,
+    Move,
+    Posture,
+    largest,
+    nominal_time,
+)
+from rapidgen.motion.pieces import AxisLimits, JointLine, Piece
+from rapidgen.motion.timed import SHORTEST, timed
+
+_CHORDS = 4
+"""Straight parts that stand for the TCP's way in a joint move."""
+
+
+class Geometry(Protocol):
+    """The way of one move in its own nominal time, 0 to `duration`."""
+
+    duration: float
+    measure: Measure
+    limits: AxisLimits
+    strength: float
+    """Acceleration that the axes allow, in ways per s^2."""
+
+    @property
+    def target(self) -> Posture:
+        """Where it ends."""
+
+    @property
+    def tcp(self) -> float:
+        """m that the TCP goes in a nominal s."""
+
+    def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
+        """The path pieces from `start` to `end` of a leg that begins at `begin`."""
+
+    def posture(self, time: float) -> Posture:
+        """Axis values at a nominal time of the way."""
+
+
+@dataclass(slots=True, eq=False)
+class Leg:
+    """One move on the path. Places are nominal s along the whole path."""
+
+    move: Move
+    way: Geometry
+    begin: float
+    end: float
+    left: float = field(default=0.0)
+    """Place at which the robot has left this leg: behind the corner at its end."""
+    released: bool = False
+    """The program may go on."""
+    committed: bool = False
+    """No successor came in time: the point is a stop."""
+    finished: bool = False
+    """Reached (a stop point) or passed."""
+    cleared: bool = False
+    """Taken off the path before it was finished."""
+    began: float | None = None
+    """Scheduler time (s) of its beginning, when that was from a standstill."""
+    passed_at: float | None = None
+    """Scheduler time (s) at which its end was passed."""
+
+    @property
+    def stops(self) -> bool:
+        """Whether the robot stands at the end."""
+        return self.move.zone.fine or self.committed
+
+
+class JointWay:
+    """All axes together on a straight line in joint space."""
+
+    __slots__ = (
+        "_peak",
+        "duration",
+        "limits",
+        "measure",
+        "origin",
+        "rates",
+        "strength",
+        "target",
+    )
+
+    def __init__(
+        self,
+        origin: Posture,
+        target: Posture,
+        duration: float,
+        measure: tuple[Measure, float],
+        limits: AxisLimits,
+        strength: float,
+    ) -> None:
+        self.strength = strength
+        self.origin = origin
+        self.target = target
+        self.duration = duration
+        self.measure, self._peak = measure
+        self.limits = limits
+        self.rates = tuple([(b - a) / duration for a, b in zip(origin, target, strict=True)])
+
+    @property
+    def tcp(self) -> float:
+        """m that the TCP goes in a nominal s."""
+        return self._peak / self.duration
+
+    def posture(self, time: float) -> Posture:
+        """Axis values at a nominal time of the way."""
+        return tuple([q + r * time for q, r in zip(self.origin, self.rates, strict=True)])
+
+    def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
+        """One straight piece."""
+        return [JointLine(start, end, begin, self.origin, self.rates, self.limits, self.tcp)]
+
+
+def joint_way(
+    origin: Posture,
+    move: JointMove,
+    measure: tuple[Measure, float],
+    limits: AxisLimits,
+    *,
+    from_rest: bool,
+) -> JointWay:
+    """The way of a joint move. `\\T` includes the ramps at ends where the robot stands."""
+    deltas = [b - a for a, b in zip(origin, move.target, strict=True)]
+    fastest = max(abs(d) / v for d, v in zip(deltas, limits.speeds, strict=True))
+    strongest = min(
+        (a / abs(d) for d, a in zip(deltas, limits.accelerations, strict=True) if d), default=inf
+    )
+    if move.time is None:
+        duration = max(fastest, nominal_time(measure[0], move.speed), SHORTEST)
+    else:
+        rests = from_rest + move.zone.fine
+        total = move.time - rests * limits.ramp / 2
+        duration = timed(total, fastest, strongest, rests / 2)
+    return JointWay(origin, move.target, duration, measure, limits, strongest)
+
+
+def lever_measure(
+    group: MotionGroup, origin: Posture, target: Posture, lever: float
+) -> tuple[Measure, float]:
+    """How far a joint move goes when the robot has no geometry, twice: evenly on the way.
+
+    Each robot axis swings the TCP on an arm of `lever` m; the largest swing counts.
+    """
+    robot, turns, linear, rotary = [0.0], [0.0], [0.0], [0.0]
+    for joint, a, b in zip(group.joints, origin, target, strict=True):
+        if joint.axis.startswith("rax"):
+            robot.append((b - a) * lever if joint.kind == "revolute" else b - a)
+            if joint.kind == "revolute":
+                turns.append(b - a)
+        elif joint.kind == "revolute":
+            rotary.append(b - a)
+        else:
+            linear.append(b - a)
+    way = largest(robot)
+    return Measure(way, largest(turns), largest(linear), largest(rotary)), way
+
+
+def joint_measure(
+    kinematics: Kinematics, carrier: Carrier, origin: Posture, target: Posture
+) -> tuple[Measure, float]:
+    """How far a joint move goes, and the largest way of the TCP per share of the move.
+
+    The TCP's way is that of its chords, extrapolated from halves to quarters (its error falls
+    with the fourth power of their length).
+    """
+    poses = []
+    for k in range(_CHORDS + 1):
+        share = k / _CHORDS
+        posture = tuple([a + (b - a) * share for a, b in zip(origin, target, strict=True)])
+        poses.append(carrier.at(posture).pose(kinematics.forward(posture)))
+    chords = [frames.distance(a[0], b[0]) for a, b in pairwise(poses)]
+    coarse = sum(frames.distance(a[0], b[0]) for a, b in pairwise(poses[::2]))
+    fine = sum(chords)
+    way = fine + (fine - coarse) / 3
+    turn = sum(frames.angle_between(a[1], b[1]) for a, b in pairwise(poses))
+    linear, rotary = [0.0], [0.0]
+    for joint, a, b in zip(kinematics.group.joints, origin, target, strict=True):
+        if joint.axis.startswith("eax"):
+            (rotary if joint.kind == "revolute" else linear).append(b - a)
+    peak = max(chords) * _CHORDS * way / fine if fine > 0 else 0.0
+    return Measure(way, turn, largest(linear), largest(rotary)), peak

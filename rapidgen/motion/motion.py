@@ -1,0 +1,73 @@
+"""What a robot does from a moment on: everything that positions depend on."""
+
+from dataclasses import dataclass
+from math import ceil
+
+from rapidgen.machine.scheduler import S
+from rapidgen.motion import smoothing
+from rapidgen.motion.coasting import Coast
+from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.path import posture_at
+from rapidgen.motion.pieces import Piece
+from rapidgen.motion.timelaw import TimeLaw
+
+
+@dataclass(frozen=True, slots=True)
+class Motion:
+    """A time law over pieces of path. Times are scheduler ns.
+
+    The law is what was planned; the robot follows its mean over the last `ramp` s.
+    """
+
+    since: int
+    """From when on it holds."""
+    start: int
+    """When the law began (before `since` where a braking is only continued)."""
+    law: TimeLaw
+    pieces: tuple[Piece, ...]
+    rest: Posture
+    """Where it ends."""
+    legs: tuple[tuple[float, Move], ...] = ()
+    """The moves on the path and where they end."""
+    ramp: float = 0.0
+    """s in which acceleration builds up (`smoothing.py`); 0: at once."""
+
+    coast: Coast | None = None
+    """The axes' own way to rest when the brakes stop them; the law then tells where on the path
+    the robot should have stopped."""
+
+    @property
+    def end(self) -> int:
+        """When it stands still."""
+        end = self.start
+        if self.law.phases[0]:
+            end += ceil((self.law.duration + self.ramp) * S)
+        return end if self.coast is None else max(end, self.coast.end)
+
+    def planned(self, now: int) -> tuple[float, float]:
+        """Place and speed of the law at a time: from there on it may be planned anew."""
+        return self.law.state((now - self.start) / S)
+
+    def place(self, now: int) -> float:
+        """Where the robot is on the path at a time."""
+        return smoothing.state(self.law, (now - self.start) / S, self.ramp)[0]
+
+    def time_at(self, place: float) -> float:
+        """When the robot reaches a place, scheduler s; the standstill for places not reached."""
+        return self.start / S + smoothing.time_at(self.law, place, self.ramp)
+
+    def posture(self, now: int) -> Posture:
+        """Axis values at a time."""
+        if now >= self.end:
+            return self.rest
+        if self.coast is not None:
+            return self.coast.posture(now)
+        return posture_at(self.pieces, self.place(now), self.rest)
+
+    def move(self, now: int) -> Move | None:
+        """The move under way at a time, or the last one that was."""
+        place = self.place(now)
+        for end, move in self.legs:
+            if place <= end:
+                return move
+        return self.legs[-1][1] if self.legs else None

@@ -1,0 +1,202 @@
+"""The path of one robot: legs and pieces in order, extended at its end, cut at a stop.
+
+Pure bookkeeping of places; when anything happens is the business of `group.py`.
+"""
+
+from collections import deque
+from collections.abc import Callable
+
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.motion.corners import corner
+from rapidgen.motion.legs import Geometry, Leg
+from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.pieces import AxisLimits, JointLine, Piece
+from rapidgen.motion.timelaw import TimeLaw
+
+WayMaker = Callable[[Posture, Move, bool], Geometry]
+"""(from, move, from rest) -> geometry of the move."""
+Planner = Callable[[tuple[Piece, ...]], TimeLaw | None]
+"""The time law over pieces from the robot's present state; None when there is none."""
+_SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
+REGAIN_SPEED = 0.1
+"""Share of the axes' speed at which the robot returns to its path."""
+NOTHING_M = 1e-9
+"""rad or m of an axis below which a move goes nowhere."""
+
+
+class Path:
+    """Pieces from the one that the robot is on, and the legs that it has not finished."""
+
+    __slots__ = ("_back", "end", "legs", "pieces", "tail", "target")
+
+    def __init__(self, posture: Posture) -> None:
+        self.pieces: tuple[Piece, ...] = ()
+        self.legs: deque[Leg] = deque()
+        self.tail: Leg | None = None
+        """The last leg while its end may still become a corner."""
+        self.end = 0.0
+        self.target = posture
+        """Where the path ends."""
+        self._back: Piece | None = None
+        """The way back to the path, when it is the first piece."""
+
+    def extend(
+        self,
+        move: Move,
+        make: WayMaker,
+        plan: Planner,
+        limits: AxisLimits,
+        fixed: float,
+        kinematics: Kinematics | None = None,
+    ) -> tuple[Leg, bool]:
+        """Append a move. Nothing before the place `fixed` changes.
+
+        The corner at the tail takes the programmed zone; where the robot is too fast for it
+        the zone shrinks, and as the last resort the point becomes a stop. Returns the leg and
+        whether that happened (a corner path failure). A corner so sharp that a stop is quicker
+        is a stop, too.
+        """
+        tail = self.tail
+        sharp = False
+        if tail is not None and not tail.stops:
+            way = make(self.target, move, False)
+            for size in _SHRINK:
+                bend = corner(tail, way, size, limits, kinematics)
+                if bend is None:
+                    break
+                start, end, between = bend
+                if start < fixed:
+                    continue
+                leg = Leg(move, way, tail.end, tail.end + way.duration)
+                before = self._until(start)
+                after = limits.slow(way.pieces(leg.begin, end, leg.end))
+                sharp = _slower_than_a_stop([*before[-1:], *after[:1]], between, limits.ramp)
+                if sharp:
+                    break
+                pieces = (*before, *limits.slow(between), *after)
+                if plan(pieces) is None:
+                    continue
+                tail.left = end
+                self._take(leg, pieces)
+                return leg, False
+        failed = tail is not None and not tail.stops
+        if tail is not None and failed:
+            tail.committed = True
+        leg, pieces = self._from_rest(move, make, limits)
+        self._take(leg, pieces)
+        return leg, failed and not sharp
+
+    def _from_rest(
+        self, move: Move, make: WayMaker, limits: AxisLimits
+    ) -> tuple[Leg, tuple[Piece, ...]]:
+        way = make(self.target, move, True)
+        leg = Leg(move, way, self.end, self.end + way.duration)
+        before = self.pieces
+        if before:
+            last = before[-1]
+            before = (*before[:-1], last.until(last.end, stop=True))
+        return leg, (*before, *limits.slow(way.pieces(leg.begin, leg.begin, leg.end)))
+
+    def _take(self, leg: Leg, pieces: tuple[Piece, ...]) -> None:
+        leg.left = leg.end
+        self.pieces = pieces
+        self.legs.append(leg)
+        self.tail = leg
+        self.end = leg.end
+        self.target = leg.way.target
+
+    def _until(self, place: float) -> tuple[Piece, ...]:
+        kept = [piece for piece in self.pieces if piece.start < place]
+        if kept and kept[-1].end > place:
+            kept[-1] = kept[-1].until(place)
+        return tuple(kept)
+
+    def passed(self, place: float) -> list[Leg]:
+        """Legs that the robot has left or whose stop point it has reached; they are taken off."""
+        done = []
+        while self.legs and place >= self.legs[0].left - 1e-9:
+            leg = self.legs[0]
+            if leg is self.tail and not leg.stops:
+                break  # its end is only passed once it is known what follows
+            done.append(self.legs.popleft())
+        return done
+
+    def prune(self, place: float) -> None:
+        """Forget pieces behind the robot."""
+        keep = 0
+        while keep < len(self.pieces) - 1 and self.pieces[keep].end <= place:
+            keep += 1
+        if keep:
+            self.pieces = self.pieces[keep:]
+
+    def cut(self, place: float) -> list[Leg]:
+        """Let the path end at `place`; returns the legs that are lost."""
+        lost = list(self.legs)
+        self.legs.clear()
+        self.tail = None
+        if place < self.end:
+            self.target = self.at(place)
+        self.pieces = self._until(place)
+        if self.pieces:
+            last = self.pieces[-1]
+            self.pieces = (*self.pieces[:-1], last.until(last.end, stop=True))
+        self.end = place
+        return lost
+
+    def regain(self, here: Posture, place: float, limits: AxisLimits) -> float:
+        """Put a joint line from `here` to the path's `place` before it; returns where it begins.
+
+        `place` itself when the robot is there. An earlier way back is forgotten.
+        """
+        if self.pieces and self.pieces[0] is self._back:
+            place = self._back.end
+            self.pieces = self.pieces[1:]
+        self._back = None
+        self.prune(place)
+        there = self.at(place)
+        reach = max(abs(b - a) / v for a, b, v in zip(here, there, limits.speeds, strict=True))
+        if reach < NOTHING_M or not self.pieces:
+            return place
+        duration = reach / REGAIN_SPEED
+        rates = tuple([(b - a) / duration for a, b in zip(here, there, strict=True)])
+        start = place - duration
+        back = JointLine(start, place, start, here, rates, limits, 0.0)
+        self._back = back.until(place, stop=True)
+        self.pieces = (self._back, self.pieces[0].since(place), *self.pieces[1:])
+        return start
+
+    def way_back(self, place: float) -> tuple[Posture, Posture] | None:
+        """Begin and end of the way back to the path; None when the robot's place is not on it."""
+        back = self._back
+        if back is None or place >= back.end:
+            return None
+        return back.at(back.start), back.at(back.end)
+
+    def at(self, place: float) -> Posture:
+        """Axis values at a place."""
+        return posture_at(self.pieces, place, self.target)
+
+
+def _slower_than_a_stop(beside: list[Piece], between: list[Piece], ramp: float) -> bool:
+    """Whether the ramp makes a corner slower than a stop.
+
+    The corner's speed c holds half a ramp before and behind it, which takes ramp (1/c - 1) longer;
+    a stop takes the ramp, and the time of slowing down and speeding up, 1/a.
+    """
+    c = min(piece.speed for piece in between)
+    a = min(piece.acceleration for piece in beside)
+    return ramp * (1 / c - 2) > 1 / a
+
+
+def posture_at(pieces: tuple[Piece, ...], place: float, rest: Posture) -> Posture:
+    """Axis values at a place of these pieces; `rest` where there is no piece."""
+    if not pieces:
+        return rest
+    low, high = 0, len(pieces) - 1
+    while low < high:
+        middle = (low + high) // 2
+        if pieces[middle].end < place:
+            low = middle + 1
+        else:
+            high = middle
+    return pieces[low].at(place)

@@ -1,0 +1,50 @@
+"""Events on the path that are still to come, and when each of them is due."""
+
+from math import inf
+
+from rapidgen.motion.legs import Leg
+from rapidgen.motion.motion import Motion
+from rapidgen.motion.moves import NO_WAY, From, PathEvent
+
+_Entry = tuple[Leg, PathEvent]
+
+
+class PathEvents:
+    """What TriggIO and its relatives have put on the legs of one path."""
+
+    __slots__ = ("_waiting",)
+
+    def __init__(self) -> None:
+        self._waiting: list[_Entry] = []
+
+    def add(self, leg: Leg) -> None:
+        """The events of a move that is now on the path."""
+        self._waiting += [(leg, event) for event in leg.move.events]
+
+    def times(self, motion: Motion) -> list[float]:
+        """Scheduler s of all that this motion reaches."""
+        return [when for entry in self._waiting if (when := _when(entry, motion)) < inf]
+
+    def fire(self, motion: Motion, now: float) -> None:
+        """Do what is due. An act may change the motion: what is due is decided before."""
+        if not self._waiting:
+            return
+        due = [entry for entry in self._waiting if _when(entry, motion) <= now]
+        self._waiting = [e for e in self._waiting if e not in due and not e[0].cleared]
+        for _, event in due:
+            event.act()
+
+
+def _when(entry: _Entry, motion: Motion) -> float:
+    """Scheduler s of an event; infinite when the motion stops short of it."""
+    leg, event = entry
+    place = leg.end
+    if event.where in (From.END, From.START):
+        length = leg.way.measure.tcp
+        share = min(1.0, event.amount / length) if length > NO_WAY else 0.0
+        way = share * (leg.end - leg.begin)
+        place = leg.begin + way if event.where is From.START else leg.end - way
+    early = event.lag + (event.amount if event.where is From.BEFORE_END else 0.0)
+    if motion.law.place < place - 1e-9:
+        return inf
+    return motion.time_at(place) - early

@@ -1,0 +1,181 @@
+"""Recording motion: commanded and measured axes, TCP and pointers, sampled when asked for.
+
+While it runs a recorder only keeps each new motion (a few a move); samples are computed from
+the formulas afterwards, at any period.
+"""
+
+import csv
+from bisect import bisect_right
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from rapidgen.axes import frames
+from rapidgen.machine.scheduler import S, Scheduler
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.motion import Motion
+from rapidgen.motion.moves import Move
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+_ACTUAL = "actual_"
+_TCP = ["x", "y", "z", "q1", "q2", "q3", "q4"]
+_POINTERS = ["program_pointer", "motion_pointer"]
+PERIOD = 0.004
+"""s between samples: that of the controller's own motion interface."""
+
+
+@dataclass(frozen=True, slots=True)
+class Recording:
+    """Samples of one group. Rows are samples; units rad and m, s from the controller's start."""
+
+    joints: tuple[str, ...]
+    time: "npt.NDArray[np.float64]"
+    commanded: "npt.NDArray[np.float64]"
+    actual: "npt.NDArray[np.float64]"
+    tcp: "npt.NDArray[np.float64] | None"
+    """x y z q1 q2 q3 q4 of the commanded TCP in the world; None without geometry."""
+    program_pointer: tuple[str, ...]
+    """The move instruction that the program had reached, empty before the first."""
+    motion_pointer: tuple[str, ...]
+    """The move instruction that the robot was executing."""
+
+    def write_csv(self, path: Path | str) -> None:
+        """One row a sample, with a header; `read_recording` and `rapidgen plot` read it."""
+        header = ["time", *self.joints, *(f"{_ACTUAL}{name}" for name in self.joints)]
+        if self.tcp is not None:
+            header += _TCP
+        header += _POINTERS
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            writer = csv.writer(file)
+            writer.writerow(header)
+            for i, time in enumerate(self.time):
+                row = [f"{time:.6f}", *_digits(self.commanded[i]), *_digits(self.actual[i])]
+                if self.tcp is not None:
+                    row += _digits(self.tcp[i])
+                writer.writerow([*row, self.program_pointer[i], self.motion_pointer[i]])
+
+
+def is_recording(path: Path) -> bool:
+    """Whether a file begins as `Recording.write_csv` does. Raises OSError."""
+    with path.open(encoding="utf-8", errors="replace") as file:
+        return file.readline().rstrip("\n").endswith("," + ",".join(_POINTERS))
+
+
+def read_recording(path: Path) -> Recording:
+    """What `Recording.write_csv` wrote. OSError; ValueError: something else."""
+    import numpy as np  # only who asks for arrays pays for them
+
+    with path.open(newline="", encoding="utf-8") as file:
+        header, *rows = csv.reader(file)
+    joints = tuple(n.removeprefix(_ACTUAL) for n in header if n.startswith(_ACTUAL))
+    count = len(joints)
+    wanted = ["time", *joints, *(f"{_ACTUAL}{name}" for name in joints)]
+    tcp = header[len(wanted) : -2] == _TCP
+    if header != [*wanted, *(_TCP if tcp else ()), *_POINTERS]:
+        raise ValueError("the header is not that of a recording")
+    if any(len(row) != len(header) for row in rows):
+        raise ValueError("a row has not as many values as the header")
+    values = np.array([row[:-2] for row in rows], dtype=np.float64).reshape(len(rows), -1)
+    return Recording(
+        joints=joints,
+        time=values[:, 0],
+        commanded=values[:, 1 : 1 + count],
+        actual=values[:, 1 + count : 1 + 2 * count],
+        tcp=values[:, 1 + 2 * count :] if tcp else None,
+        program_pointer=tuple(row[-2] for row in rows),
+        motion_pointer=tuple(row[-1] for row in rows),
+    )
+
+
+class Recorder:
+    """Watches one group from its making until `stop()`."""
+
+    def __init__(self, scheduler: Scheduler, group: MotionGroup) -> None:
+        self._scheduler = scheduler
+        self._group = group
+        self._start = scheduler.now
+        self._end: int | None = None
+        self._motions: list[Motion] = [group.motion]
+        self._moves: list[tuple[int, Move]] = []
+        group.observers.append(self._moved)
+        group.listeners.append(self._heard)
+
+    def _moved(self, motion: Motion) -> None:
+        self._motions.append(motion)
+
+    def _heard(self, move: Move) -> None:
+        self._moves.append((self._scheduler.now, move))
+
+    def stop(self) -> None:
+        """End the recording; harmless when it has ended."""
+        if self._end is None:
+            self._end = self._scheduler.now
+            self._group.observers.remove(self._moved)
+            self._group.listeners.remove(self._heard)
+
+    def recording(self, period: float = PERIOD) -> Recording:
+        """Samples every `period` s from the start until now or the end."""
+        import numpy as np  # only who asks for arrays pays for them
+
+        end = self._scheduler.now if self._end is None else self._end
+        step = max(1, round(period * S))
+        times = range(self._start, end + 1, step)
+        lag = round(self._group.settings.servo_lag * S)
+        motions = [self._at(time) for time in times]
+        commanded = [m.posture(t) for m, t in zip(motions, times, strict=True)]
+        actual = commanded
+        if lag:
+            delayed = [max(self._start, t - lag) for t in times]
+            actual = [self._at(t).posture(t) for t in delayed]
+        moves = [m.move(t) for m, t in zip(motions, times, strict=True)]
+        tcp = None
+        kinematics = self._group.kinematics
+        if kinematics is not None:
+            rows = []
+            for posture, move in zip(commanded, moves, strict=True):
+                pose = kinematics.forward(posture)
+                if move is not None and not move.carrier.stationary:
+                    pose = frames.compose(pose, move.carrier.tool)
+                rows.append((*pose[0], *pose[1]))
+            tcp = np.array(rows, dtype=np.float64)
+        starts = [time for time, _ in self._moves]
+        pointers = [bisect_right(starts, time) - 1 for time in times]
+        return Recording(
+            joints=tuple(joint.name for joint in self._group.config.joints),
+            time=np.array([t / S for t in times]),
+            commanded=np.array(commanded, dtype=np.float64),
+            actual=np.array(actual, dtype=np.float64),
+            tcp=tcp,
+            program_pointer=tuple(_names(self._moves[i][1] if i >= 0 else None for i in pointers)),
+            motion_pointer=tuple(_names(moves)),
+        )
+
+    def _at(self, time: int) -> Motion:
+        index = bisect_right(self._motions, time, key=_since) - 1
+        return self._motions[max(0, index)]
+
+
+def _since(motion: Motion) -> int:
+    return motion.since
+
+
+def _names(moves: Iterable[Move | None]) -> list[str]:
+    known: dict[Callable[[], object], str] = {}
+    found = []
+    for move in moves:
+        where = move.place if move is not None else None
+        if where is None:
+            found.append("")
+            continue
+        if where not in known:
+            known[where] = str(where() or "")
+        found.append(known[where])
+    return found
+
+
+def _digits(values: "npt.NDArray[np.float64]") -> list[str]:
+    return [f"{value:.9f}" for value in values]

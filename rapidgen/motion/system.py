@@ -1,0 +1,80 @@
+"""All motion groups of one controller, and which task moves which."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.machine.io import IOSystem
+from rapidgen.machine.log import EventLog
+from rapidgen.machine.scheduler import Scheduler
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.recorder import Recorder
+from rapidgen.motion.settings import MotionSettings
+
+if TYPE_CHECKING:
+    from rapidgen.runtime.builtins.motion.together import Gathering
+
+
+class MotionSystem:
+    """The motion side of a controller: `group(name)`, `of_task(name)`."""
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        robots: Iterable[GroupConfig],
+        log: EventLog,
+        io: IOSystem,
+        settings: MotionSettings | None = None,
+    ) -> None:
+        self._scheduler = scheduler
+        self._settings = settings if settings is not None else MotionSettings()
+        self.groups: dict[str, MotionGroup] = {
+            config.name: MotionGroup(config, scheduler, log, io, self._settings)
+            for config in robots
+        }
+        self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
+        self._moving = set(self._tasks)
+        self.gatherings: dict[tuple[frozenset[str], float], Gathering] = {}
+        """Tasks that wait for each other at moves of one \\ID, by partners and \\ID."""
+
+    @property
+    def settings(self) -> MotionSettings:
+        """The switches of docs/motion-model.md; set them before anything moves."""
+        return self._settings
+
+    @settings.setter
+    def settings(self, value: MotionSettings) -> None:
+        self._settings = value
+        for group in self.groups.values():
+            group.settings = value
+
+    def group(self, name: str) -> MotionGroup:
+        """The group of that name. KeyError: there is none."""
+        return self.groups[name]
+
+    def record(self) -> dict[str, Recorder]:
+        """Start recording every group; see `recorder.py`."""
+        return {name: Recorder(self._scheduler, group) for name, group in self.groups.items()}
+
+    def assign(self, task: str, group: str, *, moving: bool = False) -> None:
+        """Let a task act on a group (UseMechanicalUnitGroup of a background task).
+
+        `moving`: it is a motion task, whatever the robot's configuration calls its own.
+        """
+        self._tasks[task.lower()] = self.groups[group]
+        if moving:
+            self._moving.add(task.lower())
+
+    def of_task(self, task: str) -> MotionGroup | None:
+        """The group that a task moves or is connected to.
+
+        A task without a connection of its own gets the only group of a one-robot controller.
+        """
+        found = self._tasks.get(task.lower())
+        if found is None and len(self.groups) == 1:
+            return next(iter(self.groups.values()))
+        return found
+
+    def is_motion_task(self, task: str) -> bool:
+        """Whether a task may execute move instructions."""
+        return task.lower() in self._moving

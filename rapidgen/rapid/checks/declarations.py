@@ -1,0 +1,345 @@
+"""Declarations: types, records, data, parameters, routines [K §2.11-2.24, 5]."""
+
+from typing import Final
+
+from rapidgen.rapid.checks.flow import FlowChecker
+from rapidgen.rapid.checks.labels import bodies, check_labels, flat
+from rapidgen.rapid.checks.symbols import Symbol, array
+from rapidgen.rapid.syntax.nodes import (
+    Aggregate,
+    AliasDeclaration,
+    Binary,
+    BoolLiteral,
+    DataDeclaration,
+    Expression,
+    FunctionCall,
+    Index,
+    LateCall,
+    Member,
+    Name,
+    NumberLiteral,
+    Parameter,
+    Parenthesis,
+    Placeholder,
+    RecordDeclaration,
+    RoutineDeclaration,
+    StringLiteral,
+    Unary,
+)
+
+_MAX_DEGREE: Final = 3
+
+
+class ModuleChecker(FlowChecker):
+    """Checks one module."""
+
+    def module(self) -> None:
+        """Everything in the module."""
+        for declaration in self.scope.module.declarations:
+            if isinstance(declaration, DataDeclaration):
+                self._data(declaration, routine=False)
+            elif isinstance(declaration, RoutineDeclaration):
+                self._routine(declaration)
+            elif isinstance(declaration, RecordDeclaration):
+                self._record(declaration)
+            elif isinstance(declaration, AliasDeclaration):
+                self._alias(declaration)
+        self._unused_local()
+
+    def _type(self, name: str, at: int) -> str | None:
+        """Base of a declared type; reports a name that is no type."""
+        symbol = self.find(name)
+        if symbol is None:
+            self.unknown("type", name, at, certain=self.given.judges_routines)
+            return None
+        if symbol.kind not in ("RECORD", "ALIAS", "TYPE") or symbol.name == "anytype":
+            self.report(
+                "RG303",
+                f"'{symbol.name}' is no type",
+                at,
+                label=f"a {symbol.kind}",
+                related=self.declared(symbol),
+            )
+            return None
+        if name.lower() == "dnum" and not self.given.dialect.has_dnum:
+            self.report("RG325", "dnum came with RobotWare 5.12", at)
+        return self.scope.base(name)
+
+    # -- types ---------------------------------------------------------------------------
+
+    def _record(self, node: RecordDeclaration) -> None:
+        seen: set[str] = set()
+        for component in node.components:
+            key = component.name.lower()
+            if key in seen:
+                self.report("RG327", f"the component '{component.name}' is there twice", component)
+            seen.add(key)
+            base = self._type(component.type, component.first)
+            if base is None:
+                continue
+            if base == node.name.lower():
+                self.report("RG327", f"the record '{node.name}' contains itself", component)
+            elif base == "switch" or self.scope.type_class(base) == "semivalue":
+                self.report(
+                    "RG327",
+                    f"a component cannot be {component.type}",
+                    component,
+                    notes=("no signals in records [K §2.14]",),
+                )
+
+    def _alias(self, node: AliasDeclaration) -> None:
+        target = self.find(node.type)
+        self._type(node.type, node.last - 2)
+        if target is not None and target.kind == "ALIAS":
+            self.report(
+                "RG327",
+                f"'{node.type}' is itself an alias",
+                node,
+                help=f"name its base type: ALIAS {target.type} {node.name};",
+                notes=("no alias of an alias [K §2.15]",),
+            )
+
+    # -- data ----------------------------------------------------------------------------
+
+    def _data(self, node: DataDeclaration, *, routine: bool) -> None:
+        type_token = node.name_token - 1
+        base = self._type(node.type, type_token)
+        self._dimensions(node)
+        if node.kind == "PERS":
+            self._persistent(node, routine=routine)
+        if base == "switch":
+            self.report("RG303", "switch is for optional parameters only", type_token)
+            return
+        kind = self.scope.type_class(base) if base else "value"
+        if kind in ("nonvalue", "semivalue") and (node.kind != "VAR" or node.initial is not None):
+            message = (
+                f"a {node.kind} cannot be of type {node.type}"
+                if node.kind != "VAR"
+                else f"{node.type} takes no initial value"
+            )
+            self.report(
+                "RG309",
+                message,
+                type_token,
+                help=f"declare VAR {node.type} {node.name};",
+                notes=("value classes [K §2.16]",),
+            )
+            return
+        initial = node.initial
+        if initial is None:
+            return
+        if node.kind == "PERS":
+            self._literal(initial)
+        else:
+            self._constant_expression(initial)
+        wanted = array(base, len(node.dimensions)) if base else None
+        self.expect(initial, wanted, "the initial value")
+        self.members_of(initial, [self.constant(size) for size in node.dimensions])
+
+    def _persistent(self, node: DataDeclaration, *, routine: bool) -> None:
+        if routine:
+            self.report(
+                "RG329",
+                "a routine has no PERS of its own",
+                node.name_token - 2,
+                help="declare it at the head of the module",
+                notes=("[K §2.18]",),
+            )
+        elif node.initial is None and node.scope:
+            self.report(
+                "RG317",
+                f"a {node.scope} PERS needs an initial value",
+                node.name_token,
+                notes=("only a system-global PERS may come without one [K §2.23]",),
+            )
+
+    def _dimensions(self, node: DataDeclaration) -> None:
+        if len(node.dimensions) > _MAX_DEGREE:
+            self.report(
+                "RG318",
+                f"an array has at most {_MAX_DEGREE} dimensions",
+                node.dimensions[_MAX_DEGREE],
+                notes=("[K §2.22]",),
+            )
+        for size in node.dimensions:
+            self._constant_expression(size)
+            self.expect(size, "num", "a size")
+            value = self.constant(size)
+            if isinstance(value, int | float) and (value < 1 or value != int(value)):
+                self.report("RG318", f"a size is a whole number from 1, not {value:g}", size)
+
+    def _literal(self, node: Expression) -> None:
+        """A PERS starts from a literal, or an aggregate of literals [K §3.2]."""
+        if isinstance(node, Aggregate):
+            for member in node.members:
+                if type(member) is not NumberLiteral:
+                    self._literal(member)
+            return
+        if isinstance(node, Unary) and node.operator in ("+", "-"):
+            node = node.operand
+        if not isinstance(node, NumberLiteral | StringLiteral | BoolLiteral | Placeholder):
+            self.report(
+                "RG317",
+                "the initial value of a PERS is made of literals only",
+                node,
+                help="write the value itself: its program may change it",
+                notes=("literal expressions [K §3.2]",),
+            )
+
+    def _constant_expression(self, node: Expression) -> None:
+        """No variable, persistent or call at any depth [K §3.1]."""
+        if isinstance(node, NumberLiteral | StringLiteral | BoolLiteral | Placeholder):
+            return
+        if isinstance(node, Aggregate):
+            for member in node.members:
+                self._constant_expression(member)
+        elif isinstance(node, Unary):
+            self._constant_expression(node.operand)
+        elif isinstance(node, Parenthesis):
+            self._constant_expression(node.inner)
+        elif isinstance(node, Binary):
+            self._constant_expression(node.left)
+            self._constant_expression(node.right)
+        elif isinstance(node, FunctionCall):
+            self._not_constant(node, "a function call")
+        elif isinstance(node, Name | Index | Member):
+            root = self.root(node)
+            if root is not None and root.kind in ("VAR", "PERS", "PARAMETER"):
+                self._not_constant(node, f"'{root.name}' ({root.kind})", root)
+
+    def _not_constant(self, node: Expression, what: str, root: Symbol | None = None) -> None:
+        self.report(
+            "RG317",
+            f"{what} cannot stand in a constant expression",
+            node,
+            help="assign it as a statement",
+            notes=("constant expressions [K §3.1, 2.22]",),
+            related=self.declared(root) if root else (),
+        )
+
+    # -- routines ------------------------------------------------------------------------
+
+    def _routine(self, node: RoutineDeclaration) -> None:
+        self.locals = {}
+        self.routine = node
+        self.returns = 0
+        if node.kind == "FUNC" and node.type is not None:
+            self._result(node)
+        for parameter in node.parameters:
+            self._parameter(parameter)
+        for datum in node.data:
+            self._data(datum, routine=True)
+            symbol = Symbol(
+                datum.name, datum.kind, datum.type, len(datum.dimensions), datum, self.scope
+            )
+            self._declare(symbol, datum.name_token)
+        check_labels(self, node)
+        for part, body in bodies(node):
+            self.part = part
+            if part == "ERROR":
+                self._error_numbers(node)
+            alive = self.statements(body)
+            if part == "body" and node.kind == "FUNC" and alive:
+                self._no_return(node)
+        for symbol in self.locals.values():
+            if not symbol.used and isinstance(symbol.node, DataDeclaration):
+                self.warn(
+                    "RG324",
+                    f"'{symbol.name}' is never read",
+                    symbol.node.name_token,
+                    help="remove its declaration",
+                )
+        self.locals = {}
+
+    def _declare(self, symbol: Symbol, at: int) -> None:
+        key = symbol.name.lower()
+        first = self.locals.get(key)
+        if first is not None:
+            self.report(
+                "RG305",
+                f"'{symbol.name}' is declared twice in this routine",
+                at,
+                notes=("parameters count as data of the routine [K §2.20]",),
+                related=self.declared(first),
+            )
+        elif not key.startswith("<"):
+            self.locals[key] = symbol
+
+    def _result(self, node: RoutineDeclaration) -> None:
+        base = self._type(node.type or "", node.name_token - 1)
+        if base is not None and (base == "switch" or self.scope.type_class(base) != "value"):
+            self.report(
+                "RG309",
+                f"a function cannot return {node.type}",
+                node.name_token - 1,
+                notes=("functions return value types [K §5.4]",),
+            )
+
+    def _parameter(self, parameter: Parameter) -> None:
+        if parameter.name.startswith("<"):
+            return
+        symbol = Symbol(
+            parameter.name, "PARAMETER", parameter.type, parameter.dimensions, parameter, self.scope
+        )
+        self._declare(symbol, parameter.name_token)
+        if parameter.dimensions > _MAX_DEGREE:
+            self.report("RG318", "an array has at most 3 dimensions", parameter)
+        type_token = parameter.name_token - 1
+        base = self._type(parameter.type, type_token)
+        if base is None:
+            return
+        if base == "switch":
+            if not parameter.optional or parameter.mode or parameter.dimensions:
+                self.report(
+                    "RG328",
+                    "a switch is an optional parameter without a mode",
+                    parameter,
+                    help=f"write \\switch {parameter.name}",
+                    notes=("[K §5.1]",),
+                )
+        elif parameter.mode != "VAR" and self.scope.type_class(base) in ("nonvalue", "semivalue"):
+            self.report(
+                "RG328",
+                f"a parameter of type {parameter.type} must be VAR",
+                parameter,
+                help=f"write VAR {parameter.type} {parameter.name}",
+                notes=("value classes [K §2.16]",),
+            )
+
+    def _error_numbers(self, node: RoutineDeclaration) -> None:
+        for number in (node.error.numbers or []) if node.error else []:
+            self.expect(number, "num", "the error number")
+
+    def _no_return(self, node: RoutineDeclaration) -> None:
+        if self.returns == 0:
+            self.report(
+                "RG322",
+                f"the function '{node.name}' has no RETURN",
+                node.name_token,
+                help=f"return a value of type {node.type}",
+                notes=("without RETURN a call ends in ERR_FNCNORET [K §5.4, 12]",),
+            )
+        else:
+            self.warn(
+                "RG322",
+                f"the end of the function '{node.name}' can be reached without RETURN",
+                node.name_token,
+                help=f"return a value of type {node.type} on every way",
+            )
+
+    def _unused_local(self) -> None:
+        """LOCAL objects that nothing in the module names; persistents are seen from outside."""
+        late = any(
+            isinstance(statement, LateCall)
+            for routine in self.scope.module.routines
+            for _, body in bodies(routine)
+            for statement in flat(body)
+        )
+        for symbol in self.scope.own.values():
+            if symbol.used or not symbol.local or symbol.kind == "PERS":
+                continue
+            node = symbol.node
+            if isinstance(node, RoutineDeclaration) and not late:
+                self.warn("RG324", f"the LOCAL '{symbol.name}' is never called", node.name_token)
+            elif isinstance(node, DataDeclaration):
+                self.warn("RG324", f"the LOCAL '{symbol.name}' is never read", node.name_token)

@@ -1,0 +1,332 @@
+"""Statements of a routine: types, places where they may stand, and what can be reached.
+
+Each statement function says whether execution can go on behind the statement.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import Final, cast
+
+from rapidgen.rapid.checks.calls import CallChecker
+from rapidgen.rapid.checks.symbols import READ_ONLY, Symbol, degree
+from rapidgen.rapid.syntax.nodes import (
+    Aggregate,
+    Assignment,
+    BoolLiteral,
+    CompactIf,
+    Connect,
+    Exit,
+    Expression,
+    For,
+    Goto,
+    If,
+    Index,
+    Label,
+    LateCall,
+    Member,
+    Name,
+    PlaceholderStatement,
+    ProcedureCall,
+    Raise,
+    Retry,
+    Return,
+    RoutineDeclaration,
+    Statement,
+    Test,
+    TryNext,
+    While,
+)
+
+_ENDING: Final = frozenset(("exitcycle",))
+"""Built-in procedures that never come back."""
+
+
+class FlowChecker(CallChecker):
+    """Checks the statements of one routine at a time."""
+
+    routine: RoutineDeclaration
+    part: str
+    """`body`, `ERROR`, `UNDO` or `BACKWARD`."""
+    returns: int
+
+    def statements(self, body: Sequence[Statement]) -> bool:
+        """Check a list; whether its end can be reached."""
+        alive, told = True, False
+        for statement in body:
+            if type(statement) is Label:
+                alive = True
+                continue
+            if not alive and not told:
+                told = True
+                self.warn(
+                    "RG323",
+                    "this statement cannot be reached",
+                    statement.first,
+                    help="remove it, or what leaves before it",
+                )
+            alive = _CHECKS[type(statement)](self, statement) and alive
+        return alive
+
+    # -- simple --------------------------------------------------------------------------
+
+    def _assignment(self, node: Assignment) -> bool:
+        target = node.target
+        wanted: str | None = None
+        if isinstance(target, Name | Index | Member):
+            root = self.root(target)
+            was_used = root.used if root else False
+            wanted = self.datum(target, self._hint(node))
+            if root is not None:
+                if isinstance(target, Name):
+                    root.used = was_used  # being written is no use
+                self._writable(target, root)
+        if wanted is not None:
+            kind = self.scope.type_class(wanted)
+            if kind in ("nonvalue", "semivalue"):
+                self.report(
+                    "RG309",
+                    f"{wanted} cannot be assigned",
+                    target,
+                    help="signals are set with SetDO, SetAO or SetGO"
+                    if kind == "semivalue"
+                    else "",
+                    notes=("value classes [K §2.16]",),
+                )
+                self.used(node.value)
+                return True
+        self.expect(node.value, wanted, "the value")
+        if wanted is not None and degree(wanted):
+            self.same_sizes(node, target, node.value)
+        return True
+
+    def _hint(self, node: Assignment) -> str | None:
+        """Type of the value, where a literal tells it: for an unknown target."""
+        if isinstance(node.value, BoolLiteral):
+            return "bool"
+        return "robtarget" if isinstance(node.value, Aggregate) else None
+
+    def _writable(self, target: Expression, root: Symbol) -> None:
+        if root.kind == "CONST":
+            why = f"'{root.name}' is a constant"
+        elif root.kind == "LOOP":
+            why = f"the loop variable '{root.name}' is read-only"
+        elif root.kind == "VAR" and root.node is None and root.name.lower() in READ_ONLY:
+            why = f"{root.name} is read-only"
+        else:
+            return
+        self.report(
+            "RG310",
+            f"{why}: it cannot be assigned",
+            target,
+            notes=("assignment targets [K §4.4, 4.15]",),
+            related=self.declared(root),
+        )
+
+    def _call_statement(self, node: ProcedureCall) -> bool:
+        self.call(node)
+        return node.name.lower() not in _ENDING
+
+    def _late(self, node: LateCall) -> bool:
+        self.expect(node.procedure, "string", "the name of the procedure")
+        name = self.constant(node.procedure)
+        # `module:name` may reach a LOCAL procedure of a module that is not looked at here.
+        known = name.removeprefix(":") if isinstance(name, str) else ""
+        symbol = self.find(known) if known and ":" not in known else None
+        if symbol is not None and symbol.kind == "PROC":
+            self.check_arguments(symbol, node)
+            return True
+        if symbol is not None:
+            self.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
+        elif known and ":" not in known and self.given.judges_routines:
+            self.warn(
+                "RG301",
+                f"there is no procedure '{known}'",
+                node.procedure,
+                help="the call would fail with ERR_REFUNKPRC",
+            )
+        for argument in node.arguments:
+            self.loose_argument(argument)
+        return True
+
+    def _holder(self, node: PlaceholderStatement) -> bool:
+        return True
+
+    def _goto(self, node: Goto) -> bool:
+        return False  # labels are looked at for the routine as a whole
+
+    def _return(self, node: Return) -> bool:
+        self.returns += 1
+        routine = self.routine
+        if self.part == "UNDO":
+            self._place(node, "RETURN", "the body, an ERROR or a BACKWARD handler", "4.7")
+        elif routine.kind == "FUNC":
+            if node.value is None:
+                self.report(
+                    "RG321",
+                    f"the function '{routine.name}' must return {routine.type}",
+                    node,
+                    notes=("RETURN in a function has a value [K §4.7]",),
+                )
+        elif node.value is not None:
+            self.report(
+                "RG321",
+                f"a {routine.kind} returns no value",
+                node.value,
+                help="only a FUNC has a value",
+                notes=("RETURN [K §4.7]",),
+            )
+        if node.value is not None:
+            wanted = self.scope.base(routine.type) if routine.type else None
+            if wanted is not None and self.scope.type_class(wanted) != "value":
+                wanted = None  # reported at the head of the function
+            self.expect(node.value, wanted, "the returned value")
+        return False
+
+    def _place(self, node: Statement, word: str, where: str, section: str) -> None:
+        self.report(
+            "RG321",
+            f"{word} stands only in {where}",
+            node,
+            notes=(f"[K §{section}]",),
+        )
+
+    def _raise(self, node: Raise) -> bool:
+        if node.number is None:
+            if self.part != "ERROR":
+                self._place(node, "RAISE without a number", "an ERROR handler", "4.8")
+        else:
+            self.expect(node.number, "num", "the error number")
+            if self.part == "ERROR":
+                # K forbids it, public programs do it: not an error here.
+                self.warn(
+                    "RG321",
+                    "RAISE with a number does not belong in a handler [K §4.8]",
+                    node,
+                    help="RAISE; hands the same error on",
+                )
+            value = self.constant(node.number)
+            if (
+                isinstance(value, int | float)
+                and not 1 <= value <= 90
+                and not isinstance(node.number, Name)
+            ):
+                self.report(
+                    "RG321",
+                    f"an own error number lies in 1 to 90, not {value:g}",
+                    node.number,
+                    help="or book one with BookErrNo",
+                    notes=("any other number becomes ERR_ILLRAISE [K §4.8]",),
+                )
+        return False
+
+    def _retry(self, node: Retry | TryNext) -> bool:
+        if self.part != "ERROR":
+            word = "RETRY" if isinstance(node, Retry) else "TRYNEXT"
+            self._place(node, word, "an ERROR handler", "4.10, 4.11")
+        return False
+
+    def _exit(self, node: Exit) -> bool:
+        return False
+
+    def _connect(self, node: Connect) -> bool:
+        target = node.target
+        if isinstance(target, Name | Index | Member):
+            found = self.datum(target, "num")
+            root = self.root(target)
+            if found is not None and found != "num":
+                self.mismatch(target, "num", found, "the interrupt variable")
+            elif root is not None and root.kind in ("CONST", "PERS", "LOOP"):
+                self.report(
+                    "RG326",
+                    f"'{root.name}' is no variable",
+                    target,
+                    help="declare VAR intnum at the head of the module",
+                    notes=("CONNECT [K §4.12]",),
+                    related=self.declared(root),
+                )
+            elif root is not None and root.kind == "VAR" and root.name.lower() in self.locals:
+                self.warn(
+                    "RG326",
+                    f"the interrupt variable '{root.name}' ends with its routine",
+                    target,
+                    help="declare it at the head of the module",
+                )
+        trap = self.find(node.trap)
+        if trap is None:
+            self.unknown("trap", node.trap, node.last - 1, certain=self.given.judges_routines)
+        elif trap.kind != "TRAP":
+            self.report(
+                "RG306", f"'{trap.name}' is no trap", node.last - 1, related=self.declared(trap)
+            )
+        return True
+
+    # -- compound ------------------------------------------------------------------------
+
+    def _if(self, node: If) -> bool:
+        alive = False
+        for branch in node.branches:
+            self.expect(branch.condition, "bool", "the condition")
+            alive = self.statements(branch.body) or alive
+        if node.otherwise is None:
+            return True
+        return self.statements(node.otherwise) or alive
+
+    def _compact_if(self, node: CompactIf) -> bool:
+        self.expect(node.condition, "bool", "the condition")
+        _CHECKS[type(node.statement)](self, node.statement)
+        return True
+
+    def _for(self, node: For) -> bool:
+        self.expect(node.start, "num", "the start")
+        self.expect(node.end, "num", "the end")
+        if node.step is not None:
+            self.expect(node.step, "num", "the step")
+            if self.constant(node.step) == 0:
+                self.warn("RG319", "a step of 0 never comes to an end", node.step)
+        key = node.variable.lower()
+        hidden = self.locals.get(key)
+        self.locals[key] = Symbol(node.variable, "LOOP", "num", resolved="num", known=True)
+        self.statements(node.body)
+        if hidden is None:
+            del self.locals[key]
+        else:
+            self.locals[key] = hidden
+        return True
+
+    def _while(self, node: While) -> bool:
+        self.expect(node.condition, "bool", "the condition")
+        self.statements(node.body)
+        return not (isinstance(node.condition, BoolLiteral) and node.condition.value)
+
+    def _test(self, node: Test) -> bool:
+        subject = self.type_of(node.subject)
+        alive = False
+        for case in node.cases:
+            for value in case.values:
+                self.expect(value, subject if subject != "aggregate" else None, "the CASE value")
+            alive = self.statements(case.body) or alive
+        if node.default is None:
+            return True
+        return self.statements(node.default) or alive
+
+
+_CHECKS: Final = cast(
+    "dict[type, Callable[[FlowChecker, Statement], bool]]",
+    {
+        Assignment: FlowChecker._assignment,
+        ProcedureCall: FlowChecker._call_statement,
+        LateCall: FlowChecker._late,
+        If: FlowChecker._if,
+        CompactIf: FlowChecker._compact_if,
+        For: FlowChecker._for,
+        While: FlowChecker._while,
+        Test: FlowChecker._test,
+        Goto: FlowChecker._goto,
+        Return: FlowChecker._return,
+        Raise: FlowChecker._raise,
+        Retry: FlowChecker._retry,
+        TryNext: FlowChecker._retry,
+        Exit: FlowChecker._exit,
+        Connect: FlowChecker._connect,
+        PlaceholderStatement: FlowChecker._holder,
+    },
+)

@@ -1,0 +1,118 @@
+"""Labels and GOTO: a GOTO may leave a list of statements, but not enter one [K §4.3, 4.6]."""
+
+from collections.abc import Iterator, Sequence
+
+from rapidgen.rapid.checks.flow import FlowChecker
+from rapidgen.rapid.checks.given import closest
+from rapidgen.rapid.syntax.nodes import (
+    CompactIf,
+    For,
+    Goto,
+    If,
+    Label,
+    RoutineDeclaration,
+    Statement,
+    Test,
+    While,
+)
+
+Path = tuple[int, ...]
+"""The lists that a statement is in, outermost first, by number."""
+
+
+def _inner(statement: Statement) -> list[Sequence[Statement]]:
+    """Statement lists inside a statement."""
+    if isinstance(statement, If):
+        bodies: list[Sequence[Statement]] = [b.body for b in statement.branches]
+        return bodies if statement.otherwise is None else [*bodies, statement.otherwise]
+    if isinstance(statement, For | While):
+        return [statement.body]
+    if isinstance(statement, Test):
+        cases: list[Sequence[Statement]] = [c.body for c in statement.cases]
+        return cases if statement.default is None else [*cases, statement.default]
+    if isinstance(statement, CompactIf):
+        return [[statement.statement]]
+    return []
+
+
+def _jumps(body: Sequence[Statement], path: Path) -> Iterator[tuple[Label | Goto, Path]]:
+    """All labels and GOTOs of a list with their paths."""
+    number = 0
+    for statement in body:
+        if isinstance(statement, Label | Goto):
+            yield statement, path
+            continue
+        for inner in _inner(statement):
+            number += 1
+            yield from _jumps(inner, (*path, number))
+
+
+def flat(body: Sequence[Statement]) -> Iterator[Statement]:
+    """All statements of a list and of the lists inside it."""
+    for statement in body:
+        yield statement
+        for inner in _inner(statement):
+            yield from flat(inner)
+
+
+def bodies(routine: RoutineDeclaration) -> list[tuple[str, Sequence[Statement]]]:
+    """Body and handlers of a routine, with the names that statements go by there."""
+    found: list[tuple[str, Sequence[Statement]]] = [("body", routine.body)]
+    if routine.backward:
+        found.append(("BACKWARD", routine.backward.body))
+    if routine.error:
+        found.append(("ERROR", routine.error.body))
+    if routine.undo:
+        found.append(("UNDO", routine.undo.body))
+    return found
+
+
+def check_labels(checker: FlowChecker, routine: RoutineDeclaration) -> None:
+    """Report labels that clash, are missing or unused, and GOTOs into blocks."""
+    labels: dict[str, tuple[Label, Path]] = {}
+    gotos: list[tuple[Goto, Path]] = []
+    for number, (_, body) in enumerate(bodies(routine)):
+        for node, path in _jumps(body, (number,)):
+            if isinstance(node, Goto):
+                gotos.append((node, path))
+                continue
+            key = node.name.lower()
+            if key in labels:
+                checker.report("RG305", f"the label '{node.name}' is set twice", node)
+            elif key in checker.locals:
+                checker.report(
+                    "RG305",
+                    f"'{node.name}' is a label and a datum of the same routine",
+                    node,
+                    notes=("[K §4.3]",),
+                    related=checker.declared(checker.locals[key]),
+                )
+            elif key != "<id>":
+                labels[key] = (node, path)
+    reached = set()
+    for goto, path in gotos:
+        key = goto.name.lower()
+        if key == "<id>":
+            continue
+        if key not in labels:
+            likely = closest(goto.name, [label.name for label, _ in labels.values()])
+            checker.report(
+                "RG320",
+                f"there is no label '{goto.name}' in this routine",
+                goto,
+                help=f"did you mean '{likely}'?" if likely else "",
+            )
+            continue
+        reached.add(key)
+        label, there = labels[key]
+        if path[: len(there)] != there:
+            checker.report(
+                "RG320",
+                f"GOTO '{goto.name}' would enter a block from outside",
+                goto,
+                help="set the label in this block or in one around it",
+                notes=("a GOTO may leave a block, not enter one [K §4.6]",),
+            )
+    for key, (label, _) in labels.items():
+        if key not in reached:
+            checker.warn("RG324", f"nothing jumps to the label '{label.name}'", label)

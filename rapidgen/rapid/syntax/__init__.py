@@ -1,0 +1,1 @@
+"""RAPID text: tokens, tree, formatted text."""

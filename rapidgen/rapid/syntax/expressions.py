@@ -1,0 +1,416 @@
+"""Expressions and arguments: the part of the parser that is run most.
+
+[K §3]: precedence, high to low, `* / DIV MOD`, `+ -`, relations (one a level), AND,
+OR XOR. K derives NOT only at the start of an expression and a sign only at the start of a
+sum; both are accepted elsewhere, where they bind to the next operand, with a warning.
+
+The functions take the index of the first token and give the node; the next token is at
+`node.last + 1`. Nothing is consumed: there is no cursor.
+"""
+
+from typing import Final
+
+from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.rapid.syntax import faults, lexer
+from rapidgen.rapid.syntax.faults import Block, GivenUp, SyntaxFault
+from rapidgen.rapid.syntax.lexer import HOLDER, NAME, NUMBER, STRING, Tokens
+from rapidgen.rapid.syntax.nodes import (
+    Aggregate,
+    Argument,
+    Binary,
+    BoolLiteral,
+    Expression,
+    FunctionCall,
+    Index,
+    Member,
+    Name,
+    NumberLiteral,
+    Parenthesis,
+    Placeholder,
+    Star,
+    StringLiteral,
+    Unary,
+)
+
+MAX_EXPRESSION_DEPTH: Final = 200
+MAX_BLOCK_DEPTH: Final = 100
+MAX_ERRORS: Final = 100
+
+_AND_LEVEL: Final = 2
+_RELATION_LEVEL: Final = 4
+_SIGN_LEVEL: Final = 5
+_TIGHT: Final = 9
+_LEVELS: Final = {
+    "OR": 0, "XOR": 0,
+    "AND": _AND_LEVEL,
+    "<": _RELATION_LEVEL, "<=": _RELATION_LEVEL, ">": _RELATION_LEVEL,
+    ">=": _RELATION_LEVEL, "=": _RELATION_LEVEL, "<>": _RELATION_LEVEL,
+    "+": _SIGN_LEVEL, "-": _SIGN_LEVEL,
+    "*": 6, "/": 6, "DIV": 6, "MOD": 6,
+}  # fmt: skip
+_BEHIND_NAMES: Final = frozenset(("(", "{", "."))
+"""What makes more of a name than a whole datum."""
+_PLAIN_OPERANDS: Final = frozenset((NAME, NUMBER, STRING, "(", "[", "TRUE", "FALSE"))
+_BEHIND_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
+_NOT_LEVEL: Final = 1
+"""NOT takes a whole chain of ANDs, and ends at OR or XOR."""
+_INNER_NOT_LEVEL: Final = 3
+"""A NOT that K does not derive takes one relation."""
+
+
+class _Numbers(dict[str, float]):
+    """Spelling to value of a number."""
+
+    def __missing__(self, text: str) -> float:
+        value = self[text] = lexer.number_value(text)
+        return value
+
+
+class ExpressionParser:
+    """Parses expressions out of two parallel lists, texts and kinds."""
+
+    def __init__(self, tokens: Tokens) -> None:
+        self.source = tokens.source
+        self.kinds = tokens.kinds
+        self.texts = tokens.source.tokens
+        self.numbers = _Numbers()
+        self.diagnostics: list[Diagnostic] = []
+        self.open: list[Block] = []
+        self.depth = 0
+        self.loose = -2
+        """The last prefix operator that K does not derive."""
+        self.end_reported = False
+        """Whether an error at the end of the text is reported: one is enough."""
+        self.after = 0
+        """Index behind the last list of arguments or statements."""
+
+    def report(self, diagnostic: Diagnostic) -> None:
+        """Keep a finding; a text with too many is given up."""
+        self.diagnostics.append(diagnostic)
+        if len(self.diagnostics) >= MAX_ERRORS:
+            raise GivenUp(faults.too_many(diagnostic, MAX_ERRORS))
+
+    def fault(self, found: SyntaxFault) -> None:
+        """Report what a statement or declaration raised, once."""
+        if found.reported or (self.kinds[found.at] is lexer.EOF and self.end_reported):
+            return
+        found.reported = True
+        # A quote that takes the last line takes all that could close what is open.
+        last = found.at if self.kinds[found.at] is not lexer.UNTERMINATED else found.at + 1
+        self.end_reported = self.kinds[last] is lexer.EOF
+        self.report(
+            faults.unexpected(
+                self.source, self.kinds, found.at, found.expected, self.open, found.help
+            )
+        )
+
+    def unclosed(self, i: int, missing: int) -> None:
+        """Report that token i ends an outer block while `missing` inner ones are open."""
+        if self.kinds[i] is lexer.EOF:
+            if self.end_reported:
+                return
+            self.end_reported = True
+        self.report(faults.unclosed(self.source, self.kinds, i, self.open, missing))
+
+    def too_deep(self, at: int) -> GivenUp:
+        """The one diagnostic of an expression beyond the limit."""
+        return GivenUp(
+            faults.error(
+                "RG211",
+                f"the expression is nested more than {MAX_EXPRESSION_DEPTH} deep",
+                faults.place(self.source, at),
+                help="split the expression over several statements",
+            )
+        )
+
+    def expression(self, i: int) -> Expression:
+        """The expression that starts at token i."""
+        kinds = self.kinds
+        kind = kinds[i]
+        node: Expression
+        if kind is NUMBER:
+            text = self.texts[i]
+            node = NumberLiteral(i, i, self.numbers[text], text)
+        elif kind is NAME:
+            following = kinds[i + 1]
+            if following in _BEHIND_NAMES:
+                node = self.named(i)
+            else:
+                node = Name(i, i, self.texts[i])
+        elif kind == "[":
+            node = self.aggregate(i)
+        elif kind is STRING:
+            node = StringLiteral(i, i, lexer.string_value(self.texts[i]))
+        else:
+            return self._operators(i, None)
+        if kinds[node.last + 1] in _LEVELS:
+            return self._operators(node.last + 1, node)
+        return node
+
+    def _operand(self, i: int) -> Expression:
+        """A primary [K §3]."""
+        kind = self.kinds[i]
+        if kind is NAME:
+            following = self.kinds[i + 1]
+            if following in _BEHIND_NAMES:
+                return self.named(i)
+            return Name(i, i, self.texts[i])
+        if kind is NUMBER:
+            text = self.texts[i]
+            return NumberLiteral(i, i, self.numbers[text], text)
+        if kind is STRING:
+            return StringLiteral(i, i, lexer.string_value(self.texts[i]))
+        if kind == "(":
+            self.depth += 1
+            if self.depth > MAX_EXPRESSION_DEPTH:
+                raise self.too_deep(i)
+            inner = self.expression(i + 1)
+            end = inner.last + 1
+            if self.kinds[end] != ")":
+                raise SyntaxFault(end, "')' or an operator")
+            self.depth -= 1
+            return Parenthesis(i, end, inner)
+        if kind == "[":
+            return self.aggregate(i)
+        if kind == "TRUE":
+            return BoolLiteral(i, i, True)
+        if kind == "FALSE":
+            return BoolLiteral(i, i, False)
+        if kind is HOLDER and self.texts[i].upper() == "<EXP>":
+            return Placeholder(i, i, "<EXP>")
+        raise SyntaxFault(i, "an expression")
+
+    def _operators(self, i: int, left: Expression | None) -> Expression:
+        """An expression with operators, by two stacks; `left` is an operand already read."""
+        kinds = self.kinds
+        operands: list[Expression] = []
+        pending: list[tuple[int, str, int]] = []
+        """(level, operator, token); a negative token marks a prefix: ~token."""
+        depth, chained = self.depth, 0
+        if left is not None and kinds[i + 1] in _PLAIN_OPERANDS:
+            # One operator between two operands is most of what there is.
+            operator = kinds[i]
+            right = self._operand(i + 1)
+            if kinds[right.last + 1] not in _LEVELS:
+                return Binary(left.first, right.last, operator, left, right)
+            operands.append(left)
+            pending.append((_LEVELS[operator], operator, i))
+            left, chained, i = right, 1, right.last + 1
+        while True:
+            if left is None:
+                kind = kinds[i]
+                if kind == "NOT" or kind == "-" or kind == "+":
+                    pending.append((self._prefix_level(i, kind, pending), kind, ~i))
+                    self.depth += 1
+                    if self.depth > MAX_EXPRESSION_DEPTH:
+                        raise self.too_deep(i)
+                    i += 1
+                    continue
+                left = self._operand(i)
+                i = left.last + 1
+            operands.append(left)
+            operator = kinds[i]
+            level = _LEVELS.get(operator, -1)
+            while pending and pending[-1][0] >= level:
+                top, sign, at = pending.pop()
+                if top == level == _RELATION_LEVEL:
+                    raise SyntaxFault(i, "an operator that can follow a relation, or its end")
+                right = operands.pop()
+                if at < 0:
+                    operands.append(Unary(~at, right.last, sign, right))
+                else:
+                    base = operands.pop()
+                    operands.append(Binary(base.first, right.last, sign, base, right))
+            if level < 0:
+                self.depth = depth
+                return operands[0]
+            chained += 1
+            if chained + self.depth > MAX_EXPRESSION_DEPTH:
+                raise self.too_deep(i)
+            pending.append((level, operator, i))
+            left = None
+            i += 1
+
+    def _prefix_level(self, i: int, kind: str, pending: list[tuple[int, str, int]]) -> int:
+        if kind == "NOT":
+            if not pending:
+                return _NOT_LEVEL
+            self._loose(i, pending, "NOT may stand only at the start of an expression")
+            return _INNER_NOT_LEVEL if pending[-1][0] < _RELATION_LEVEL else _TIGHT
+        if pending and pending[-1][0] >= _SIGN_LEVEL:
+            self._loose(i, pending, "a sign may stand only at the start of a sum")
+            return _TIGHT
+        return _SIGN_LEVEL
+
+    def _loose(self, i: int, pending: list[tuple[int, str, int]], rule: str) -> None:
+        again = ~pending[-1][2] == self.loose
+        self.loose = i
+        if again:
+            return  # one warning for a row of prefixes
+        self.report(
+            faults.error(
+                "RG212",
+                rule,
+                faults.place(self.source, i),
+                label="bound to the next operand",
+                help="put it and its operand in parentheses",
+                notes=("the RAPID kernel manual does not derive this form [K §3]",),
+                severity=Severity.WARNING,
+            )
+        )
+
+    def named(self, i: int) -> Expression:
+        """A datum with indices and components, or a function call."""
+        kinds, texts = self.kinds, self.texts
+        following = kinds[i + 1]
+        if following == "(":
+            self.depth += 2  # a call and its arguments are a level each
+            if self.depth > MAX_EXPRESSION_DEPTH:
+                raise self.too_deep(i)
+            arguments = self.arguments(i + 2, ")")
+            self.depth -= 2
+            return FunctionCall(i, self.after, texts[i], arguments)
+        return self.reference(i)
+
+    def reference(self, i: int) -> Name | Index | Member:
+        """`name`, `name{i}`, `name.c`, `name{i}.c.d` [K §3.5]: only a whole datum has indices."""
+        kinds, texts = self.kinds, self.texts
+        node: Name | Index | Member = Name(i, i, texts[i])
+        at = i + 1
+        if kinds[at] == "{":
+            self.depth += 1
+            if self.depth > MAX_EXPRESSION_DEPTH:
+                raise self.too_deep(i)
+            indices = [self.expression(at + 1)]
+            at = indices[0].last + 1
+            while kinds[at] == ",":
+                value = self.expression(at + 1)
+                indices.append(value)
+                at = value.last + 1
+            if kinds[at] != "}":
+                raise SyntaxFault(at, "'}', ',' or an operator")
+            self.depth -= 1
+            node = Index(i, at, node, indices)
+            at += 1
+        members = 0
+        while kinds[at] == ".":
+            if kinds[at + 1] is not NAME:
+                raise SyntaxFault(at + 1, "the name of a component")
+            node = Member(i, at + 1, node, texts[at + 1])
+            at += 2
+            members += 1
+            if members > MAX_EXPRESSION_DEPTH:
+                raise self.too_deep(i)
+        return node
+
+    def aggregate(self, i: int) -> Aggregate:
+        """`[a, b, ...]` [K §3.9]; at least one member."""
+        kinds, texts, numbers = self.kinds, self.texts, self.numbers
+        self.depth += 1
+        if self.depth > MAX_EXPRESSION_DEPTH:
+            raise self.too_deep(i)
+        members: list[Expression] = []
+        append = members.append
+        at = i
+        # Positions are most of many files: numbers and rows of numbers go without a call.
+        while True:
+            at += 1
+            kind = kinds[at]
+            if kind is NUMBER:
+                following = kinds[at + 1]
+                if following == "," or following == "]":
+                    text = texts[at]
+                    append(NumberLiteral(at, at, numbers[text], text))
+                    at += 1
+                    if following == ",":
+                        continue
+                    self.depth -= 1
+                    return Aggregate(i, at, members)
+            elif kind == "-" and kinds[at + 1] is NUMBER:
+                following = kinds[at + 2]
+                if following == "," or following == "]":
+                    text = texts[at + 1]
+                    number = NumberLiteral(at + 1, at + 1, numbers[text], text)
+                    append(Unary(at, at + 1, "-", number))
+                    at += 2
+                    if following == ",":
+                        continue
+                    self.depth -= 1
+                    return Aggregate(i, at, members)
+            value = self.expression(at)
+            append(value)
+            at = value.last + 1
+            kind = kinds[at]
+            if kind == ",":
+                continue
+            if kind == "]":
+                self.depth -= 1
+                return Aggregate(i, at, members)
+            raise SyntaxFault(at, "',', ']' or an operator")
+
+    def arguments(self, i: int, close: str) -> list[Argument]:
+        """Arguments up to `close`, whose index is left in `after` [K §3.10, 4.5]."""
+        kinds, texts = self.kinds, self.texts
+        found: list[Argument] = []
+        kind = kinds[i]
+        if kind == close:
+            self.after = i
+            return found
+        while True:
+            if kind is NAME:
+                following = kinds[i + 1]
+                if following in _BEHIND_ARGUMENTS:
+                    argument = Argument(i, i, "required", None, Name(i, i, texts[i]))
+                elif following == ":=":
+                    value = self.expression(i + 2)
+                    argument = Argument(i, value.last, "required", texts[i], value)
+                else:
+                    value = self.expression(i)
+                    argument = Argument(i, value.last, "required", None, value)
+            elif kind == "\\":
+                argument = self._optional(i, close)
+            elif kind == "*" and kinds[i + 1] in _BEHIND_ARGUMENTS:
+                argument = Argument(i, i, "required", None, Star(i, i))
+            elif kind is HOLDER and close == ";" and texts[i].upper() == "<ARG>":
+                argument = Argument(i, i, "required", None, Placeholder(i, i, "<ARG>"))
+            elif (
+                kind is HOLDER and close == ";" and kinds[i + 1] == ":=" and self._holder(i, "<ID>")
+            ):
+                value = self.expression(i + 2)
+                argument = Argument(i, value.last, "required", "<ID>", value)
+            else:
+                value = self.expression(i)
+                argument = Argument(i, value.last, "required", None, value)
+            found.append(argument)
+            i = argument.last + 1
+            kind = kinds[i]
+            if kind == ",":
+                i += 1
+                kind = kinds[i]
+            elif kind == close:
+                self.after = i
+                return found
+            elif kind != "\\":
+                raise SyntaxFault(i, f"',', '\\' or '{close}'")
+
+    def _optional(self, i: int, close: str) -> Argument:
+        """The optional or conditional argument at a backslash; <ID> and <VAR> for procedures."""
+        kinds, texts = self.kinds, self.texts
+        if kinds[i + 1] is not NAME and not (close == ";" and self._holder(i + 1, "<ID>")):
+            raise SyntaxFault(i + 1, "the name of an optional argument")
+        name = texts[i + 1]
+        kind = kinds[i + 2]
+        if kind == ":=":
+            value = self.expression(i + 3)
+            return Argument(i, value.last, "optional", name, value)
+        if kind == "?":
+            at = i + 3
+            if kinds[at] is NAME or (close == ";" and self._holder(at, "<ID>")):
+                return Argument(i, at, "conditional", name, Name(at, at, texts[at]))
+            if close == ";" and self._holder(at, "<VAR>"):
+                return Argument(i, at, "conditional", name, Placeholder(at, at, "<VAR>"))
+            raise SyntaxFault(at, "the name of an optional parameter")
+        return Argument(i, i + 1, "switch", name, None)
+
+    def _holder(self, i: int, text: str) -> bool:
+        return self.kinds[i] is HOLDER and self.texts[i].upper() == text

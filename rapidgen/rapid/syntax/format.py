@@ -1,0 +1,201 @@
+"""RAPID text in ABB's style: keywords in upper case, four spaces a level, a statement a line.
+
+Only blanks and the case of reserved words change: tokens and comments stay, and so does the
+tree. Line breaks inside a statement are kept, encoding and line ends are those of the file.
+"""
+
+import re
+from collections import Counter
+from typing import Final, overload
+
+from rapidgen.diagnostics import DiagnosticError, Severity
+from rapidgen.rapid.syntax import lexer
+from rapidgen.rapid.syntax.layout import line_starts
+from rapidgen.rapid.syntax.lexer import HOLDER, KEYWORDS
+from rapidgen.rapid.syntax.nodes import (
+    Argument,
+    FunctionCall,
+    LateCall,
+    Module,
+    Parameter,
+    Unary,
+)
+from rapidgen.rapid.syntax.parser import parse
+from rapidgen.rapid.syntax.walk import walk
+
+INDENT: Final = "    "
+_NO_SPACE_BEFORE: Final = frozenset((",", ";", ")", "]", "}", ":", "?", ".", "{"))
+_NO_SPACE_AFTER: Final = frozenset(("(", "[", "{", ".", "\\", "?"))
+_LINE_END: Final = re.compile(r"\r\n|\r|\n")
+
+
+@overload
+def format_source(source: str, *, path: str | None = None) -> str: ...
+
+
+@overload
+def format_source(source: bytes, *, path: str | None = None) -> bytes: ...
+
+
+def format_source(source: str | bytes, *, path: str | None = None) -> str | bytes:
+    """The module in ABB's style; bytes give bytes in the same encoding.
+
+    Raises DiagnosticError with the findings of the parser when the text is wrong.
+    """
+    module = parse(source, path=path)
+    unfit = [d for d in module.diagnostics if d.severity is Severity.ERROR or not module.name]
+    if unfit:
+        raise DiagnosticError(unfit, exit_code=1)
+    text = format_module(module)
+    return text if isinstance(source, str) else text.encode(module.source.encoding)
+
+
+def format_module(module: Module) -> str:
+    """The text of a module without errors, in ABB's style."""
+    text = module.source.text
+    ends = Counter(_LINE_END.findall(text))
+    line_end = max(ends, key=lambda end: ends[end]) if ends else "\n"
+    return line_end.join(_Writer(module).lines()) + line_end
+
+
+class _Writer:
+    """Puts tokens and comments on lines."""
+
+    def __init__(self, module: Module) -> None:
+        self.module = module
+        self.source = module.source
+        self.kinds = lexer.Kinds()
+        self.end = module.last + 1
+        self.starts = line_starts(module)
+        self.tight_before: set[int] = set()
+        self.tight_after: set[int] = set()
+        self.in_aggregate = 0
+        self._marks()
+        self.out: list[str] = []
+        self.line = ""
+
+    def _marks(self) -> None:
+        """Places where the tree decides about a blank."""
+        for node in walk(self.module):
+            if isinstance(node, Unary):
+                if node.operator != "NOT":
+                    self.tight_after.add(node.first)
+            elif isinstance(node, FunctionCall):
+                self.tight_before.add(node.first + 1)
+            elif isinstance(node, Argument):
+                self._argument(node)
+            elif isinstance(node, LateCall):
+                self.tight_after.add(node.first)
+                self.tight_before.add(node.procedure.last + 1)
+            elif isinstance(node, Parameter):
+                self.tight_before.update(range(node.name_token + 1, node.last + 1))
+        for routine in self.module.routines:
+            self.tight_before.add(routine.name_token + 1)
+        self.tight_before.add(2)  # MODULE name(
+
+    def _argument(self, node: Argument) -> None:
+        assign = node.first + (2 if node.kind == "optional" else 1)
+        named = node.kind == "optional" or (node.kind == "required" and node.name is not None)
+        if named:
+            self.tight_before.add(assign)
+            self.tight_after.add(assign)
+
+    def lines(self) -> list[str]:
+        """All lines of the formatted text, without their ends."""
+        self._lead()
+        # What stands behind ENDMODULE is no part of the module: it stays as it is.
+        tokens, gaps = self.source.tokens[: self.end], self.source.gaps
+        level, continued = 0, False
+        for i, token in enumerate(tokens):
+            kind = self.kinds[token]
+            here = self.starts.get(i)
+            if here is not None:
+                level, continued = here, False
+                self._flush()
+                self.line = INDENT * level
+            elif not self.line:
+                continued = True
+                self.line = INDENT * (level + 1)
+            elif i > 0 and self._spaced(i):
+                self.line += " "
+            self.line += token.upper() if kind in KEYWORDS or kind is HOLDER else token
+            if kind == "[":
+                self.in_aggregate += 1
+            elif kind == "]":
+                self.in_aggregate -= 1
+            self._gap(i, gaps[i], level + 1 if continued else level)
+        self._flush()
+        if self.end < len(self.source.tokens):
+            self.out += _LINE_END.split(self.source.text[self.source.starts[self.end] :])
+        while self.out and not self.out[-1].strip():
+            self.out.pop()
+        return self.out
+
+    def _lead(self) -> None:
+        """Header and comments before the first token."""
+        lines = _LINE_END.split(self.source.lead)[:-1] if self.source.lead else []
+        in_header = False
+        for line in lines:
+            stripped = line.rstrip()
+            bare = stripped.strip()
+            if bare.startswith("%%%"):
+                in_header = not in_header
+                self.out.append(bare)
+            elif in_header:
+                self.out.append(stripped)
+            elif bare or (self.out and self.out[-1]):
+                self.out.append(bare)
+
+    def _flush(self) -> None:
+        if self.line:
+            self.out.append(self.line.rstrip())
+            self.line = ""
+
+    def _gap(self, i: int, gap: str, level: int) -> None:
+        """Comments and line breaks between token i and the next."""
+        parts = _LINE_END.split(gap)
+        following = self.starts.get(i + 1)
+        trailing = parts[0].strip()
+        if trailing:
+            self.line += " " + trailing.rstrip()
+        if len(parts) == 1 and not trailing:
+            return
+        inside = following is None and i + 1 < self.end
+        self._flush()
+        if inside:
+            level = self._statement_level(i) + 1
+        elif following is not None:
+            level = self._comment_level(i, following)
+        else:
+            level = 0
+        for part in parts[1:-1]:
+            bare = part.strip()
+            if bare:
+                self.out.append(INDENT * level + bare)
+            elif not inside and self.out and self.out[-1]:
+                self.out.append("")
+        if parts[-1].strip():  # a comment that the end of the file ends
+            self.out.append(INDENT * level + parts[-1].strip())
+
+    def _statement_level(self, i: int) -> int:
+        while i not in self.starts:
+            i -= 1
+        return self.starts[i]
+
+    def _comment_level(self, i: int, following: int) -> int:
+        """Comments before an END belong to the block that it ends."""
+        kind = self.kinds[self.source.tokens[i + 1]]
+        ends = kind.startswith("END") or kind in ("ELSE", "ELSEIF", "CASE", "DEFAULT")
+        if not ends:
+            return following
+        before = self._statement_level(i)
+        return max(following, before) if kind in ("CASE", "DEFAULT") else following + 1
+
+    def _spaced(self, i: int) -> bool:
+        """Whether a blank stands between token i - 1 and token i on one line."""
+        if i in self.tight_before or i - 1 in self.tight_after:
+            return False
+        before, here = self.source.tokens[i - 1], self.source.tokens[i]
+        if before in _NO_SPACE_AFTER or here in _NO_SPACE_BEFORE:
+            return False
+        return not (before == "," and self.in_aggregate)

@@ -1,0 +1,153 @@
+"""Text to tokens: decoding, the %%% header, and what kind each token is.
+
+Sources: [K §2.1-2.10] for the lexical elements; hexadecimal, octal and binary numbers are
+younger than K and known from public code. Each distinct spelling is classified once.
+"""
+
+import re
+from dataclasses import dataclass
+from typing import Final
+
+from rapidgen.rapid.syntax.scan import HEADER, LEAD, TOKENS
+from rapidgen.rapid.syntax.source import Encoding, Source
+
+NAME: Final = "a name"
+NUMBER: Final = "a number"
+STRING: Final = "a string"
+HOLDER: Final = "a placeholder"
+EOF: Final = "the end of the file"
+BAD_CHARACTER: Final = "a character outside RAPID"
+BAD_NAME: Final = "a name with letters outside Latin-1"
+BAD_NUMBER: Final = "a malformed number"
+BAD_RADIX: Final = "a number with a prefix"
+BAD_ESCAPE: Final = "a string with a bad escape"
+UNTERMINATED: Final = "a string without its closing quote"
+
+MAX_NAME: Final = 32
+"""Characters of an identifier [K §2.3]."""
+_MAX_DIGITS: Final = 300
+"""Of whole numbers that are kept as such: a float holds them in any case."""
+
+KEYWORDS: Final = frozenset(
+    """ALIAS AND BACKWARD CASE CONNECT CONST DEFAULT DIV DO ELSE ELSEIF ENDFOR ENDFUNC ENDIF
+    ENDMODULE ENDPROC ENDRECORD ENDTEST ENDTRAP ENDWHILE ERROR EXIT FALSE FOR FROM FUNC GOTO IF
+    INOUT LOCAL MOD MODULE NOSTEPIN NOT NOVIEW OR PERS PROC RAISE READONLY RECORD RETRY RETURN
+    STEP SYSMODULE TASK TEST THEN TO TRAP TRUE TRYNEXT UNDO VAR VIEWONLY WHILE WITH XOR""".split()  # noqa: SIM905  # reads better
+)
+"""All 58 reserved words [K §2.4; TASK from K §2.18]."""
+
+PUNCTUATION: Final = frozenset("{}()[],.=<>+-*/:;\\?%|") | {":=", "<>", "<=", ">="}
+
+_LETTERS: Final = r"A-Za-z\u00c0-\u00d6\u00d8-\u00f6\u00f8-\u00ff"
+_PROPER_NAME: Final = re.compile(rf"[{_LETTERS}][{_LETTERS}0-9_]*")
+_RADIX: Final = re.compile(r"0(?:[xX][0-9A-Fa-f]+|[oO][0-7]+|[bB][01]+)")
+_ESCAPE: Final = re.compile(r'""|\\(?:\\|[0-9A-Fa-f]{2})')
+_BAD_ESCAPE: Final = re.compile(r"(?:[^\\]|\\\\|\\[0-9A-Fa-f]{2})*+\\")
+
+
+class Kinds(dict[str, str]):
+    """Spelling to kind; a keyword's kind is its upper-case text, a sign's the sign itself."""
+
+    def __missing__(self, text: str) -> str:
+        kind = self[text] = _classify(text)
+        return kind
+
+
+def _classify(text: str) -> str:
+    head = text[0]
+    if head.isalpha() or head == "_":
+        if text.isascii():
+            upper = text.upper()
+            if upper in KEYWORDS:
+                return upper
+            return BAD_NAME if head == "_" else NAME
+        return NAME if _PROPER_NAME.fullmatch(text) else BAD_NAME
+    if head in "0123456789" or (head == "." and len(text) > 1):
+        if _RADIX.fullmatch(text):
+            return BAD_RADIX
+        return NUMBER if _is_number(text) else BAD_NUMBER
+    if head == '"':
+        if len(text) == 1 or text[-1] != '"' or text.count('"') % 2:
+            return UNTERMINATED
+        return BAD_ESCAPE if "\\" in text and _BAD_ESCAPE.match(text[1:-1]) else STRING
+    if head == "<" and len(text) > 2:
+        return HOLDER
+    return text if text in PUNCTUATION else BAD_CHARACTER
+
+
+def _is_number(text: str) -> bool:
+    # Python takes more than RAPID does only where letters or underscores are in play.
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return "_" not in text
+
+
+@dataclass(frozen=True, slots=True)
+class Tokens:
+    """A tokenised source and the kind of each token, with end marks to look ahead at."""
+
+    source: Source
+    kinds: list[str]
+    spellings: Kinds
+
+
+def decode(data: bytes) -> tuple[str, Encoding]:
+    """Text of a file: UTF-8 with or without BOM where it is that, else Latin-1."""
+    if data.startswith(b"\xef\xbb\xbf"):
+        try:
+            return data.decode("utf-8-sig"), "utf-8-sig"
+        except UnicodeDecodeError:
+            return data.decode("latin-1"), "latin-1"
+    try:
+        return data.decode("utf-8"), "utf-8"
+    except UnicodeDecodeError:
+        return data.decode("latin-1"), "latin-1"
+
+
+def tokenize(text: str, path: str, encoding: Encoding, *, radix: bool) -> Tokens:
+    """All tokens of `text`. `radix` tells whether 0x, 0o and 0b numbers exist."""
+    header = HEADER.match(text)
+    lead = LEAD.match(text, header.end() if header else 0)
+    start = lead.end() if lead else 0
+    found: list[str] = TOKENS.findall(text, start)
+    while found and not found[-1]:
+        found.pop()
+    source = Source(text, path, encoding, text[:start], found)
+    spellings = Kinds()
+    kinds = list(map(spellings.__getitem__, source.tokens))
+    if radix and BAD_RADIX in spellings.values():
+        kinds = [NUMBER if kind is BAD_RADIX else kind for kind in kinds]
+    kinds += (EOF, EOF, EOF, EOF)
+    return Tokens(source, kinds, spellings)
+
+
+def number_value(text: str) -> float:
+    """Value of a number: an int where the text has neither point nor exponent.
+
+    Infinite where double precision does not hold it.
+    """
+    if text.isdigit():
+        return int(text) if len(text) <= _MAX_DIGITS else float(text)
+    if len(text) > 1 and text[1] in "xXoObB":
+        value = int(text, 0)
+        return value if value < 10**_MAX_DIGITS else float("inf")
+    return float(text)
+
+
+def string_value(text: str) -> str:
+    """Value of a string token: without quotes, escapes resolved, one code point a byte."""
+    inner = text[1:-1]
+    if "\\" in inner or '"' in inner:
+        inner = _ESCAPE.sub(_unescape, inner)
+    if not inner.isascii() and any(c > "\xff" for c in inner):
+        return inner.encode("utf-8", "surrogatepass").decode("latin-1")
+    return inner
+
+
+def _unescape(match: re.Match[str]) -> str:
+    found = match.group()
+    if found == '""':
+        return '"'
+    return "\\" if found == "\\\\" else chr(int(found[1:], 16))

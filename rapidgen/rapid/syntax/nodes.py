@@ -1,0 +1,470 @@
+"""The tree of one RAPID module.
+
+Every node knows its first and last token (indexes into `Module.source`, both inclusive);
+places are worked out from them only when somebody asks. Comments and blanks are not in the
+tree: they lie in the gaps between tokens. Nodes are plain slotted classes because building
+frozen ones costs a third more of the parser's time; nobody changes one after parsing.
+
+Names keep the spelling of the source; RAPID compares them without case.
+"""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Literal
+
+from rapidgen.diagnostics import Diagnostic
+
+if TYPE_CHECKING:
+    from rapidgen.rapid.syntax.source import Source
+
+Scope = Literal["", "LOCAL", "TASK"]
+Mode = Literal["", "VAR", "PERS", "INOUT", "REF"]
+DataKind = Literal["VAR", "PERS", "CONST"]
+RoutineKind = Literal["PROC", "FUNC", "TRAP"]
+
+
+@dataclass(slots=True, eq=False)
+class Node:
+    """Anything with a place."""
+
+    first: int
+    last: int
+
+
+# -- expressions ---------------------------------------------------------------------------
+
+
+@dataclass(slots=True, eq=False)
+class NumberLiteral(Node):
+    """`3`, `.5`, `2.5E-3`, `0x1F`. `value` is an int when the text has no point or exponent."""
+
+    value: float
+    text: str
+
+
+@dataclass(slots=True, eq=False)
+class StringLiteral(Node):
+    """A string after escapes: one code point (0..255) a byte."""
+
+    value: str
+
+
+@dataclass(slots=True, eq=False)
+class BoolLiteral(Node):
+    """TRUE or FALSE."""
+
+    value: bool
+
+
+@dataclass(slots=True, eq=False)
+class Name(Node):
+    """A whole datum, parameter or loop variable."""
+
+    name: str
+
+
+@dataclass(slots=True, eq=False)
+class Index(Node):
+    """`base{i, j}`."""
+
+    base: "Expression"
+    indices: "list[Expression]"
+
+
+@dataclass(slots=True, eq=False)
+class Member(Node):
+    """`base.component`."""
+
+    base: "Expression"
+    component: str
+
+
+@dataclass(slots=True, eq=False)
+class FunctionCall(Node):
+    """`Name(arguments)`."""
+
+    name: str
+    arguments: "list[Argument]"
+
+
+@dataclass(slots=True, eq=False)
+class Aggregate(Node):
+    """`[a, b, [c, d]]`; its type comes from where it stands."""
+
+    members: "list[Expression]"
+
+
+@dataclass(slots=True, eq=False)
+class Unary(Node):
+    """`+ - NOT` before an operand."""
+
+    operator: str
+    operand: "Expression"
+
+
+@dataclass(slots=True, eq=False)
+class Binary(Node):
+    """`* / DIV MOD + - < <= > >= = <> AND OR XOR` (upper case)."""
+
+    operator: str
+    left: "Expression"
+    right: "Expression"
+
+
+@dataclass(slots=True, eq=False)
+class Parenthesis(Node):
+    """`( inner )`: kept, since NOT and signs bind by where they stand."""
+
+    inner: "Expression"
+
+
+@dataclass(slots=True, eq=False)
+class Placeholder(Node):
+    """`<SMT>`, `<EXP>`, ...: loads, and fails when it is reached."""
+
+    text: str
+
+
+@dataclass(slots=True, eq=False)
+class Star(Node):
+    """`*` in place of a robtarget: an inlined position."""
+
+
+Expression = (
+    NumberLiteral
+    | StringLiteral
+    | BoolLiteral
+    | Name
+    | Index
+    | Member
+    | FunctionCall
+    | Aggregate
+    | Unary
+    | Binary
+    | Parenthesis
+    | Placeholder
+    | Star
+)
+
+
+@dataclass(slots=True, eq=False)
+class Argument(Node):
+    """One argument of a call.
+
+    `kind` is `required` (with `name` when written `Par:=value`), `optional` (`\\Opt:=value`),
+    `switch` (`\\Sw`) or `conditional` (`\\Opt?par`, `value` is then the Name of `par`).
+    """
+
+    kind: Literal["required", "optional", "switch", "conditional"]
+    name: str | None
+    value: Expression | None
+
+
+# -- declarations --------------------------------------------------------------------------
+
+
+@dataclass(slots=True, eq=False)
+class Component(Node):
+    """One component of a record."""
+
+    type: str
+    name: str
+
+
+@dataclass(slots=True, eq=False)
+class RecordDeclaration(Node):
+    """`RECORD name ... ENDRECORD`."""
+
+    scope: Scope
+    name: str
+    components: list[Component]
+
+
+@dataclass(slots=True, eq=False)
+class AliasDeclaration(Node):
+    """`ALIAS type name;`."""
+
+    scope: Scope
+    type: str
+    name: str
+
+
+@dataclass(slots=True, eq=False)
+class DataDeclaration(Node):
+    """`VAR`, `PERS` or `CONST` in a module or a routine."""
+
+    scope: Scope
+    kind: DataKind
+    type: str
+    name: str
+    dimensions: list[Expression]
+    initial: Expression | None
+    name_token: int
+
+
+@dataclass(slots=True, eq=False)
+class Parameter(Node):
+    """A formal parameter. Alternatives (`\\num a | string b`) share a `group` number >= 0.
+
+    `dimensions` is the number of `*` in `name{*,*}`, 0 for a scalar. A switch has type
+    `switch`.
+    """
+
+    mode: Mode
+    type: str
+    name: str
+    dimensions: int
+    optional: bool
+    group: int
+    name_token: int
+
+
+@dataclass(slots=True, eq=False)
+class ErrorHandler(Node):
+    """`ERROR` or `ERROR (list)`; `numbers` is None without a list."""
+
+    numbers: list[Expression] | None
+    body: "list[Statement]"
+
+
+@dataclass(slots=True, eq=False)
+class Handler(Node):
+    """`BACKWARD` or `UNDO`."""
+
+    body: "list[Statement]"
+
+
+@dataclass(slots=True, eq=False)
+class RoutineDeclaration(Node):
+    """A PROC, FUNC or TRAP."""
+
+    scope: Scope
+    kind: RoutineKind
+    type: str | None
+    name: str
+    parameters: list[Parameter]
+    data: list[DataDeclaration]
+    body: "list[Statement]"
+    backward: Handler | None
+    error: ErrorHandler | None
+    undo: Handler | None
+    name_token: int
+
+
+@dataclass(slots=True, eq=False)
+class PlaceholderDeclaration(Node):
+    """`<TDN>`, `<DDN>` or `<RDN>` among declarations."""
+
+    text: str
+
+
+Declaration = (
+    RecordDeclaration
+    | AliasDeclaration
+    | DataDeclaration
+    | RoutineDeclaration
+    | PlaceholderDeclaration
+)
+
+
+# -- statements ----------------------------------------------------------------------------
+
+
+@dataclass(slots=True, eq=False)
+class Assignment(Node):
+    """`target := value;`."""
+
+    target: Expression
+    value: Expression
+
+
+@dataclass(slots=True, eq=False)
+class ProcedureCall(Node):
+    """`Name arguments;`."""
+
+    name: str
+    arguments: list[Argument]
+
+
+@dataclass(slots=True, eq=False)
+class LateCall(Node):
+    """`%expression% arguments;`."""
+
+    procedure: Expression
+    arguments: list[Argument]
+
+
+@dataclass(slots=True, eq=False)
+class Branch(Node):
+    """`condition` THEN `body`, of IF and ELSEIF."""
+
+    condition: Expression
+    body: "list[Statement]"
+
+
+@dataclass(slots=True, eq=False)
+class If(Node):
+    """`IF ... ELSEIF ... ELSE ... ENDIF`; `otherwise` is None without ELSE."""
+
+    branches: list[Branch]
+    otherwise: "list[Statement] | None"
+
+
+@dataclass(slots=True, eq=False)
+class CompactIf(Node):
+    """`IF condition statement`, without THEN."""
+
+    condition: Expression
+    statement: "Statement"
+
+
+@dataclass(slots=True, eq=False)
+class For(Node):
+    """`FOR variable FROM start TO end [STEP step] DO ... ENDFOR`."""
+
+    variable: str
+    start: Expression
+    end: Expression
+    step: Expression | None
+    body: "list[Statement]"
+
+
+@dataclass(slots=True, eq=False)
+class While(Node):
+    """`WHILE condition DO ... ENDWHILE`."""
+
+    condition: Expression
+    body: "list[Statement]"
+
+
+@dataclass(slots=True, eq=False)
+class Case(Node):
+    """`CASE v1, v2:` of a TEST."""
+
+    values: list[Expression]
+    body: "list[Statement]"
+
+
+@dataclass(slots=True, eq=False)
+class Test(Node):
+    """`TEST subject CASE ... DEFAULT: ... ENDTEST`; `default` is None without DEFAULT."""
+
+    subject: Expression
+    cases: list[Case]
+    default: "list[Statement] | None"
+
+
+@dataclass(slots=True, eq=False)
+class Label(Node):
+    """`name:`."""
+
+    name: str
+
+
+@dataclass(slots=True, eq=False)
+class Goto(Node):
+    """`GOTO name;`."""
+
+    name: str
+
+
+@dataclass(slots=True, eq=False)
+class Return(Node):
+    """`RETURN [value];`."""
+
+    value: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Raise(Node):
+    """`RAISE [number];`."""
+
+    number: Expression | None
+
+
+@dataclass(slots=True, eq=False)
+class Retry(Node):
+    """`RETRY;`."""
+
+
+@dataclass(slots=True, eq=False)
+class TryNext(Node):
+    """`TRYNEXT;`."""
+
+
+@dataclass(slots=True, eq=False)
+class Exit(Node):
+    """`EXIT;`."""
+
+
+@dataclass(slots=True, eq=False)
+class Connect(Node):
+    """`CONNECT target WITH trap;`."""
+
+    target: Expression
+    trap: str
+
+
+@dataclass(slots=True, eq=False)
+class PlaceholderStatement(Node):
+    """`<SMT>` (or another placeholder) as a statement."""
+
+    text: str
+
+
+Statement = (
+    Assignment
+    | ProcedureCall
+    | LateCall
+    | If
+    | CompactIf
+    | For
+    | While
+    | Test
+    | Label
+    | Goto
+    | Return
+    | Raise
+    | Retry
+    | TryNext
+    | Exit
+    | Connect
+    | PlaceholderStatement
+)
+
+
+# -- module --------------------------------------------------------------------------------
+
+
+@dataclass(slots=True, eq=False)
+class Module(Node):
+    """One module and what was found wrong with its text.
+
+    A text that is no module at all gives a Module with an empty name and diagnostics.
+    `declarations` are in the order of the source.
+    """
+
+    name: str
+    attributes: tuple[str, ...]
+    declarations: list[Declaration]
+    source: "Source"
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    @property
+    def records(self) -> list[RecordDeclaration]:
+        """RECORD declarations in source order."""
+        return [d for d in self.declarations if isinstance(d, RecordDeclaration)]
+
+    @property
+    def aliases(self) -> list[AliasDeclaration]:
+        """ALIAS declarations in source order."""
+        return [d for d in self.declarations if isinstance(d, AliasDeclaration)]
+
+    @property
+    def data(self) -> list[DataDeclaration]:
+        """Module data in source order."""
+        return [d for d in self.declarations if isinstance(d, DataDeclaration)]
+
+    @property
+    def routines(self) -> list[RoutineDeclaration]:
+        """Routines in source order."""
+        return [d for d in self.declarations if isinstance(d, RoutineDeclaration)]

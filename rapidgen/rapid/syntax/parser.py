@@ -1,0 +1,347 @@
+"""Modules, declarations and routines [K §2.11-2.24, 5, 9]; `parse` is the way in."""
+
+import gc
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Final
+
+from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.rapid.dialect import Dialect
+from rapidgen.rapid.syntax import faults, lexer, text
+from rapidgen.rapid.syntax.faults import GivenUp, SyntaxFault
+from rapidgen.rapid.syntax.lexer import EOF, HOLDER, NAME, Tokens
+from rapidgen.rapid.syntax.nodes import (
+    AliasDeclaration,
+    Component,
+    Declaration,
+    Module,
+    PlaceholderDeclaration,
+    RecordDeclaration,
+    Scope,
+)
+from rapidgen.rapid.syntax.routines import DATA, MODULE_STOPS, ROUTINES, RoutineParser
+from rapidgen.rapid.syntax.source import Source
+
+_ATTRIBUTES: Final = ("SYSMODULE", "NOVIEW", "NOSTEPIN", "VIEWONLY", "READONLY")
+_EXCLUDED: Final = (
+    ("NOVIEW", "NOSTEPIN"),
+    ("NOVIEW", "VIEWONLY"),
+    ("NOVIEW", "READONLY"),
+    ("VIEWONLY", "READONLY"),
+)
+_RANK: Final = {"type": 0, "datum": 1, "routine": 2}
+_DECLARATION_HOLDERS: Final = {"<TDN>": "type", "<DDN>": "datum", "<RDN>": "routine"}
+
+
+class ModuleParser(RoutineParser):
+    """Parses one module."""
+
+    # -- module --------------------------------------------------------------------------
+
+    def module(self) -> tuple[str, tuple[str, ...], list[Declaration], int]:
+        """Name, attributes and declarations of the text, and the index of its last token."""
+        kinds = self.kinds
+        declarations: list[Declaration] = []
+        i = 0
+        if kinds[0] != "MODULE":
+            self.report(text.no_module(self.source, kinds))
+            if "MODULE" not in kinds:
+                return "", (), declarations, self._last()
+            i = kinds.index("MODULE")
+        self.open.append(("MODULE", i))
+        name = ""
+        attributes: tuple[str, ...] = ()
+        try:
+            name = self.identifier(i + 1, "the name of the module")
+            attributes, i = self._attributes(i + 2)
+        except SyntaxFault as found:
+            self.fault(found)
+            i = found.at
+            while kinds[i] not in MODULE_STOPS:
+                i += 1
+        i = self._declarations(i, declarations)
+        if kinds[i] == "ENDMODULE":
+            self.open.pop()
+            self._behind_module(i + 1)
+            return name, attributes, declarations, i
+        self.fault(SyntaxFault(i, "ENDMODULE"))
+        return name, attributes, declarations, self._last()
+
+    def _last(self) -> int:
+        return max(0, len(self.texts) - 1)
+
+    def _behind_module(self, i: int) -> None:
+        """Text behind the module: K derives modules, and leaves open what a file holds [K §9]."""
+        if self.kinds[i] is EOF:
+            return
+        again = self.kinds[i] == "MODULE"
+        self.report(
+            faults.error(
+                "RG217",
+                "a second module in one file: it is not read"
+                if again
+                else "there is text behind ENDMODULE: it is not read",
+                faults.place(self.source, i),
+                label="not read from here on",
+                help="give each module a file of its own" if again else "remove it",
+                notes=("no manual says what a controller makes of it [K §9, 9.1]",),
+                severity=Severity.WARNING,
+            )
+        )
+
+    def _attributes(self, i: int) -> tuple[tuple[str, ...], int]:
+        """Attributes in parentheses, and the index behind them [K §9.1]."""
+        kinds = self.kinds
+        if kinds[i] != "(":
+            return (), i
+        found: list[str] = []
+        while True:
+            i += 1
+            if kinds[i] not in _ATTRIBUTES:
+                raise SyntaxFault(i, "SYSMODULE, NOVIEW, NOSTEPIN, VIEWONLY or READONLY")
+            found.append(kinds[i])
+            self._attribute_rules(i, found)
+            i += 1
+            if kinds[i] == ")":
+                return tuple(found), i + 1
+            if kinds[i] != ",":
+                raise SyntaxFault(i, "',' or ')'")
+
+    def _attribute_rules(self, i: int, found: list[str]) -> None:
+        new, before = found[-1], found[:-1]
+        if new in before:
+            fault = f"the attribute {new} is given twice"
+        elif any({new, other} == set(pair) for other in before for pair in _EXCLUDED):
+            other = next(o for o in before for pair in _EXCLUDED if {new, o} == set(pair))
+            fault = f"the attributes {other} and {new} exclude each other"
+        elif before and _ATTRIBUTES.index(new) < _ATTRIBUTES.index(before[-1]):
+            fault = f"{new} stands before {before[-1]}"
+        else:
+            return
+        self.report(
+            faults.error(
+                "RG215",
+                fault,
+                faults.place(self.source, i),
+                help="the order is SYSMODULE, NOVIEW, NOSTEPIN, VIEWONLY, READONLY",
+                notes=("module attributes [K §9.1]",),
+            )
+        )
+
+    def _declarations(self, i: int, found: list[Declaration]) -> int:
+        """All declarations of the module; the index of what ends it."""
+        kinds = self.kinds
+        rank = 0
+        while True:
+            kind = kinds[i]
+            start = i
+            declaration: Declaration
+            try:
+                if kind in DATA:
+                    new = 1
+                    declaration = self.data_declaration(i)
+                elif kind in ROUTINES:
+                    new = 2
+                    declaration = self.routine(i, i, "")
+                elif kind == "LOCAL" or kind == "TASK":
+                    declaration, new = self._scoped(i, kind)
+                elif kind == "RECORD":
+                    new = 0
+                    declaration = self._record(i, i, "")
+                elif kind == "ALIAS":
+                    new = 0
+                    declaration = self._alias(i, i, "")
+                elif kind == "ENDMODULE" or kind == "MODULE" or kind is EOF:
+                    return i
+                elif kind is HOLDER and self.texts[i].upper() in _DECLARATION_HOLDERS:
+                    holder = self.texts[i].upper()
+                    new = _RANK[_DECLARATION_HOLDERS[holder]]
+                    declaration = PlaceholderDeclaration(i, i, holder)
+                else:
+                    raise SyntaxFault(i, "a declaration or ENDMODULE")
+            except SyntaxFault as fault:
+                self.depth = 0
+                del self.open[1:]
+                self.fault(fault)
+                i = self._next_declaration(start, fault.at)
+                continue
+            if new < rank:
+                self._out_of_order(declaration, new, rank)
+            else:
+                rank = new
+            found.append(declaration)
+            i = declaration.last + 1
+
+    def _next_declaration(self, start: int, at: int) -> int:
+        kinds = self.kinds
+        if at == start and kinds[at] not in ("ENDMODULE", "MODULE", EOF):
+            at += 1
+        while kinds[at] not in MODULE_STOPS:
+            if kinds[at] is HOLDER and self.texts[at].upper() in _DECLARATION_HOLDERS:
+                break
+            at += 1
+        return at
+
+    def _out_of_order(self, declaration: Declaration, new: int, rank: int) -> None:
+        what = ("type definition", "data declaration")[new]
+        behind = ("", "data", "routines")[rank]
+        self.report(
+            faults.error(
+                "RG213",
+                f"a {what} stands behind {behind}",
+                self.source.span(declaration.first, declaration.first),
+                label=f"{what}s come before {behind}",
+                help="order a module: RECORD and ALIAS, then data, then routines",
+                notes=("order inside a module [K §5, 9.1]",),
+            )
+        )
+
+    def _scoped(self, i: int, scope: str) -> tuple[Declaration, int]:
+        """A declaration behind LOCAL or TASK, and its rank."""
+        kind = self.kinds[i + 1]
+        if kind in ("VAR", "PERS") or (kind == "CONST" and scope == "LOCAL"):
+            return self.data_declaration(i), 1
+        if scope == "LOCAL":
+            if kind in ROUTINES:
+                return self.routine(i, i + 1, "LOCAL"), 2
+            if kind == "RECORD":
+                return self._record(i, i + 1, "LOCAL"), 0
+            if kind == "ALIAS":
+                return self._alias(i, i + 1, "LOCAL"), 0
+            raise SyntaxFault(i + 1, "VAR, PERS, CONST, PROC, FUNC, TRAP, RECORD or ALIAS")
+        raise SyntaxFault(i + 1, "VAR or PERS", "only VAR and PERS can belong to a task")
+
+    # -- types and data ------------------------------------------------------------------
+
+    def _record(self, first: int, i: int, scope: Scope) -> RecordDeclaration:
+        kinds, texts = self.kinds, self.texts
+        name = self.identifier(i + 1, "the name of the record")
+        self.open.append(("RECORD", i))
+        components: list[Component] = []
+        at = i + 2
+        while kinds[at] != "ENDRECORD":
+            try:
+                if kinds[at] is not NAME:
+                    self.identifier(at, "a component (type and name) or ENDRECORD")
+                name_here = self.identifier(at + 1, "the name of the component")
+                end = at + 2
+                if kinds[end] == "{":
+                    help = "a component cannot be an array [K §2.14]"
+                    self.fault(SyntaxFault(end, "';'", help))
+                    end = self._behind_braces(end)
+                end = self.semicolon_here(end, "';'")
+                components.append(Component(at, end, texts[at], name_here))
+                at = end + 1
+            except SyntaxFault as found:
+                self.fault(found)
+                at = found.at
+                while kinds[at] != ";" and kinds[at] not in MODULE_STOPS | {"ENDRECORD"}:
+                    at += 1
+                if kinds[at] in MODULE_STOPS:
+                    self.open.pop()
+                    return RecordDeclaration(first, at - 1, scope, name, components)
+                at += kinds[at] == ";"
+        self.open.pop()
+        if not components:
+            self.fault(SyntaxFault(at, "a component", "a record has at least one [K §2.14]"))
+        return RecordDeclaration(first, at, scope, name, components)
+
+    def _behind_braces(self, i: int) -> int:
+        """Index behind the braces at i, if they are closed before anything else ends."""
+        at = i
+        while self.kinds[at] not in MODULE_STOPS and self.kinds[at] not in ("ENDRECORD", ";"):
+            if self.kinds[at] == "}":
+                return at + 1
+            at += 1
+        return at
+
+    def _alias(self, first: int, i: int, scope: Scope) -> AliasDeclaration:
+        type_name = self.identifier(i + 1, "the name of a type")
+        name = self.identifier(i + 2, "the name of the alias")
+        end = self.semicolon_here(i + 3, "';'")
+        return AliasDeclaration(first, end, scope, type_name, name)
+
+
+class _Collector:
+    """No garbage collection while a tree grows: it would cost more than the parse.
+
+    The tree then goes to the oldest generation as it is: going through all its nodes at the
+    next young collection would cost a third of the parse, and find nothing. That takes Python its
+    own reason to look through the oldest generation, so this does it: when as many tokens have
+    gone there as it has objects.
+    """
+
+    LEAST = 1_000_000
+
+    def __init__(self) -> None:
+        self.promoted = 0
+        self.limit = self.LEAST
+
+    @contextmanager
+    def paused(self) -> Iterator[None]:
+        running = gc.isenabled()
+        gc.disable()
+        try:
+            yield
+        finally:
+            if running:
+                if gc.get_freeze_count() == 0:
+                    gc.freeze()
+                    gc.unfreeze()
+                gc.enable()
+        if running and self.promoted > self.limit:
+            self.promoted = 0
+            gc.collect()
+            self.limit = max(self.LEAST, len(gc.get_objects()))
+
+
+_COLLECTOR = _Collector()
+
+
+def parse(
+    source: str | bytes,
+    *,
+    path: str | None = None,
+    dialect: Dialect | None = None,
+) -> Module:
+    """The tree of one module; never raises for bad text, see `Module.diagnostics`.
+
+    `path` is for messages only. `dialect` defaults to RobotWare 6.
+    """
+    name = path or "<text>"
+    refused = text.refuse(source, name)
+    if refused:
+        return _empty(refused, name)
+    decoded, encoding = lexer.decode(source) if isinstance(source, bytes) else (source, "utf-8")
+    with _COLLECTOR.paused():
+        tokens = lexer.tokenize(decoded, name, encoding, radix=(dialect or Dialect()).has_radix)
+        _COLLECTOR.promoted += len(tokens.source.tokens)
+        parser = ModuleParser(tokens)
+        return _run(parser, tokens)
+
+
+def _run(parser: ModuleParser, tokens: Tokens) -> Module:
+    module_name = ""
+    attributes: tuple[str, ...] = ()
+    declarations: list[Declaration] = []
+    last = max(0, len(tokens.source.tokens) - 1)
+    try:
+        for finding in text.spellings(tokens):
+            parser.report(finding)
+        module_name, attributes, declarations, last = parser.module()
+    except GivenUp as reason:
+        if reason.diagnostic.code == "RG214":
+            parser.diagnostics.append(reason.diagnostic)
+        else:
+            parser.diagnostics[:] = [reason.diagnostic]
+    found = sorted(parser.diagnostics, key=_position)
+    return Module(0, last, module_name, attributes, declarations, tokens.source, found)
+
+
+def _position(diagnostic: Diagnostic) -> tuple[int, int]:
+    span = diagnostic.span
+    return (span.line, span.column) if span else (0, 0)
+
+
+def _empty(diagnostic: Diagnostic, path: str) -> Module:
+    return Module(0, 0, "", (), [], Source("", path, "utf-8"), [diagnostic])

@@ -1,0 +1,79 @@
+"""The text of one module: its encoding, its tokens, and places in it."""
+
+from bisect import bisect_right
+from dataclasses import dataclass, field
+from itertools import accumulate, chain, islice
+from typing import Literal
+
+from rapidgen.diagnostics import Span
+from rapidgen.rapid.syntax.scan import TILES
+
+Encoding = Literal["utf-8", "utf-8-sig", "latin-1"]
+
+
+@dataclass(slots=True, eq=False)
+class Source:
+    """Decoded text with its tokens.
+
+    `tokens[i]` is the text of token i and `starts[i]` its offset in `text` (code points);
+    `gaps[i]` is what stands between token i and the next (blanks and comments); what stands
+    before the first token is `lead`. So lead + tokens and gaps in turn tile the text. Offsets
+    and gaps are worked out when they are first asked for: most parses need none.
+    """
+
+    text: str
+    path: str
+    encoding: Encoding
+    lead: str = ""
+    tokens: list[str] = field(default_factory=list)
+    _gaps: list[str] = field(default_factory=list)
+    _starts: list[int] = field(default_factory=list)
+    _lines: list[int] = field(default_factory=list)
+
+    @property
+    def starts(self) -> list[int]:
+        """Offset of each token."""
+        if not self._starts:
+            self._tile()
+        return self._starts
+
+    @property
+    def gaps(self) -> list[str]:
+        """Blanks and comments behind each token."""
+        if not self._starts:
+            self._tile()
+        return self._gaps
+
+    def _tile(self) -> None:
+        start = len(self.lead)
+        pairs = TILES.findall(self.text, start)
+        self._gaps = [gap for _, gap in pairs]
+        ends = accumulate(map(len, chain.from_iterable(pairs)), initial=start)
+        self._starts = list(islice(ends, 0, 2 * len(pairs), 2))
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column (from 1, code points) of an offset. Ends of line: LF, CRLF or CR."""
+        if not self._lines:
+            self._lines.append(0)
+            text, at = self.text, 0
+            while at < len(text):
+                lf, cr = text.find("\n", at), text.find("\r", at)
+                if cr != -1 and (lf == -1 or cr < lf):
+                    at = cr + 2 if text.startswith("\r\n", cr) else cr + 1
+                elif lf != -1:
+                    at = lf + 1
+                else:
+                    break
+                self._lines.append(at)
+        line = bisect_right(self._lines, offset)
+        return line, offset - self._lines[line - 1] + 1
+
+    def line(self, token: int) -> int:
+        """Line (from 1) on which a token starts."""
+        return self.position(self.starts[token])[0]
+
+    def span(self, first: int, last: int) -> Span:
+        """Place from the start of token `first` to the end of token `last`."""
+        line, column = self.position(self.starts[first])
+        end_line, end_column = self.position(self.starts[last] + len(self.tokens[last]))
+        return Span(self.path, line, column, end_line, end_column)

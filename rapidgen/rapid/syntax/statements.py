@@ -1,0 +1,354 @@
+"""Statements, simple and compound [K §4]."""
+
+from typing import Final
+
+from rapidgen.rapid.syntax.blocks import BLOCK_ENDS, STARTERS, BlockParser
+from rapidgen.rapid.syntax.faults import SyntaxFault
+from rapidgen.rapid.syntax.lexer import HOLDER, KEYWORDS, NAME, Tokens
+from rapidgen.rapid.syntax.nodes import (
+    Argument,
+    Assignment,
+    Branch,
+    Case,
+    CompactIf,
+    Connect,
+    Exit,
+    Expression,
+    For,
+    Goto,
+    If,
+    Label,
+    LateCall,
+    Placeholder,
+    PlaceholderStatement,
+    ProcedureCall,
+    Raise,
+    Retry,
+    Return,
+    Statement,
+    Test,
+    TryNext,
+    While,
+)
+
+_BEHIND_NAMES: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
+
+
+class StatementParser(BlockParser):
+    """Parses statements."""
+
+    def __init__(self, tokens: Tokens) -> None:
+        super().__init__(tokens)
+        self.nested = -1
+        """An IF, FOR, WHILE or TEST that stands where a compact IF has its statement."""
+        self.handlers |= {
+            NAME: self._named_statement,
+            HOLDER: self._placeholder,
+            "IF": self._if,
+            "FOR": self._for,
+            "WHILE": self._while,
+            "TEST": self._test,
+            "RETURN": self._return,
+            "RAISE": self._raise,
+            "GOTO": self._goto,
+            "EXIT": self._exit,
+            "RETRY": self._retry,
+            "TRYNEXT": self._trynext,
+            "CONNECT": self._connect,
+            "%": self._late_call,
+        }
+
+    # -- simple statements ---------------------------------------------------------------
+
+    def _semicolon(self, i: int, expected: str = "';'") -> int:
+        if self.kinds[i] != ";":
+            raise SyntaxFault(i, expected)
+        return i
+
+    def _named_statement(self, i: int) -> Statement:
+        kinds = self.kinds
+        following = kinds[i + 1]
+        if following == ":=" or following == "{" or following == ".":
+            target = self.reference(i)
+            at = target.last + 1
+            if kinds[at] != ":=":
+                raise SyntaxFault(at, "':='")
+            value = self.expression(at + 1)
+            end = self._semicolon(value.last + 1, "';' or an operator")
+            return Assignment(i, end, target, value)
+        if following == ":":
+            return Label(i, i + 1, self.texts[i])
+        if following == "(" and kinds[i + 2] == ")":
+            raise SyntaxFault(
+                i + 2, "an argument", "a procedure is called without parentheses: Name a, b;"
+            )
+        arguments = self.arguments(i + 1, ";")
+        return ProcedureCall(i, self.after, self.texts[i], arguments)
+
+    def _placeholder(self, i: int) -> Statement:
+        text = self.texts[i].upper()
+        kinds = self.kinds
+        if kinds[i + 1] == ":=" and text == "<VAR>":
+            value = self.expression(i + 2)
+            end = self._semicolon(value.last + 1, "';' or an operator")
+            return Assignment(i, end, Placeholder(i, i, text), value)
+        inner = self.open[-1][0]
+        if text == "<ID>":
+            if kinds[i + 1] == ":":
+                return Label(i, i + 1, text)
+            arguments: list[Argument] = self.arguments(i + 1, ";")
+            return ProcedureCall(i, self.after, text, arguments)
+        fits = {"<SMT>": True, "<EIT>": inner == "IF", "<CSE>": inner == "TEST"}
+        if not fits.get(text, False):
+            raise SyntaxFault(i, "a statement or <SMT>")
+        end = i + 1 if kinds[i + 1] == ";" else i
+        return PlaceholderStatement(i, end, text)
+
+    def _late_call(self, i: int) -> LateCall:
+        procedure = self.expression(i + 1)
+        at = procedure.last + 1
+        if self.kinds[at] != "%":
+            raise SyntaxFault(at, "'%' or an operator")
+        arguments = self.arguments(at + 1, ";")
+        return LateCall(i, self.after, procedure, arguments)
+
+    def _return(self, i: int) -> Return:
+        if self.kinds[i + 1] == ";":
+            return Return(i, i + 1, None)
+        value = self.expression(i + 1)
+        return Return(i, self._semicolon(value.last + 1, "';' or an operator"), value)
+
+    def _raise(self, i: int) -> Raise:
+        if self.kinds[i + 1] == ";":
+            return Raise(i, i + 1, None)
+        number = self.expression(i + 1)
+        return Raise(i, self._semicolon(number.last + 1, "';' or an operator"), number)
+
+    def identifier(self, i: int, expected: str) -> str:
+        """The name at token i, or the placeholder <ID>."""
+        if self.kinds[i] is NAME:
+            return self.texts[i]
+        if self.kinds[i] is HOLDER and self.texts[i].upper() == "<ID>":
+            return "<ID>"
+        if self.kinds[i] in KEYWORDS and self.kinds[i + 1] in _BEHIND_NAMES:
+            # Taken as the name that it was meant for, so that nothing follows from it.
+            self.fault(SyntaxFault(i, expected, f"{self.kinds[i]} is a reserved word"))
+            return self.texts[i]
+        raise SyntaxFault(i, expected)
+
+    def _goto(self, i: int) -> Goto:
+        name = self.identifier(i + 1, "a label")
+        return Goto(i, self._semicolon(i + 2), name)
+
+    def _exit(self, i: int) -> Exit:
+        return Exit(i, self._semicolon(i + 1))
+
+    def _retry(self, i: int) -> Retry:
+        return Retry(i, self._semicolon(i + 1))
+
+    def _trynext(self, i: int) -> TryNext:
+        return TryNext(i, self._semicolon(i + 1))
+
+    def _connect(self, i: int) -> Connect:
+        kinds = self.kinds
+        target: Expression
+        if kinds[i + 1] is HOLDER and self.texts[i + 1].upper() == "<VAR>":
+            target = Placeholder(i + 1, i + 1, "<VAR>")
+        elif kinds[i + 1] is NAME:
+            target = self.reference(i + 1)
+        else:
+            raise SyntaxFault(i + 1, "an interrupt variable")
+        at = target.last + 1
+        if kinds[at] != "WITH":
+            raise SyntaxFault(at, "WITH")
+        trap = self.identifier(at + 1, "the name of a trap")
+        return Connect(i, self._semicolon(at + 2), target, trap)
+
+    # -- compound statements -------------------------------------------------------------
+
+    def _if(self, i: int) -> Statement:
+        condition, at = self._condition(i, "THEN")
+        if self.kinds[at] != "THEN":
+            try:
+                return self._compact_if(i, condition, at)
+            except SyntaxFault:
+                missing = SyntaxFault(at, "THEN, an operator or a simple statement")
+                if not self._reaches(at, "THEN"):
+                    raise
+            at = self._header(i, missing, "THEN") - 1
+        self.enter("IF", i)
+        branches: list[Branch] = []
+        otherwise: list[Statement] | None = None
+        first = i
+        while True:
+            body = self.statements(at + 1)
+            end = self.after
+            branches.append(Branch(first, end - 1, condition, body))
+            kind = self.kinds[end] if self.open[-1][1] >= 0 else ""
+            if kind != "ELSEIF":
+                break
+            first = end
+            try:
+                condition = self.expression(end + 1)
+                at = condition.last + 1
+                if self.kinds[at] != "THEN":
+                    raise SyntaxFault(at, "THEN or an operator")
+            except SyntaxFault as found:
+                condition = Placeholder(end, end, "<EXP>")
+                behind = self._header(end, found, "THEN")
+                at = (behind if behind >= 0 else self.resume(end, found.at)) - 1
+        if kind == "ELSE":
+            otherwise = self.statements(end + 1)
+            while self.kinds[self.after] in ("ELSE", "ELSEIF") and self.open[-1][1] >= 0:
+                self.fault(SyntaxFault(self.after, "ENDIF", "ELSE is the last branch of an IF"))
+                otherwise += self.statements(self._behind_branch(self.after))
+        return If(i, self.leave(), branches, otherwise)
+
+    def _behind_branch(self, i: int) -> int:
+        """Index behind a wrong ELSE or ELSEIF ... THEN."""
+        if self.kinds[i] == "ELSE" or not self._reaches(i + 1, "THEN"):
+            return i + 1
+        return self.kinds.index("THEN", i) + 1
+
+    def _condition(self, i: int, wanted: str) -> tuple[Expression, int]:
+        """Condition behind IF or WHILE, and the index of the token behind it."""
+        try:
+            condition = self.expression(i + 1)
+            return condition, condition.last + 1
+        except SyntaxFault as found:
+            behind = self._header(i, found, wanted)
+            if behind < 0:
+                raise
+            return Placeholder(i, i, "<EXP>"), behind - 1
+
+    def _compact_if(self, i: int, condition: Expression, at: int) -> CompactIf:
+        kind = self.kinds[at]
+        handler = self.handlers.get(kind)
+        if handler is None or kind in ("IF", "FOR", "WHILE", "TEST"):
+            fault = SyntaxFault(at, "THEN, an operator or a simple statement")
+            # Of IF a IF b IF c ... the first is enough.
+            fault.reported = i == self.nested
+            self.nested = at
+            raise fault
+        self.suspect = (i, at)
+        statement = handler(at)
+        if isinstance(statement, Label):
+            raise SyntaxFault(at, "THEN, an operator or a simple statement")
+        return CompactIf(i, statement.last, condition, statement)
+
+    def _while(self, i: int) -> While:
+        condition, at = self._condition(i, "DO")
+        at = self._keyword(i, at, "DO")
+        self.enter("WHILE", i)
+        body = self.statements(at)
+        return While(i, self.leave(), condition, body)
+
+    def _keyword(self, i: int, at: int, wanted: str) -> int:
+        """Index behind DO; a missing one is reported and taken as if it were there."""
+        if self.kinds[at] == wanted:
+            return at + 1
+        behind = self._header(i, SyntaxFault(at, f"{wanted} or an operator"), wanted)
+        return behind if behind >= 0 else at
+
+    def _for(self, i: int) -> For:
+        kinds = self.kinds
+        variable = "<ID>"
+        holder = Placeholder(i, i, "<EXP>")
+        start: Expression = holder
+        end: Expression = holder
+        step: Expression | None = None
+        try:
+            variable = self.identifier(i + 1, "a loop variable")
+            if kinds[i + 2] != "FROM":
+                raise SyntaxFault(i + 2, "FROM")
+            start = self.expression(i + 3)
+            at = start.last + 1
+            if kinds[at] != "TO":
+                raise SyntaxFault(at, "TO or an operator")
+            end = self.expression(at + 1)
+            at = end.last + 1
+            if kinds[at] == "STEP":
+                step = self.expression(at + 1)
+                at = step.last + 1
+            if kinds[at] != "DO":
+                raise SyntaxFault(at, "DO or an operator" if step else "DO, STEP or an operator")
+            at += 1
+        except SyntaxFault as found:
+            at = self._header(i, found, "DO")
+            if at < 0:
+                at = self.resume(i, found.at)
+        self.enter("FOR", i)
+        body = self.statements(at)
+        return For(i, self.leave(), variable, start, end, step, body)
+
+    def _test(self, i: int) -> Test:
+        kinds = self.kinds
+        subject: Expression
+        told = -1
+        try:
+            subject = self.expression(i + 1)
+            at = subject.last + 1
+            if kinds[at] not in ("CASE", "DEFAULT", "ENDTEST") and kinds[at] is not HOLDER:
+                raise SyntaxFault(at, "CASE, DEFAULT, ENDTEST or an operator")
+        except SyntaxFault as found:
+            self.depth = 0
+            self.fault(found)
+            subject = Placeholder(i, i, "<EXP>")
+            told = at = found.at if self._starts_line(found.at) else self.resume(i, found.at)
+        self.enter("TEST", i)
+        cases: list[Case] = []
+        default: list[Statement] | None = None
+        self.after = at
+        while self.open[-1][1] >= 0:
+            at = self.after
+            kind = kinds[at]
+            if kind == "CASE":
+                if default is not None:
+                    self.fault(SyntaxFault(at, "ENDTEST", "DEFAULT is the last branch of a TEST"))
+                cases.append(self._case(at))
+            elif kind == "DEFAULT":
+                if default is not None:
+                    self.fault(SyntaxFault(at, "ENDTEST", "a TEST has one DEFAULT"))
+                behind = at + 1
+                if kinds[behind] == ":":
+                    behind += 1
+                else:
+                    self.fault(SyntaxFault(behind, "':'"))
+                default = self.statements(behind)
+            elif kind is HOLDER and self.texts[at].upper() == "<CSE>":
+                cases.append(Case(at, at, [Placeholder(at, at, "<CSE>")], []))
+                self.after = at + 1
+            elif kind == "ENDTEST" or kind in BLOCK_ENDS:
+                break
+            else:
+                if at != told:
+                    self.fault(SyntaxFault(at, "CASE, DEFAULT or ENDTEST"))
+                self.statements(at + 1 if kind is HOLDER else at)
+                if self.after == at:
+                    break
+        return Test(i, self.leave(), subject, cases, default)
+
+    def _case(self, i: int) -> Case:
+        kinds = self.kinds
+        values: list[Expression] = []
+        try:
+            at = i
+            while True:
+                value = self.expression(at + 1)
+                values.append(value)
+                at = value.last + 1
+                if kinds[at] != ",":
+                    break
+            if kinds[at] != ":":
+                raise SyntaxFault(at, "':', ',' or an operator")
+            at += 1
+        except SyntaxFault as found:
+            self.depth = 0
+            self.fault(found)
+            at = found.at
+            while kinds[at] != ":" and kinds[at] != ";" and kinds[at] not in STARTERS:
+                at += 1
+            at = at + 1 if kinds[at] == ":" else found.at
+            values = values or [Placeholder(i, i, "<EXP>")]
+        body = self.statements(at)
+        return Case(i, self.after - 1, values, body)

@@ -1,0 +1,125 @@
+"""What is wrong with a text as a whole: too large, binary, encoded, empty, no module."""
+
+import re
+from collections.abc import Sequence
+from math import isinf
+from typing import Final
+
+from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.rapid.syntax import faults
+from rapidgen.rapid.syntax.lexer import (
+    BAD_RADIX,
+    MAX_NAME,
+    NAME,
+    NUMBER,
+    STRING,
+    Tokens,
+    number_value,
+)
+from rapidgen.rapid.syntax.source import Source
+
+MAX_BYTES: Final = 8_000_000
+_HEAD: Final = 4096
+_BINARY: Final = re.compile(r"[\x00-\x08\x0e-\x1f]")
+_ENCODED: Final = b"\xfc\xfe"
+"""First byte of encoded modules in public backups [code]."""
+_UTF16: Final = (b"\xff\xfe", b"\xfe\xff")
+
+
+def refuse(source: str | bytes, path: str) -> Diagnostic | None:
+    """The one diagnostic of a text that is not worth reading, or None."""
+    span = Span(path, 1, 1)
+    if len(source) > MAX_BYTES:
+        return faults.error(
+            "RG209",
+            f"the file has {len(source):,} bytes; {MAX_BYTES:,} is the limit",
+            span,
+            help="split the module, or keep positions in a file that the program reads",
+        )
+    if not source.strip():
+        return faults.error(
+            "RG208", "the file is empty", span, help="a module is MODULE name ... ENDMODULE"
+        )
+    if isinstance(source, bytes) and source.startswith(_UTF16):
+        return faults.error(
+            "RG218", "the file is UTF-16 text", span, help="save it as UTF-8 or Latin-1"
+        )
+    # Binary files show it early, or have a zero byte somewhere; other control characters in
+    # the midst of a text are errors of their own places.
+    if isinstance(source, bytes):
+        binary = b"\0" in source or bool(_BINARY.search(source[:_HEAD].decode("latin-1")))
+    else:
+        binary = "\0" in source or bool(_BINARY.search(source[:_HEAD]))
+    if not binary:
+        return None
+    if isinstance(source, bytes) and source[0] in _ENCODED:
+        return faults.error(
+            "RG219",
+            "the module is encoded: only a controller can read it",
+            span,
+            help="ask its maker for the source, or leave it out",
+            severity=Severity.WARNING,
+        )
+    return faults.error("RG218", "the file is binary, not RAPID text", span)
+
+
+def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
+    """The text does not start with MODULE."""
+    if not source.tokens:
+        return faults.error(
+            "RG208",
+            "the file has no module, only comments",
+            faults.place(source, 0),
+            help="a module is MODULE name ... ENDMODULE",
+        )
+    return faults.error(
+        "RG208",
+        f"met {faults.met(source, kinds, 0)}, expected MODULE",
+        faults.place(source, 0),
+        label="expected MODULE",
+        help="a module is MODULE name ... ENDMODULE",
+    )
+
+
+def spellings(tokens: Tokens) -> list[Diagnostic]:
+    """Names too long, strings with a tab, numbers beyond any type: each at its first place."""
+    found = []
+    folded = set()
+    for text, kind in tokens.spellings.items():
+        if kind in (NUMBER, BAD_RADIX) and isinf(number_value(text)):
+            at = tokens.source.tokens.index(text)
+            found.append(
+                faults.error(
+                    "RG205",
+                    f"no type holds {faults.met(tokens.source, tokens.kinds, at)}",
+                    tokens.source.span(at, at),
+                    help="num ends at 3.4E38, dnum at 1.79E308",
+                    notes=("an exponent out of range is an error of the text [K §1.4, 2.5]",),
+                )
+            )
+        if kind is STRING and "\t" in text:
+            at = tokens.source.tokens.index(text)
+            found.append(
+                faults.error(
+                    "RG206",
+                    "a tab in a string is written as the code \\09",
+                    tokens.source.span(at, at),
+                    help="write \\09 in its place",
+                    notes=("the characters of a string [K §2.1, 2.7]",),
+                    severity=Severity.WARNING,
+                )
+            )
+        if kind is NAME and len(text) > MAX_NAME and text.lower() not in folded:
+            folded.add(text.lower())
+            at = tokens.source.tokens.index(text)
+            found.append(
+                faults.error(
+                    "RG220",
+                    f"the name {faults.met(tokens.source, tokens.kinds, at)} has {len(text)} "
+                    f"characters; {MAX_NAME} is the limit",
+                    tokens.source.span(at, at),
+                    help="shorten it",
+                    notes=("all characters of a name count [K §2.3]",),
+                )
+            )
+    return found

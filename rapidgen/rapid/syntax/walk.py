@@ -1,0 +1,77 @@
+"""Going through a tree without knowing each kind of node."""
+
+from collections.abc import Iterator
+from typing import Final
+
+from rapidgen.rapid.syntax import nodes
+from rapidgen.rapid.syntax.nodes import Node
+
+_CHILDREN: Final[dict[type, tuple[str, ...]]] = {
+    nodes.NumberLiteral: (),
+    nodes.StringLiteral: (),
+    nodes.BoolLiteral: (),
+    nodes.Name: (),
+    nodes.Index: ("base", "indices"),
+    nodes.Member: ("base",),
+    nodes.FunctionCall: ("arguments",),
+    nodes.Aggregate: ("members",),
+    nodes.Unary: ("operand",),
+    nodes.Binary: ("left", "right"),
+    nodes.Parenthesis: ("inner",),
+    nodes.Placeholder: (),
+    nodes.Star: (),
+    nodes.Argument: ("value",),
+    nodes.Component: (),
+    nodes.RecordDeclaration: ("components",),
+    nodes.AliasDeclaration: (),
+    nodes.DataDeclaration: ("dimensions", "initial"),
+    nodes.Parameter: (),
+    nodes.ErrorHandler: ("numbers", "body"),
+    nodes.Handler: ("body",),
+    nodes.RoutineDeclaration: ("parameters", "data", "body", "backward", "error", "undo"),
+    nodes.PlaceholderDeclaration: (),
+    nodes.Assignment: ("target", "value"),
+    nodes.ProcedureCall: ("arguments",),
+    nodes.LateCall: ("procedure", "arguments"),
+    nodes.Branch: ("condition", "body"),
+    nodes.If: ("branches", "otherwise"),
+    nodes.CompactIf: ("condition", "statement"),
+    nodes.For: ("start", "end", "step", "body"),
+    nodes.While: ("condition", "body"),
+    nodes.Case: ("values", "body"),
+    nodes.Test: ("subject", "cases", "default"),
+    nodes.Label: (),
+    nodes.Goto: (),
+    nodes.Return: ("value",),
+    nodes.Raise: ("number",),
+    nodes.Retry: (),
+    nodes.TryNext: (),
+    nodes.Exit: (),
+    nodes.Connect: ("target",),
+    nodes.PlaceholderStatement: (),
+    nodes.Module: ("declarations",),
+}
+"""Fields that hold a node, a list of nodes or None, in the order of the source."""
+
+
+def children(node: Node) -> list[Node]:
+    """Nodes directly below a node, in the order of the source."""
+    found: list[Node] = []
+    for name in _CHILDREN[type(node)]:
+        value = getattr(node, name)
+        if type(value) is list:
+            found += value
+        elif value is not None:
+            found.append(value)
+    return found
+
+
+def walk(node: Node) -> Iterator[Node]:
+    """A node and all nodes below it; parents come before their children."""
+    stack = [node]
+    pop = stack.pop
+    while stack:
+        node = pop()
+        yield node
+        if _CHILDREN[type(node)]:
+            stack += reversed(children(node))

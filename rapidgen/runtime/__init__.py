@@ -1,0 +1,1 @@
+"""RAPID while it runs: values, errors, compiler, tasks, built-ins."""

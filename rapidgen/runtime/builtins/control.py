@@ -1,0 +1,220 @@
+"""Program control, errors, waiting [K §7, 11; S4 datasys]."""
+
+from rapidgen.runtime.compiler.runtime import Condition
+from rapidgen.runtime.errors import FIRST_BOOKED_ERROR, ExitCycle, FatalError, RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.raise_to_user import give_to_user
+from rapidgen.runtime.task.recovery import RETRIES
+from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.values import Ref, Type
+
+POLL_RATE = 0.1
+"""Seconds between two looks of WaitUntil [S4 datasys 2-WaitUntil-1]."""
+LONGEST_WAIT = 9_999_999
+
+
+@builtin("Stop")
+def stop(task: RapidTask, no_regain: bool | None, all_move_tasks: bool | None) -> None:
+    """Stop: the movement in progress ends first, then the program stands [S4 2-Stop-1]."""
+    wait_standing(task)
+    task.stop_here()
+
+
+@builtin("Break")
+def break_(task: RapidTask) -> None:
+    """Break: stops at once, not waiting for the movement [S4 2-Break-1]."""
+    task.stop_here()
+
+
+@builtin("ExitCycle")
+def exit_cycle(task: RapidTask) -> None:
+    """ExitCycle: back to main's first statement; data and interrupts stay."""
+    raise ExitCycle
+
+
+@builtin("SystemStopAction")
+def system_stop_action(
+    task: RapidTask, stop: bool | None, stop_block: bool | None, halt: bool | None
+) -> None:
+    """SystemStopAction: all NORMAL tasks stop; \\Halt switches the motors off, too."""
+    if halt:
+        task.controller.set_motors(False)
+    else:
+        task.controller.stop_program()
+    if stop_block or halt:
+        raise FatalError(40_800, "SystemStopAction", "move PP before a restart", restartable=False)
+    task.attend()
+
+
+@builtin("BookErrNo")
+def book_err_no(task: RapidTask, name: Ref) -> None:
+    """BookErrNo: a free error number above the system's own."""
+    booked: set[int] = task.controller.booked
+    number = FIRST_BOOKED_ERROR + len(booked)
+    booked.add(number)
+    name.set(number)
+
+
+@builtin("SkipWarn")
+def skip_warn(task: RapidTask) -> None:
+    """SkipWarn: the handled error leaves no warning in the log [K §7.5]."""
+    task.skip_warning = True
+
+
+@builtin("ResetRetryCount")
+def reset_retry_count(task: RapidTask) -> None:
+    """ResetRetryCount: in a handler, gives the statement all its retries again."""
+    task.retry_base = task.retry_number
+
+
+@builtin("RemainingRetries")
+def remaining_retries(task: RapidTask) -> int:
+    """RemainingRetries: of the statement whose error is being handled."""
+    return RETRIES - (task.retry_number - task.retry_base)
+
+
+@builtin("RaiseToUser")
+def raise_to_user(
+    task: RapidTask, go_on: bool | None, break_off: bool | None, number: float | None
+) -> None:
+    """RaiseToUser: the error at hand goes to the nearest handler outside NOSTEPIN [K §7.3]."""
+    error = RapidError(int(number) if number is not None else task.errno)
+    error.raised = True
+    give_to_user(task, error, resume=bool(go_on))
+
+
+@builtin("ErrRaise")
+def err_raise(task: RapidTask, name: str, number: float, *arguments: str) -> None:
+    """ErrRaise: an error of the program's own, with texts for the log."""
+    task.controller.log.error(
+        80_000 + int(number) % 10_000, name, *[a for a in arguments if a], task=task.name
+    )
+    data = task.program.find_data(None, name.lower())
+    value = data and (data.value if data.storage == "inline" else task.program.space[data.code])
+    error = RapidError(int(value or number))
+    error.raised = True
+    raise error
+
+
+@builtin("CallByVar")
+def call_by_var(task: RapidTask, name: str, number: float) -> None:
+    """CallByVar: procedure `name` + number, without arguments [S4 2-CallByVar-1]."""
+    if number != int(number) or number < 0:
+        raise RapidError("ERR_ARGVALERR")
+    task.late(f"{name}{int(number)}", None, ())
+
+
+@builtin("EventType")
+def event_type(task: RapidTask) -> int:
+    """EventType: which event routine is being executed."""
+    names = ("", "POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP")
+    return names.index(task.event) if task.event in names else 0
+
+
+@builtin("ExecLevel")
+def exec_level(task: RapidTask) -> int:
+    """ExecLevel: 0 normal, 1 trap, 2 event routine."""
+    if task.event:
+        return 2
+    return int(task.in_trap)
+
+
+@builtin("ExecHandler")
+def exec_handler(task: RapidTask) -> int:
+    """ExecHandler: 2 inside an ERROR handler, 3 inside UNDO, else 0."""
+    if task.undo_level:
+        return 3
+    return 2 if task.handler_level else 0
+
+
+@builtin("IsStopStateEvent")
+def is_stop_state_event(task: RapidTask, pp_moved: bool | None, pp_to_main: bool | None) -> bool:
+    """IsStopStateEvent: whether PP was moved; here only a RESET event says so."""
+    return task.event == "RESET"
+
+
+# -- waiting -------------------------------------------------------------------------------------
+
+
+def wait_standing(task: RapidTask) -> None:
+    """Wait until the task's robot stands; at once for a task without one."""
+    motion = task.controller.motion
+    if motion.is_motion_task(task.name):
+        motion.of_task(task.name).wait_standing(task)
+
+
+@builtin("WaitTime")
+def wait_time(task: RapidTask, in_pos: bool | None, seconds: float) -> None:
+    """WaitTime: \\InPos counts from standstill; 0 gives the other tasks a turn."""
+    if in_pos:
+        wait_standing(task)
+    if not seconds >= 0:
+        raise RapidError("ERR_ARGVALERR")
+    if seconds > 0:
+        task.sleep(min(seconds, LONGEST_WAIT))
+    else:
+        task.give_way()
+
+
+@builtin("WaitUntil")
+def wait_until(
+    task: RapidTask,
+    in_pos: bool | None,
+    condition: Condition,
+    max_time: float | None,
+    time_flag: Ref | None,
+    poll_rate: float | None,
+    *_dialog: object,
+) -> None:
+    """WaitUntil: looks at once, then every 0.1 s, or at every change (dialect).
+
+    Past \\MaxTime: \\TimeFlag becomes TRUE, else ERR_WAIT_MAXTIME [S4 2-WaitUntil-1].
+    """
+    if in_pos:
+        wait_standing(task)
+    scheduler = task.scheduler
+    end = None if max_time is None else scheduler.now + round(max_time * 1e9)
+    rate = max(0.004, poll_rate if poll_rate is not None else POLL_RATE)
+    woken = task.controller.dialect.wait_until == "event" and bool(condition.watched)
+    while not condition():
+        left = None if end is None else (end - scheduler.now) / 1e9
+        if left is not None and left <= 0:
+            if time_flag is None:
+                raise RapidError("ERR_WAIT_MAXTIME")
+            time_flag.set(True)
+            return
+        if woken:
+            task.wait_for(condition, on=condition.watched, timeout=left)
+        else:
+            task.sleep(rate if left is None else min(rate, left))
+        task.charge(condition.cost)
+    if time_flag is not None:
+        time_flag.set(False)
+
+
+@builtin("TestAndSet")
+def test_and_set(task: RapidTask, flag: Ref) -> bool:
+    """TestAndSet: TRUE and set, when it was FALSE; nothing can come between."""
+    taken: bool = flag.get()
+    if taken:
+        return False
+    flag.set(True)
+    return True
+
+
+@builtin("WaitTestAndSet")
+def wait_test_and_set(task: RapidTask, flag: Ref) -> None:
+    """WaitTestAndSet: waits for FALSE, then sets TRUE in the same step."""
+    watched = (flag.cell,) if flag.cell is not None else ()
+    task.wait_for(lambda: not flag.get(), on=watched)
+    flag.set(True)
+
+
+# -- data ----------------------------------------------------------------------------------------
+
+
+@builtin("Type")
+def type_(task: RapidTask, data: Ref, base_name: bool | None) -> str:
+    """Type: name of a datum's type; aliases are told by their base here."""
+    kind: Type = data.type
+    return kind.name

@@ -1,0 +1,489 @@
+"""Files and folders.
+
+Sources: S4 reference, pages Open to ReadBin [manual]: no mode switch means \\Write, \\Bin alone
+reads and writes from the end, a line longer than 80 characters comes in pieces, the end of a file
+is the string EOF, 9.999E36 or -1. \\Line, \\Status and the layout of WriteAnyBin are ours.
+"""
+
+import os
+import struct
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from rapidgen.machine.calendar import date_time
+from rapidgen.machine.files import CAPACITY as DISK
+from rapidgen.machine.files import Directory, FileSystem, IODevice
+from rapidgen.runtime.anytype import target_of, value_of
+from rapidgen.runtime.builtins.operator import appended
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.text import NotALiteral, parse_value
+from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, dimensions, single
+
+_EOF_TEXT = "EOF"
+_EOF_NUM = 9.999e36
+_EOF_BIN = -1
+
+
+def _files(task: Task) -> FileSystem:
+    files: FileSystem = task.controller.files
+    return files
+
+
+# -- opening ------------------------------------------------------------------------------------
+
+
+@builtin("Open", cost="socket")
+def open_file(
+    task: Task,
+    object_: str,
+    file: str | None,
+    device: IODevice,
+    read: bool | None,
+    write: bool | None,
+    append: bool | None,
+    binary: bool | None,
+) -> None:
+    """Open a file."""
+    files = _files(task)
+    path = files.path(object_, file or "")
+    files.release(device)
+    if path.exists() and not path.is_file():
+        raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''} is no regular file")
+    if read:
+        mode = "rb"
+    elif append:
+        mode = "ab"
+    elif not write and not binary and task.controller.dialect.open_default == "read":
+        mode = "rb"
+    elif write or not binary:
+        mode = "wb"
+    else:
+        mode = "a+b"
+    try:
+        # The program closes it (or PP to main does): it outlives this call.
+        opened = open(path, mode)  # noqa: SIM115
+    except OSError as error:
+        raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''}: {error.strerror}") from error
+    try:
+        files.hold(device, task.name)
+    except RapidError:
+        opened.close()
+        raise
+    device.file = opened  # type: ignore[assignment]
+    device.path = path
+    device.binary = bool(binary)
+    device.readable = opened.readable()
+    device.writable = opened.writable()
+    _stamp(task, path, written=device.writable)
+
+
+@builtin("Close", cost="socket")
+def close_file(task: Task, device: IODevice) -> None:
+    """Close a file; nothing when it is closed."""
+    was_written = device.file is not None and device.writable
+    _files(task).release(device)
+    _stamp(task, device.path, written=was_written)
+
+
+@builtin("Rewind", cost="socket")
+def rewind(_task: Task, device: IODevice) -> None:
+    """Back to the first byte."""
+    _opened(device).seek(0)
+
+
+@builtin("ClearIOBuff", cost="socket")
+def clear_io_buff(_task: Task, device: IODevice) -> None:
+    """Drop what a serial line has received: a file has nothing to drop."""
+    _opened(device)
+
+
+def _stamp(task: Task, path: Path, *, written: bool) -> None:
+    """Give a written file the controller's own time."""
+    if written and task.scheduler.clock == "virtual" and path.exists():
+        time = date_time(task.scheduler).timestamp()
+        os.utime(path, (time, time))
+
+
+def _opened(device: IODevice) -> BinaryIO:
+    if device.file is None:
+        raise RapidError("ERR_FILEACC", "the file is not open")
+    return device.file
+
+
+def _reader(device: IODevice, *, binary: bool = False) -> BinaryIO:
+    file = _opened(device)
+    if not device.readable or (binary and not device.binary):
+        raise RapidError("ERR_FILEACC", "the file is not open for this kind of reading")
+    return file
+
+
+def _put(task: Task, device: IODevice, data: bytes, *, binary: bool = False) -> None:
+    file = _opened(device)
+    if not device.writable or (binary and not device.binary):
+        raise RapidError("ERR_FILEACC", "the file is not open for this kind of writing")
+    _files(task).spend(len(data))
+    try:
+        file.write(data)
+        file.flush()
+    except OSError as error:
+        raise RapidError("ERR_FILEACC", str(error.strerror)) from error
+
+
+# -- writing ------------------------------------------------------------------------------------
+
+
+@builtin("Write", cost="socket")
+def write(
+    task: Task,
+    device: IODevice,
+    text: str,
+    num: float | None,
+    boolean: bool | None,
+    pos: object,
+    orient: object,
+    dnum: float | None,
+    no_new_line: bool | None,
+) -> None:
+    """Write a text, a value in the standard format and a line feed."""
+    line = appended(task, text, num, boolean, pos, orient, dnum)
+    _put(task, device, (line + ("" if no_new_line else "\n")).encode("latin-1"))
+
+
+@builtin("WriteBin", cost="socket")
+def write_bin(task: Task, device: IODevice, buffer: dict[int, float], count: float) -> None:
+    """Write the first elements of an array as bytes."""
+    number = whole(count, "ERR_ARGVALERR")
+    if not 0 <= number <= len(buffer):
+        raise RapidError("ERR_ARGVALERR", f"{number} of {len(buffer)} elements")
+    data = bytes(byte_value(buffer[i]) for i in range(1, number + 1))
+    _put(task, device, data, binary=True)
+
+
+@builtin("WriteStrBin", cost="socket")
+def write_str_bin(task: Task, device: IODevice, text: str) -> None:
+    """Write a string's bytes, nothing else."""
+    _put(task, device, text.encode("latin-1"), binary=True)
+
+
+@builtin("WriteRawBytes", cost="socket")
+def write_raw_bytes(task: Task, device: IODevice, raw: RawBytes, count: float | None) -> None:
+    """Write valid bytes of a container."""
+    number = len(raw.data) if count is None else whole(count, "ERR_ARGVALERR")
+    if not 0 <= number <= len(raw.data):
+        raise RapidError("ERR_ARGVALERR", f"{number} of {len(raw.data)} bytes")
+    _put(task, device, bytes(raw.data[:number]), binary=True)
+
+
+@builtin("WriteAnyBin", cost="socket")
+def write_any_bin(task: Task, device: IODevice, datum: object) -> None:
+    """Write a value of any type so that ReadAnyBin reads it back."""
+    value, kind = value_of(datum)
+    body = _encoded(value, kind)
+    label = _label(kind, dimensions(value)).encode("latin-1")
+    _put(task, device, struct.pack("<BI", len(label), len(body)) + label + body, binary=True)
+
+
+@builtin("ReadAnyBin", cost="socket")
+def read_any_bin(_task: Task, device: IODevice, datum: object, _time: float | None) -> None:
+    """Read a value that WriteAnyBin wrote; ERR_RANYBIN_CHK when it is of another type."""
+    target = target_of(datum)
+    file = _reader(device, binary=True)
+    head = file.read(5)
+    if len(head) < 5:
+        raise RapidError("ERR_RANYBIN_EOF")
+    label_size, body_size = struct.unpack("<BI", head)
+    label, body = file.read(label_size), file.read(body_size)
+    if len(label) + len(body) < label_size + body_size:
+        raise RapidError("ERR_RANYBIN_EOF")
+    if label.decode("latin-1") != _label(target.type, target.dims):
+        raise RapidError("ERR_RANYBIN_CHK", f"the file has {label.decode('latin-1')}")
+    value, _ = _decoded(body, 0, target.type, target.dims)
+    target.set(value)
+
+
+def _label(type_: Type, dims: tuple[int, ...]) -> str:
+    return type_.name + "".join(f"{{{size}}}" for size in dims)
+
+
+def _encoded(value: Any, type_: Type) -> bytes:  # noqa: ANN401
+    if value.__class__ is dict:
+        return b"".join(_encoded(part, type_) for part in value.values())
+    if isinstance(value, Record):
+        parts = zip(value.values(), value.rapid_type.components, strict=True)
+        return b"".join(_encoded(part, kind) for part, (_, kind) in parts)
+    if isinstance(value, str):
+        return struct.pack("<B", len(value)) + value.encode("latin-1")
+    if isinstance(value, bool):
+        return bytes([value])
+    return struct.pack("<d", value)
+
+
+def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Any, int]:
+    if dims:
+        array = {}
+        for i in range(1, dims[0] + 1):
+            array[i], place = _decoded(data, place, type_, dims[1:])
+        return array, place
+    if type_.kind == "record":
+        parts = []
+        for _, kind in type_.components:
+            part, place = _decoded(data, place, kind, ())
+            parts.append(part)
+        assert type_.make is not None
+        return type_.make(*parts), place
+    if type_.kind == "string":
+        end = place + 1 + data[place]
+        return data[place + 1 : end].decode("latin-1"), end
+    if type_.kind == "bool":
+        return bool(data[place]), place + 1
+    number = struct.unpack_from("<d", data, place)[0]
+    return single(number) if type_.kind == "num" else number, place + 8
+
+
+# -- reading ------------------------------------------------------------------------------------
+
+
+def _line(file: BinaryIO, delimiters: bytes, *, skip: bool = False) -> str | None:
+    """Through the next delimiter, at most 80 characters; None at the end of the file."""
+    text = bytearray()
+    while len(text) < STRING_LIMIT:
+        byte = file.read(1)
+        if not byte:
+            return text.decode("latin-1") if text else None
+        if byte not in delimiters:
+            text += byte
+        elif text or not skip:
+            return text.decode("latin-1")
+    return text.decode("latin-1")
+
+
+@builtin("ReadStr", cost="socket")
+def read_str(
+    _task: Task,
+    device: IODevice,
+    delimiters: str | None,
+    remove_cr: bool | None,
+    discard: bool | None,
+    _time: float | None,
+    line_number: float | None,
+    status: Ref | None,
+) -> str:
+    r"""The next line, or the string EOF; \Status is then -1, else 0."""
+    file = _reader(device)
+    ends = (delimiters or "\n").encode("latin-1")
+    skipped: str | None = ""
+    if line_number is not None:
+        file.seek(0)
+        for _ in range(1, whole(line_number, "ERR_ARGVALERR")):
+            skipped = _line(file, ends)
+    text = None if skipped is None else _line(file, ends, skip=bool(discard))
+    if status is not None:
+        status.set(-1 if text is None else 0)
+    if text is None:
+        return _EOF_TEXT
+    return text.rstrip("\r") if remove_cr else text
+
+
+@builtin("ReadNum", cost="socket")
+def read_num(_task: Task, device: IODevice, delimiters: str | None, _time: float | None) -> float:
+    """The number on the next line, or 9.999E36 at the end."""
+    ends = ("\n" + (delimiters or "")).encode("latin-1")
+    text = _line(_reader(device), ends)
+    if text is None:
+        return single(_EOF_NUM)
+    try:
+        number: float = parse_value(text.strip(), NUM)
+    except NotALiteral as error:
+        raise RapidError("ERR_RCVDATA", f"'{text}' is no number") from error
+    return number
+
+
+@builtin("ReadBin", cost="socket")
+def read_bin(_task: Task, device: IODevice, _time: float | None) -> int:
+    """The next byte, or -1 at the end."""
+    byte = _reader(device, binary=True).read(1)
+    return byte[0] if byte else _EOF_BIN
+
+
+@builtin("ReadStrBin", cost="socket")
+def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | None) -> str:
+    """The next so many bytes as a string, or the string EOF."""
+    number = whole(count, "ERR_ARGVALERR")
+    if not 0 <= number <= STRING_LIMIT:
+        raise RapidError("ERR_ARGVALERR", f"{number} characters")
+    data = _reader(device, binary=True).read(number)
+    return data.decode("latin-1") if data or not number else _EOF_TEXT
+
+
+@builtin("ReadRawBytes", cost="socket")
+def read_raw_bytes(_task: Task, device: IODevice, raw: RawBytes, _time: float | None) -> None:
+    """The next bytes, at most 1024; none at the end."""
+    raw.data[:] = _reader(device, binary=True).read(CAPACITY)
+
+
+# -- the disk -----------------------------------------------------------------------------------
+
+
+@builtin("MakeDir", cost="socket")
+def make_dir(task: Task, path: str) -> None:
+    """Make a folder."""
+    _disk(_files(task).path(path).mkdir, path)
+
+
+@builtin("RemoveDir", cost="socket")
+def remove_dir(task: Task, path: str) -> None:
+    """Remove an empty folder; a disk itself stays."""
+    place = _files(task).path(path)
+    if place.parent == _files(task).folder:
+        raise RapidError("ERR_FILEACC", f"{path} is a disk")
+    _disk(place.rmdir, path)
+
+
+@builtin("RemoveFile", cost="socket")
+def remove_file(task: Task, path: str) -> None:
+    """Remove a file."""
+    _disk(_files(task).path(path).unlink, path)
+
+
+@builtin("RenameFile", cost="socket")
+def rename_file(task: Task, old: str, new: str) -> None:
+    """Give a file another name; ERR_FILEEXIST when that is taken."""
+    source, target = _pair(task, old, new)
+    _disk(lambda: source.rename(target), old)
+
+
+@builtin("CopyFile", cost="socket")
+def copy_file(task: Task, old: str, new: str) -> None:
+    """Copy a file; ERR_FILEEXIST when the name is taken."""
+    source, target = _pair(task, old, new)
+    try:
+        data = source.read_bytes()
+        _files(task).spend(len(data))
+        target.write_bytes(data)
+    except OSError as error:
+        raise RapidError("ERR_FILEACC", f"{old}: {error.strerror}") from error
+    _stamp(task, target, written=True)
+
+
+def _pair(task: Task, old: str, new: str) -> tuple[Path, Path]:
+    source, target = _files(task).path(old), _files(task).path(new)
+    if not source.is_file():
+        raise RapidError("ERR_FILEACC", f"there is no file {old}")
+    if target.exists():
+        raise RapidError("ERR_FILEEXIST", new)
+    return source, target
+
+
+def _disk(action: Any, path: str) -> None:  # noqa: ANN401 - a bound method of Path
+    try:
+        action()
+    except OSError as error:
+        raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
+
+
+@builtin("IsFile", cost="socket")
+def is_file(
+    task: Task,
+    path: str,
+    directory: bool | None,
+    fifo: bool | None,
+    regular: bool | None,
+    block: bool | None,
+    char: bool | None,
+) -> bool:
+    """Whether there is such a file, of that kind if one is named."""
+    place = _files(task).path(path)
+    if directory:
+        return place.is_dir()
+    if regular:
+        return place.is_file()
+    if fifo or block or char:
+        return False
+    return place.exists()
+
+
+@builtin("FileSize", cost="socket")
+def file_size(task: Task, path: str) -> float:
+    """Bytes of a file; ERR_FILEACC when there is none."""
+    return single(_status(task, path).st_size)
+
+
+@builtin("FSSize", cost="socket")
+def fs_size(
+    task: Task,
+    name: str,
+    total: bool | None,
+    _free: bool | None,
+    kilobytes: bool | None,
+    megabytes: bool | None,
+) -> float:
+    """Size of a disk, or what is free on it."""
+    files = _files(task)
+    files.path(name)
+    size = DISK if total else files.room
+    return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
+
+
+@builtin("FileTime", cost="socket")
+def file_time(
+    task: Task,
+    path: str,
+    _modify: bool | None,
+    access: bool | None,
+    status: bool | None,
+    digits: Ref | None,
+) -> float:
+    """Seconds since 1970; a num resolves 128 s today, \\StrDig every one."""
+    found = _status(task, path)
+    seconds = int(found.st_atime if access else found.st_ctime if status else found.st_mtime)
+    if status and task.scheduler.clock == "virtual":
+        # The operating system alone sets this one; a run has to be the same every time.
+        seconds = int(found.st_mtime)
+    if digits is not None:
+        digits.set(str(seconds))
+    return single(seconds)
+
+
+def _status(task: Task, path: str) -> os.stat_result:
+    try:
+        return _files(task).path(path).stat()
+    except OSError as error:
+        raise RapidError("ERR_FILEACC", f"there is no file {path}") from error
+
+
+@builtin("OpenDir", cost="socket")
+def open_dir(task: Task, device: Directory, path: str) -> None:
+    """Begin to read a folder's names."""
+    files = _files(task)
+    files.release(device)
+    place = files.path(path)
+    if not place.is_dir():
+        raise RapidError("ERR_FILEACC", f"there is no folder {path}")
+    files.hold(device, task.name)
+    try:
+        names = sorted(os.listdir(place))
+    except OSError as error:
+        files.release(device)
+        raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
+    shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
+    device.names = [".", "..", *shown]
+
+
+@builtin("ReadDir", cost="socket")
+def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
+    """The next name, `.` and `..` among them; FALSE when there is none left."""
+    if device.names is None:
+        raise RapidError("ERR_FILEACC", "the folder is not open")
+    if not device.names:
+        return False
+    name.set(device.names.pop(0)[:STRING_LIMIT])
+    return True
+
+
+@builtin("CloseDir", cost="socket")
+def close_dir(task: Task, device: Directory) -> None:
+    """End reading a folder."""
+    _files(task).release(device)

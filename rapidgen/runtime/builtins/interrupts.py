@@ -1,0 +1,274 @@
+"""Ordering interrupts [K §8; S4 datasys 2-ISignalDI, 2-ITimer, 2-IDisable; 1A/184 IPers]."""
+
+from collections.abc import Callable
+
+from rapidgen.machine.io import AnySignal
+from rapidgen.machine.log import Event
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.interrupts import Interrupt
+from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.values import Cell, Ref, copy_value, register_type
+
+SHORTEST_TIMER = 0.1
+SHORTEST_SINGLE_TIMER = 0.01
+"""Seconds; a shorter one is an error (switch `shortest_timer`)."""
+_FINEST_TIMER = 0.001
+"""Seconds that a clock of the controller resolves."""
+EDGE = 2
+
+
+class TrapData:
+    """What GetTrapData fills."""
+
+    __slots__ = ("event",)
+
+    def __init__(self) -> None:
+        self.event: Event | None = None
+
+
+register_type("trapdata", TrapData)
+
+
+@builtin("ISleep")
+def i_sleep(task: RapidTask, interrupt: Ref) -> None:
+    """ISleep: events are ignored for good until IWatch; not for safe interrupts."""
+    found = task.interrupts.find(interrupt.get())
+    if found.safe:
+        raise RapidError("ERR_INOISSAFE")
+    found.asleep = True
+
+
+@builtin("IWatch")
+def i_watch(task: RapidTask, interrupt: Ref) -> None:
+    """IWatch: events count again."""
+    task.interrupts.find(interrupt.get()).asleep = False
+
+
+@builtin("IDelete")
+def i_delete(task: RapidTask, interrupt: Ref) -> None:
+    """IDelete: order and connection go; a number that is not connected is left alone."""
+    task.interrupts.delete(interrupt.get())
+    interrupt.set(0)
+
+
+@builtin("IDisable")
+def i_disable(task: RapidTask) -> None:
+    """IDisable: events of the task queue."""
+    task.interrupts.disabled = True
+
+
+@builtin("IEnable")
+def i_enable(task: RapidTask) -> None:
+    """IEnable: what queued runs at once, in order."""
+    task.interrupts.disabled = False
+    task.attend()
+
+
+@builtin("ITimer")
+def i_timer(
+    task: RapidTask, single: bool | None, safe: bool | None, seconds: float, interrupt: Ref
+) -> None:
+    """ITimer: first after one period; the next is counted from the event, not from the trap."""
+    shortest = SHORTEST_SINGLE_TIMER if single or safe else SHORTEST_TIMER
+    if task.controller.dialect.shortest_timer == "any":
+        shortest = _FINEST_TIMER
+    if not seconds >= shortest:
+        raise RapidError("ERR_ARGVALERR", f"the shortest time is {shortest} s")
+    order = _order(task, interrupt, single, safe)
+    scheduler = task.scheduler
+    period = round(seconds * 1e9)
+    timer = None
+
+    def tick() -> None:
+        nonlocal timer
+        if not order.single:
+            timer = scheduler.at(scheduler.now + period, tick)
+        task.interrupts.happen(order)
+
+    timer = scheduler.after(period, tick)
+
+    def cancel() -> None:
+        timer.cancel()
+
+    order.cancel.append(cancel)
+
+
+@builtin("IPers")
+def i_pers(
+    task: RapidTask, single: bool | None, safe: bool | None, name: Ref, interrupt: Ref
+) -> None:
+    """IPers: fires when the value changes, whoever writes it; storing the same is no change."""
+    cell = name.cell
+    if cell is None or not name.whole:
+        raise FatalError(40_303, "IPers takes a whole persistent", name.name)
+    order = _order(task, interrupt, single, safe)
+    _watch(cell, order, lambda: task.interrupts.happen(order))
+
+
+def _watch(cell: Cell, order: Interrupt, fire: Callable[[], None]) -> None:
+    seen = copy_value(cell.v)
+
+    def look() -> None:
+        nonlocal seen
+        if cell.v != seen:
+            seen = copy_value(cell.v)
+            fire()
+
+    cell.add(look)
+    order.cancel.append(lambda: cell.remove(look))
+
+
+@builtin("ISignalDI")
+@builtin("ISignalDO")
+def i_signal_digital(
+    task: RapidTask,
+    single: bool | None,
+    safe: bool | None,
+    signal: AnySignal,
+    value: float,
+    interrupt: Ref,
+) -> None:
+    """On the edge to 0, to 1, or on both (2 = edge); a level is no edge."""
+    if value not in (0, 1, EDGE):
+        raise RapidError("ERR_ARGVALERR")
+    order = _order(task, interrupt, single, safe)
+    _on_change(task, signal, order, lambda now: value in (EDGE, now))
+
+
+@builtin("ISignalGI")
+@builtin("ISignalGO")
+def i_signal_group(
+    task: RapidTask, single: bool | None, safe: bool | None, signal: AnySignal, interrupt: Ref
+) -> None:
+    """On every change."""
+    order = _order(task, interrupt, single, safe)
+    _on_change(task, signal, order, lambda _: True)
+
+
+def _on_change(
+    task: RapidTask, signal: AnySignal, order: Interrupt, wanted: Callable[[float], bool]
+) -> None:
+    source = signal.signal
+    seen = source.value
+
+    def look() -> None:
+        nonlocal seen
+        if source.value != seen:
+            seen = source.value
+            if wanted(seen):
+                task.interrupts.happen(order)
+
+    source.changed.add(look)
+    order.cancel.append(lambda: source.changed.remove(look))
+
+
+@builtin("ISignalAI")
+@builtin("ISignalAO")
+def i_signal_analogue(
+    task: RapidTask,
+    single: bool | None,
+    safe: bool | None,
+    signal: AnySignal,
+    condition: float,
+    high: float,
+    low: float,
+    delta: float,
+    upwards: bool | None,
+    downwards: bool | None,
+    interrupt: Ref,
+) -> None:
+    """While the condition holds, fire whenever the value moved by more than the delta.
+
+    The first event may come at once, when the condition holds already.
+    """
+    order = _order(task, interrupt, single, safe)
+    source = signal.signal
+
+    def holds(value: float) -> bool:
+        above, below = value > high, value < low
+        return {
+            1: above,
+            2: not above,
+            3: not below,
+            4: below,
+            5: not above and not below,
+            6: above or below,
+            7: True,
+        }.get(int(condition), False)
+
+    last: float | None = None
+
+    def look() -> None:
+        nonlocal last
+        value = source.value
+        moved = (
+            last is None
+            or (value - last > delta and not downwards)
+            or (last - value > delta and not upwards)
+        )
+        if holds(value):
+            if moved:
+                last = value
+                task.interrupts.happen(order)
+        else:
+            last = None
+
+    source.changed.add(look)
+    order.cancel.append(lambda: source.changed.remove(look))
+    look()
+
+
+@builtin("IError")
+def i_error(
+    task: RapidTask, domain: float, number: float | None, kind: float, interrupt: Ref
+) -> None:
+    """IError: an event of a domain (0: any) and type (0: any) was logged."""
+    order = _order(task, interrupt, None, None)
+
+    def look(event: Event) -> None:
+        if domain not in (0, event.domain) or kind not in (0, event.type):
+            return
+        if task.controller.dialect.error_reach == "own" and event.task != task.name:
+            return
+        if number is not None and event.code % 10_000 != number:
+            return
+        task.interrupts.happen(order, event)
+
+    order.cancel.append(task.controller.log.subscribe(look))
+
+
+@builtin("GetTrapData")
+def get_trap_data(task: RapidTask, data: TrapData) -> None:
+    """GetTrapData: only in a trap."""
+    if not task.in_trap:
+        raise FatalError(40_304, "GetTrapData stands only in a trap")
+    data.event = task.trap_data if isinstance(task.trap_data, Event) else None
+
+
+@builtin("ReadErrData")
+def read_err_data(
+    task: RapidTask,
+    data: TrapData,
+    domain: Ref,
+    number: Ref,
+    kind: Ref,
+    title: Ref | None,
+    *texts: Ref | None,
+) -> None:
+    """ReadErrData: what the event that caused the trap says."""
+    event = data.event
+    if event is None:
+        raise FatalError(40_305, "There is no error in the trap data")
+    domain.set(int(event.domain))
+    number.set(event.code % 10_000)
+    kind.set(int(event.type))
+    if title is not None:
+        title.set(event.title[:80])
+    for i, text in enumerate(texts):
+        if text is not None:
+            text.set(event.texts[i][:80] if i < len(event.texts) else "")
+
+
+def _order(task: RapidTask, interrupt: Ref, single: bool | None, safe: bool | None) -> Interrupt:
+    return task.interrupts.order(interrupt.get(), single=bool(single), safe=bool(safe))

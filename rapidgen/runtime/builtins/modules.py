@@ -1,0 +1,142 @@
+"""Load to ModTime: modules at run time. See `loading.py` for sources."""
+
+from rapidgen.runtime.compiler.missing import missing_routines
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.loading import ModuleTable, words_of
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Ref, register_type, single
+
+_LOAD_RATE = 1_000_000
+"""Bytes of a module that StartLoad reads in a second, while the program goes on."""
+
+
+class LoadSession:
+    """A `loadsession` datum: what StartLoad has ordered, if anything."""
+
+    __slots__ = ("dynamic", "ready_at", "words")
+
+    def __init__(self) -> None:
+        self.words: str | None = None
+        self.dynamic = False
+        self.ready_at = 0
+
+
+register_type("loadsession", LoadSession)
+
+
+def _modules(task: Task) -> ModuleTable:
+    modules: ModuleTable = task.controller.modules
+    return modules
+
+
+@builtin("Load", cost="socket")
+def load(task: Task, dynamic: bool | None, path: str, file: str | None, check: bool | None) -> None:
+    """Load a module and link it."""
+    _modules(task).load(task, words_of(path, file), dynamic=bool(dynamic), check=bool(check))
+
+
+@builtin("UnLoad", cost="socket")
+def unload(
+    task: Task, _if_changed: bool | None, save: bool | None, path: str, file: str | None
+) -> None:
+    """Unload what the same words have loaded."""
+    _modules(task).unload(task, words_of(path, file), save=bool(save))
+
+
+@builtin("StartLoad", cost="socket")
+def start_load(
+    task: Task, dynamic: bool | None, path: str, file: str | None, session: LoadSession
+) -> None:
+    """Order a module; whether its file exists is only told by WaitLoad [S4 WaitLoad]."""
+    if session.words is not None:
+        raise RapidError("ERR_LOADNO_INUSE")
+    session.words = words_of(path, file)
+    session.dynamic = bool(dynamic)
+    try:
+        size = task.controller.files.path(session.words).stat().st_size
+    except (OSError, RapidError):
+        size = 0
+    session.ready_at = task.scheduler.now + size * 1_000_000_000 // _LOAD_RATE
+
+
+@builtin("WaitLoad", cost="socket")
+def wait_load(
+    task: Task,
+    unload_path: str | None,
+    unload_file: str | None,
+    session: LoadSession,
+    check: bool | None,
+) -> None:
+    """Wait for an ordered module and link it; another one may go first."""
+    if session.words is None:
+        raise RapidError("ERR_LOADNO_NOUSE")
+    task.sleep(max(0, session.ready_at - task.scheduler.now) / 1e9)
+    words, session.words = session.words, None
+    modules = _modules(task)
+    if unload_path is not None:
+        modules.unload(task, words_of(unload_path, unload_file))
+    modules.load(task, words, dynamic=session.dynamic, check=bool(check))
+
+
+@builtin("CancelLoad", cost="socket")
+def cancel_load(_task: Task, session: LoadSession) -> None:
+    """Take an order back."""
+    if session.words is None:
+        raise RapidError("ERR_LOADNO_NOUSE")
+    session.words = None
+
+
+@builtin("Save", cost="socket")
+def save(
+    task: Task,
+    reference: object,
+    name: str | None,
+    module: str,
+    path: str | None,
+    file: str | None,
+) -> None:
+    """Save a module, of this task or another, with the present values of its persistents."""
+    owner = task_named(task, reference, name)
+    _modules(task).save(owner, module, words_of(path or "", file))
+
+
+@builtin("EraseModule", cost="socket")
+def erase_module(task: Task, module: str) -> None:
+    """Remove a module from the program."""
+    _modules(task).erase(task, module)
+
+
+@builtin("ModExist", cost="string")
+def mod_exist(task: Task, module: str) -> bool:
+    """Whether the task has a module of that name."""
+    return module.lower() in task.program.modules
+
+
+@builtin("ModTime", cost="string")
+def mod_time(task: Task, module: str, digits: Ref | None) -> float:
+    """Time of a module's file; a num resolves 128 s today, \\StrDig every one."""
+    seconds = _modules(task).time(task, module)
+    if digits is not None:
+        digits.set(str(seconds))
+    return single(seconds)
+
+
+@builtin("CheckProgRef", cost="socket")
+def check_prog_ref(task: Task) -> None:
+    """ERR_LINKREF when the program calls what does not exist."""
+    missing = missing_routines(task.program)
+    if missing:
+        raise RapidError("ERR_LINKREF", missing[0].message)
+
+
+def task_named(task: Task, reference: object, name: str | None) -> Task:
+    """The task of \\TaskRef or \\TaskName, else this one; ERR_TASKNAME: there is none."""
+    wanted = name if reference is None else getattr(reference, "value", None)
+    if wanted is None:
+        return task
+    for known, other in task.controller.rapid_tasks.items():
+        if known.lower() == str(wanted).lower():
+            found: Task = other
+            return found
+    raise RapidError("ERR_TASKNAME", str(wanted))

@@ -1,0 +1,1 @@
+"""Built-ins that move robots and settle how they move."""

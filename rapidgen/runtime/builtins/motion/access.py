@@ -1,0 +1,69 @@
+"""How a built-in finds the motion group of its task."""
+
+import sys
+from collections.abc import Callable
+from functools import partial
+from types import FrameType
+from typing import Any
+
+from rapidgen.motion import events
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.system import MotionSystem
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.task.task import Task
+
+
+def motion_of(task: Task) -> MotionSystem:
+    """The motion system of the task's controller."""
+    motion: MotionSystem = task.controller.motion
+    return motion
+
+
+def here(task: Task) -> Callable[[], object] | None:
+    """Where the task is, to be looked up only when somebody asks."""
+    codes = task.program.codes
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None:
+        file = frame.f_code.co_filename
+        if file in codes:
+            return partial(task.place_of, file, frame.f_lineno)
+        frame = frame.f_back
+    return None
+
+
+def group_of(task: Task) -> MotionGroup:
+    """The group that the task moves or is connected to. FatalError: there is none."""
+    group = motion_of(task).of_task(task.name)
+    if group is None:
+        raise FatalError(
+            events.NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot"
+        )
+    return group
+
+
+def moving_group(task: Task) -> MotionGroup:
+    """The same for move instructions, which only a motion task may execute."""
+    if not motion_of(task).is_motion_task(task.name):
+        raise FatalError(
+            events.NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves"
+        )
+    if task.interrupts.process_error is not None:
+        task.raise_process_error(task.interrupts.process_error)
+    return group_of(task)
+
+
+def named_group(task: Task, reference: Any, name: str | None) -> MotionGroup:  # noqa: ANN401
+    """The group of \\TaskRef or \\TaskName, else the task's own.
+
+    ERR_TASKNAME: no such task; ERR_NOT_MOVETASK: it moves nothing.
+    """
+    wanted = name if reference is None else reference.value
+    if wanted is None:
+        return group_of(task)
+    if wanted.lower() not in (known.lower() for known in task.controller.tasks):
+        raise RapidError("ERR_TASKNAME", wanted)
+    motion = motion_of(task)
+    group = motion.of_task(wanted)
+    if group is None or not motion.is_motion_task(wanted):
+        raise RapidError("ERR_NOT_MOVETASK", wanted)
+    return group

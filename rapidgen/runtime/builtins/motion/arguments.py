@@ -1,0 +1,123 @@
+"""RAPID's motion data (deg, mm) as what the planner takes (rad, m), and back."""
+
+from math import pi
+from typing import Any, TypeAlias
+
+from rapidgen.axes.frames import Pose as Frame
+from rapidgen.axes.frames import Quaternion, normalise
+from rapidgen.axes.mapping import ABSENT, JointMap
+from rapidgen.motion.modal import ModalSettings
+from rapidgen.motion.moves import Posture, Speed, Zone
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, single
+
+RAD = pi / 180
+Data: TypeAlias = Any
+"""A RAPID record of `values`."""
+STOP_TIME = 2
+"""stoppointdata.type of a dwell."""
+
+
+def speed_of(data: Data, tcp: float | None, modal: ModalSettings) -> Speed:
+    """speeddata with \\V and VelSet: the override scales all parts, the limit only the TCP's."""
+    share = modal.speed_override
+    return Speed(
+        tcp=min((data.v_tcp if tcp is None else tcp) * share / 1000, modal.speed_limit),
+        orientation=data.v_ori * share * RAD,
+        linear=data.v_leax * share / 1000,
+        rotary=data.v_reax * share * RAD,
+    )
+
+
+def time_of(time: float | None, modal: ModalSettings) -> float | None:
+    """\\T with VelSet: half the override, twice the time. ERR_ARGVALERR: not positive."""
+    if time is None:
+        return None
+    if time <= 0:
+        raise RapidError("ERR_ARGVALERR", f"\\T:={time:g}")
+    return time / modal.speed_override
+
+
+def zone_of(data: Data, radius: float | None, stop: Data = None) -> Zone:
+    """zonedata with \\Z; \\Inpos makes any zone a stop point."""
+    if data.finep or stop is not None:
+        return Zone(fine=True)
+    tcp = data.pzone_tcp if radius is None else radius
+    share = tcp / data.pzone_tcp if radius is not None and data.pzone_tcp > 0 else 1.0
+    return Zone(
+        fine=False,
+        tcp=tcp / 1000,
+        orientation=data.pzone_ori * share / 1000,
+        external=data.pzone_eax * share / 1000,
+        angle=data.zone_ori * share * RAD,
+        linear=data.zone_leax * share / 1000,
+        rotary=data.zone_reax * share * RAD,
+    )
+
+
+def dwell_of(stop: Data) -> float:
+    """s that the program waits after a stop point with \\Inpos."""
+    if stop is None:
+        return 0.0
+    time = stop.stoptime if stop.type == STOP_TIME else stop.inpos.mintime
+    return float(time)
+
+
+def target_of(
+    data: Data,
+    axes: JointMap,
+    default: Posture,
+    offsets: tuple[float, ...] = (0.0,) * 6,
+) -> Posture:
+    """A jointtarget as controller values. `offsets` shift external axes; 9E9 keeps `default`."""
+    return axes.from_rapid(data.robax.values(), external_values(data.extax, offsets), default)
+
+
+def external_values(data: Data, offsets: tuple[float, ...]) -> tuple[float, ...]:
+    """extjoint with offsets added where an axis is used."""
+    return tuple(
+        v if v > ABSENT / 2 else v + o for v, o in zip(data.values(), offsets, strict=True)
+    )
+
+
+def joint_target(axes: JointMap, posture: Posture, offsets: tuple[float, ...] = (0.0,) * 6) -> Data:
+    """A posture as a fresh jointtarget."""
+    robot, external = axes.to_rapid(posture)
+    return JointTarget(
+        RobJoint(*map(single, robot)),
+        external_target(external, offsets),
+    )
+
+
+def external_target(external: tuple[float, ...], offsets: tuple[float, ...]) -> Data:
+    """External axes in RAPID units as a fresh extjoint, without the offsets."""
+    return ExtJoint(
+        *(
+            single(v) if v > ABSENT / 2 else single(v - o)
+            for v, o in zip(external, offsets, strict=True)
+        )
+    )
+
+
+def quaternion(data: Data) -> Quaternion:
+    """An orient as a unit quaternion. ERR_ILLQUAT: too far from unit length.
+
+    Up to 1e-5 off in the sum of squares it is normalised silently, up to 0.1 too (the manual
+    sends the user to NOrient), above it is unusable (S4 datasys 1-orient-1).
+    """
+    q = (data.q1, data.q2, data.q3, data.q4)
+    if abs(sum(v * v for v in q) - 1.0) > 0.1:
+        raise RapidError("ERR_ILLQUAT", f"{list(q)}")
+    return normalise(q)
+
+
+def frame(data: Data) -> Frame:
+    """A pose in m."""
+    t = data.trans
+    return (t.x / 1000, t.y / 1000, t.z / 1000), quaternion(data.rot)
+
+
+def pose(frame_: Frame) -> Data:
+    """A frame as a fresh pose in mm."""
+    (x, y, z), q = frame_
+    return Pose(Pos(single(x * 1000), single(y * 1000), single(z * 1000)), Orient(*map(single, q)))

@@ -1,0 +1,260 @@
+"""Frames, orientations and vectors.
+
+Sources: S4 datasys, the page of each name (RelTool, OrientZYX, EulerZYX, DefFrame, DefDFrame,
+MirPos, ORobT, NOrient). Lengths are mm throughout: these functions never leave RAPID's units.
+"""
+
+from math import pi, sqrt
+from typing import Any, TypeAlias
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose as Frame
+from rapidgen.axes.frames import Vector
+from rapidgen.axes.mapping import ABSENT
+from rapidgen.runtime.builtins.motion.access import group_of
+from rapidgen.runtime.builtins.motion.arguments import quaternion
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, single
+
+Data: TypeAlias = Any
+_RAD = pi / 180
+_CLOSEST = 0.1
+"""mm between the points of a frame (S4 datasys 3-DefFrame)."""
+_STRAIGHT = 1e-4
+
+
+def _vector(data: Data) -> Vector:
+    return data.x, data.y, data.z
+
+
+def _frame(data: Data) -> Frame:
+    return _vector(data.trans), quaternion(data.rot)
+
+
+def _pos(v: Vector) -> Data:
+    return Pos(single(v[0]), single(v[1]), single(v[2]))
+
+
+def _orient(q: frames.Quaternion) -> Data:
+    return Orient(*map(single, q))
+
+
+def _pose(frame: Frame) -> Data:
+    return Pose(_pos(frame[0]), _orient(frame[1]))
+
+
+# -- robtargets -----------------------------------------------------------------------------------
+
+
+@builtin("Offs", pure=True)
+def offs(_task: Task, point: Data, x: float, y: float, z: float) -> Data:
+    """Shifted along the axes of the object frame; the rest stays."""
+    moved = point.copy()
+    moved.trans = _pos(frames.add(_vector(point.trans), (x, y, z)))
+    return moved
+
+
+@builtin("RelTool", pure=True)
+def rel_tool(
+    _task: Task,
+    point: Data,
+    dx: float,
+    dy: float,
+    dz: float,
+    rx: float | None,
+    ry: float | None,
+    rz: float | None,
+) -> Data:
+    """Shifted in the target's own frame, then turned about x, new y, new z."""
+    position, q = _frame(point)
+    moved = point.copy()
+    moved.trans = _pos(frames.add(position, frames.rotate(q, (dx, dy, dz))))
+    for axis, angle in (((1.0, 0.0, 0.0), rx), ((0.0, 1.0, 0.0), ry), ((0.0, 0.0, 1.0), rz)):
+        if angle is not None:
+            q = frames.multiply(q, frames.about(axis, angle * _RAD))
+    moved.rot = _orient(q)
+    return moved
+
+
+@builtin("MirPos", pure=True)
+def mir_pos(
+    _task: Task, point: Data, plane: Data, work_object: Data, mirror_y: bool | None
+) -> Data:
+    """Mirrored in the xy plane of the plane's object frame; configuration as it was.
+
+    z and x of the tool are mirrored (\\MirY: z and y); the third axis keeps it right-handed.
+    """
+    mirror = frames.compose(_frame(plane.uframe), _frame(plane.oframe))
+    holder = frames.IDENTITY
+    if work_object is not None:
+        holder = frames.compose(_frame(work_object.uframe), _frame(work_object.oframe))
+    seen = frames.compose(frames.invert(mirror), frames.compose(holder, _frame(point)))
+    (x, y, z), rotation = seen
+    rows = frames.to_matrix(rotation)
+    axes = [(rows[0][i], rows[1][i], -rows[2][i]) for i in range(3)]
+    if mirror_y:
+        axes[0] = frames.cross(axes[1], axes[2])
+    else:
+        axes[1] = frames.cross(axes[2], axes[0])
+    a, b, c = axes
+    turned = frames.from_matrix(((a[0], b[0], c[0]), (a[1], b[1], c[1]), (a[2], b[2], c[2])))
+    placed = frames.compose(frames.invert(holder), frames.compose(mirror, ((x, y, -z), turned)))
+    moved = point.copy()
+    moved.trans, moved.rot = _pos(placed[0]), _orient(placed[1])
+    return moved
+
+
+@builtin("ORobT")
+def o_rob_t(task: Task, point: Data, in_displacement: bool | None, in_offsets: bool | None) -> Data:
+    """Without the program displacement and the offsets of external axes.
+
+    \\InPDisp takes off only the offsets, \\InEOffs only the displacement (S4 datasys 3-ORobT).
+    """
+    modal = group_of(task).modal
+    moved = point.copy()
+    if not in_displacement:
+        (x, y, z), q = modal.displacement
+        shown = frames.compose(((x * 1000, y * 1000, z * 1000), q), _frame(point))
+        moved.trans, moved.rot = _pos(shown[0]), _orient(shown[1])
+    if not in_offsets:
+        moved.extax = ExtJoint(
+            *(
+                v if v > ABSENT / 2 else single(v + o)
+                for v, o in zip(point.extax.values(), modal.external_offset, strict=True)
+            )
+        )
+    return moved
+
+
+# -- frames ---------------------------------------------------------------------------------------
+
+
+@builtin("DefFrame", pure=True)
+def def_frame(_task: Task, p1: Data, p2: Data, p3: Data, origin: float | None) -> Data:
+    """A frame from a point on its x axis, another one, and one on the positive y side."""
+    points = (_vector(p1.trans), _vector(p2.trans), _vector(p3.trans))
+    return _pose(_through(points, origin))
+
+
+def _through(points: tuple[Vector, Vector, Vector], origin: float | None = None) -> Frame:
+    first, second, third = points
+    along, side = frames.subtract(second, first), frames.subtract(third, first)
+    if min(frames.norm(along), frames.norm(side)) < _CLOSEST:
+        raise RapidError("ERR_FRAME", "points closer than 0.1 mm")
+    x, towards = frames.unit(along), frames.unit(side)
+    if abs(frames.dot(x, towards)) > 1 - _STRAIGHT:
+        raise RapidError("ERR_FRAME", "the points lie on one line")
+    z = frames.unit(frames.cross(x, towards))
+    y = frames.cross(z, x)
+    turned = frames.from_matrix(((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2])))
+    if origin == 2:
+        return second, turned
+    if origin == 3:
+        return frames.add(first, frames.scale(x, frames.dot(side, x))), turned
+    return first, turned
+
+
+@builtin("DefDFrame", pure=True)
+def def_d_frame(
+    _task: Task, old1: Data, old2: Data, old3: Data, new1: Data, new2: Data, new3: Data
+) -> Data:
+    """The displacement that takes three old points to three new ones; the first is exact."""
+    old = _through((_vector(old1.trans), _vector(old2.trans), _vector(old3.trans)))
+    new = _through((_vector(new1.trans), _vector(new2.trans), _vector(new3.trans)))
+    return _pose(frames.compose(new, frames.invert(old)))
+
+
+@builtin("DefAccFrame")
+def def_acc_frame(
+    _task: Task, first: Data, second: Data, count: float, worst: Ref, mean: Ref
+) -> Data:
+    """The displacement that fits a list of points to another one best (least squares)."""
+    import numpy as np  # only a best fit needs linear algebra
+
+    number = int(count)
+    if number != count or not 3 <= number <= min(len(first), len(second)):
+        raise RapidError("ERR_FRAME", f"{count:g} points")
+    a = np.array([_vector(first[i].trans) for i in range(1, number + 1)])
+    b = np.array([_vector(second[i].trans) for i in range(1, number + 1)])
+    middle_a, middle_b = a.mean(axis=0), b.mean(axis=0)
+    u, size, vt = np.linalg.svd((a - middle_a).T @ (b - middle_b))
+    if size[1] < _CLOSEST**2:
+        raise RapidError("ERR_FRAME", "the points lie on one line")
+    sign = np.sign(np.linalg.det(vt.T @ u.T))
+    rotation = vt.T @ np.diag([1.0, 1.0, sign]) @ u.T
+    shift = middle_b - rotation @ middle_a
+    errors = np.linalg.norm(a @ rotation.T + shift - b, axis=1)
+    worst.set(float(errors.max()))
+    mean.set(float(errors.mean()))
+    rows = [(float(r[0]), float(r[1]), float(r[2])) for r in rotation]
+    turned = frames.from_matrix((rows[0], rows[1], rows[2]))
+    return _pose(((float(shift[0]), float(shift[1]), float(shift[2])), turned))
+
+
+@builtin("PoseMult", pure=True)
+def pose_mult(_task: Task, outer: Data, inner: Data) -> Data:
+    """Frame 2 in frame 0, of frame 1 in frame 0 and frame 2 in frame 1."""
+    return _pose(frames.compose(_frame(outer), _frame(inner)))
+
+
+@builtin("PoseInv", pure=True)
+def pose_inv(_task: Task, pose: Data) -> Data:
+    """Frame 0 in frame 1."""
+    return _pose(frames.invert(_frame(pose)))
+
+
+@builtin("PoseVect", pure=True)
+def pose_vect(_task: Task, pose: Data, position: Data) -> Data:
+    """A point given in frame 1, in frame 0."""
+    return _pos(frames.transform(_frame(pose), _vector(position)))
+
+
+# -- orientations and vectors -----------------------------------------------------------------
+
+
+@builtin("OrientZYX", pure=True)
+def orient_zyx(_task: Task, z: float, y: float, x: float) -> Data:
+    """Turns about z, then the new y, then the new x (degrees)."""
+    return _orient(frames.from_zyx(z * _RAD, y * _RAD, x * _RAD))
+
+
+@builtin("EulerZYX", pure=True)
+def euler_zyx(_task: Task, x: bool | None, y: bool | None, z: bool | None, rotation: Data) -> float:
+    """One of the three angles, -180 to 180 degrees. ERR_ARGVALERR without exactly one switch."""
+    if (bool(x), bool(y), bool(z)).count(True) != 1:
+        raise RapidError("ERR_ARGVALERR", "one of \\X, \\Y, \\Z")
+    about_z, about_y, about_x = frames.to_zyx(quaternion(rotation))
+    return single((about_x if x else about_y if y else about_z) / _RAD)
+
+
+@builtin("NOrient", pure=True)
+def n_orient(_task: Task, rotation: Data) -> Data:
+    """Divided by its norm; ERR_ILLQUAT more than 0.1 off."""
+    return _orient(quaternion(rotation))
+
+
+@builtin("Distance", pure=True)
+def distance(_task: Task, first: Data, second: Data) -> float:
+    """mm"""
+    return single(frames.distance(_vector(first), _vector(second)))
+
+
+@builtin("DotProd", pure=True)
+def dot_prod(_task: Task, first: Data, second: Data) -> float:
+    """Scalar product."""
+    return single(frames.dot(_vector(first), _vector(second)))
+
+
+@builtin("CrossProd", pure=True)
+def cross_prod(_task: Task, first: Data, second: Data) -> Data:
+    """Vector product."""
+    return _pos(frames.cross(_vector(first), _vector(second)))
+
+
+@builtin("VectMagn", pure=True)
+def vect_magn(_task: Task, vector: Data) -> float:
+    """Length."""
+    x, y, z = _vector(vector)
+    return single(sqrt(x * x + y * y + z * z))

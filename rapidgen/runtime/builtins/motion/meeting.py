@@ -1,0 +1,176 @@
+"""Tasks that wait for each other: WaitSyncTask, and SyncMoveOn to SyncMoveUndo.
+
+Sources: 3HAC050917 for arguments; ETH's and Gramazio Kohler's cells [code] for lists with empty
+names; the rest of MultiMove [mem]. Between SyncMoveOn and SyncMoveOff moves of one \\ID begin and
+end together (`motion/together.py`).
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.runtime.builtins.control import wait_standing
+from rapidgen.runtime.builtins.motion.access import group_of, moving_group
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.values import Ref
+
+_REFUSED = 49_910
+"""Event of ours: ABB's numbers are not public."""
+
+
+@dataclass
+class Meeting:
+    """Tasks that have come to one synchronisation point."""
+
+    members: frozenset[str]
+    arrived: set[str] = field(default_factory=set)
+    changed: WaitSet = field(default_factory=WaitSet)
+    complete: bool = False
+
+
+def _members(task: RapidTask, tasks: Ref) -> frozenset[str]:
+    """Lower-case names of a task list; rows with an empty name are none [code].
+
+    ERR_TASKNAME: an unknown task, or the own one is not in its list.
+    """
+    members = frozenset(entry.taskname.lower() for entry in tasks.get().values()) - {""}
+    known = {t.name.lower() for t in task.controller.rapid_tasks.values()}
+    if task.name.lower() not in members or not members <= known:
+        raise RapidError("ERR_TASKNAME", ", ".join(sorted(members - known)) or task.name)
+    return members
+
+
+def _meet(
+    task: RapidTask, point: object, members: frozenset[str], time_out: float | None, error: str
+) -> None:
+    """Wait until all members are at the point; `error` when `time_out` s passed first."""
+    meetings: dict[object, Meeting] = task.controller.meetings
+    meeting = meetings.setdefault((point, members), Meeting(members))
+    own = task.name.lower()
+    meeting.arrived.add(own)
+    if meeting.arrived == meeting.members:
+        meeting.complete = True
+        del meetings[point, members]
+        meeting.changed.notify()
+        return
+    try:
+        met = task.wait_for(lambda: meeting.complete, on=(meeting.changed,), timeout=time_out)
+    finally:
+        if not meeting.complete:
+            meeting.arrived.discard(own)
+    if not met:
+        raise RapidError(error)
+
+
+def _point(task: RapidTask, identity: Any) -> str:  # noqa: ANN401 - an opaque syncident
+    """A syncident is known by the name of its variable, the same in each task."""
+    program = task.program
+    for module in program.modules.values():
+        for key in module.declarations:
+            if program.value(module, key) is identity:
+                return key
+    return ""
+
+
+@builtin("WaitSyncTask")
+def wait_sync_task(
+    task: RapidTask, in_pos: bool | None, identity: Ref, tasks: Ref, time_out: float | None
+) -> None:
+    """Until every task of the list waits at the point of that name. ERR_WAITSYNCTASK: \\TimeOut."""
+    if in_pos:
+        wait_standing(task)
+    members = _members(task, tasks)
+    _meet(task, _point(task, identity), members, time_out, "ERR_WAITSYNCTASK")
+
+
+# -- synchronised movement -----------------------------------------------------------------------
+
+
+def _partners(task: RapidTask) -> frozenset[str]:
+    partners: frozenset[str] = group_of(task).modal.partners
+    return partners
+
+
+def _synchronised(task: RapidTask) -> bool:
+    motion = task.controller.motion
+    if not motion.is_motion_task(task.name):
+        return False
+    return bool(_partners(task)) and not group_of(task).modal.suspended
+
+
+def _forget(task: RapidTask, names: Iterable[str]) -> None:
+    motion = task.controller.motion
+    for other in task.controller.rapid_tasks.values():
+        if other.name.lower() in names and motion.is_motion_task(other.name):
+            modal = motion.of_task(other.name).modal
+            modal.partners, modal.suspended = frozenset(), False
+
+
+@builtin("SyncMoveOn")
+def sync_move_on(task: RapidTask, identity: Ref, tasks: Ref, time_out: float | None) -> None:
+    """The robots stand, and all tasks of the list are here. ERR_SYNCMOVEON: \\TimeOut."""
+    group = moving_group(task)
+    if _partners(task):
+        raise FatalError(_REFUSED, "SyncMoveOn", "synchronised movement is on already")
+    members = _members(task, tasks)
+    wait_standing(task)
+    _meet(task, ("on", _point(task, identity)), members, time_out, "ERR_SYNCMOVEON")
+    group.modal.partners = members
+
+
+@builtin("SyncMoveOff")
+def sync_move_off(task: RapidTask, identity: Ref, time_out: float | None) -> None:
+    """The same at the end. ERR_SYNCMOVEOFF: \\TimeOut."""
+    moving_group(task)
+    members = _partners(task)
+    if not members:
+        raise FatalError(_REFUSED, "SyncMoveOff", "no synchronised movement is on")
+    wait_standing(task)
+    _meet(task, ("off", _point(task, identity)), members, time_out, "ERR_SYNCMOVEOFF")
+    _forget(task, {task.name.lower()})
+
+
+@builtin("SyncMoveUndo")
+def sync_move_undo(task: RapidTask) -> None:
+    """Ends synchronised movement of all its tasks; without one nothing happens."""
+    moving_group(task)
+    _forget(task, _partners(task))
+
+
+@builtin("SyncMoveSuspend")
+def sync_move_suspend(task: RapidTask) -> None:
+    """Moves are independent until SyncMoveResume, on the path level behind StorePath."""
+    _pause(task, suspended=True)
+
+
+@builtin("SyncMoveResume")
+def sync_move_resume(task: RapidTask) -> None:
+    """Moves are synchronised again."""
+    _pause(task, suspended=False)
+
+
+def _pause(task: RapidTask, *, suspended: bool) -> None:
+    group = moving_group(task)
+    members = _partners(task)
+    name = "SyncMoveSuspend" if suspended else "SyncMoveResume"
+    if not members or group.path_level == 1 or group.modal.suspended == suspended:
+        raise FatalError(_REFUSED, name, "it belongs to synchronised movement behind StorePath")
+    _meet(task, name, members, None, "ERR_SYNCMOVEON")
+    group.modal.suspended = suspended
+
+
+@builtin("TasksInSync")
+def tasks_in_sync(task: RapidTask, tasks: Ref) -> bool:
+    """Whether all tasks of the list move synchronously."""
+    names = {entry.taskname.lower() for entry in tasks.get().values()} - {""}
+    named = [t for t in task.controller.rapid_tasks.values() if t.name.lower() in names]
+    return bool(named) and all(_synchronised(t) for t in named)
+
+
+@builtin("IsSyncMoveOn")
+def is_sync_move_on(task: RapidTask) -> bool:
+    """Whether the task's robot moves synchronously with others."""
+    return _synchronised(task)

@@ -1,0 +1,110 @@
+"""Stopping, starting and changing the path.
+
+Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-StopMove and
+2-StartMove for behaviour, abb_driver [code] for StopMove, ClearPath, StartMove in sequence.
+"""
+
+from collections.abc import Iterable
+
+from rapidgen.motion import events
+from rapidgen.motion.group import MotionGroup
+from rapidgen.runtime.builtins.motion.access import group_of, motion_of
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+
+MOVE_TASK = "move task"
+OTHER_TASK = "other task"
+
+
+def _reason(task: Task) -> str:
+    motion = motion_of(task)
+    if motion.is_motion_task(task.name):
+        return MOVE_TASK
+    return OTHER_TASK if motion.settings.stop_owner == "kind" else f"{OTHER_TASK} {task.name}"
+
+
+def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
+    if not all_tasks:
+        return (group_of(task),)
+    if motion_of(task).is_motion_task(task.name):
+        raise FatalError(
+            events.NOT_ALLOWED, "Not allowed", "\\AllMotionTasks is for non-motion tasks"
+        )
+    return motion_of(task).groups.values()
+
+
+@builtin("StopMove", cost="call")
+def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
+    """Brakes on the path and stays; the program goes on (S4 datasys 2-StopMove-1)."""
+    groups = tuple(_groups(task, all_tasks))
+    for group in groups:
+        group.stop(_reason(task), quick=bool(quick))
+    if motion_of(task).settings.stop_waits:
+        for group in groups:
+            group.wait_standing(task)
+
+
+@builtin("StartMove", cost="call")
+def start_move(task: Task, all_tasks: bool | None) -> None:
+    """Takes back the stop of this kind of task; moves when no other holds.
+
+    ERR_PATHDIST: more than 10 mm or 20 degrees off the path (S4 datasys 2-StartMove-1).
+    """
+    groups = tuple(_groups(task, all_tasks))
+    for group in groups:
+        way, turn = group.off_path
+        if way > group.settings.path_distance or turn > group.settings.path_angle:
+            raise RapidError("ERR_PATHDIST", f"{group.name}: {way * 1000:.1f} mm off the path")
+    for group in groups:
+        group.start(_reason(task))
+
+
+@builtin("StopMoveReset", cost="call")
+def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
+    """Takes back the stop without moving: what is left of the path is gone."""
+    for group in _groups(task, all_tasks):
+        group.clear_path()
+        group.start(_reason(task))
+
+
+@builtin("ClearPath", cost="call")
+def clear_path(task: Task) -> None:
+    """Removes what is left of the path; the robot ends where its stop ends."""
+    group_of(task).clear_path()
+
+
+@builtin("IsStopMoveAct")
+def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None) -> bool:
+    """Whether a StopMove of a motion task, or of another task, holds the robot."""
+    reasons = group_of(task).stop_reasons
+    other = any(reason.startswith(OTHER_TASK) for reason in reasons)
+    if from_move:
+        return MOVE_TASK in reasons
+    if from_other:
+        return other
+    return MOVE_TASK in reasons or other
+
+
+@builtin("WaitRob")
+def wait_rob(task: Task, _in_position: bool | None, _zero_speed: bool | None) -> None:
+    """Waits for standstill without letting the program run ahead."""
+    group_of(task).wait_standing(task)
+
+
+@builtin("StorePath", cost="call")
+def store_path(task: Task, _keep_sync: bool | None) -> None:
+    """Puts the path aside; moves that follow make a new one."""
+    group_of(task).store_path(task, _reason(task))
+
+
+@builtin("RestoPath", cost="call")
+def resto_path(task: Task) -> None:
+    """Brings the stored path back; StartMove sets the robot going on it."""
+    group_of(task).restore_path(_reason(task))
+
+
+@builtin("PathLevel")
+def path_level(task: Task) -> int:
+    """1 = original path."""
+    return group_of(task).path_level

@@ -1,0 +1,103 @@
+"""Move instructions to robtargets: one place where RAPID's arguments become a Move."""
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeAlias
+
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
+from rapidgen.rapid.builtins.signatures import routine
+from rapidgen.runtime.builtins.motion.access import here, moving_group
+from rapidgen.runtime.builtins.motion.arguments import dwell_of, frame, speed_of, time_of, zone_of
+from rapidgen.runtime.builtins.motion.targets import (
+    carrier_of,
+    configuration_of,
+    external_posture,
+    joints_for,
+)
+from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+
+Given: TypeAlias = Mapping[str, Any]
+"""Arguments of a move by the names of its parameters; None: left out."""
+
+
+def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
+    """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
+    tool = given["Tool"].get()
+    work_object = given["WObj"].get() if given["WObj"] is not None else None
+    carrier = carrier_of(group, tool, work_object)
+    group.use(tool, work_object)
+    stop = given.get("Inpos")
+    return {
+        "speed": speed_of(given["Speed"], given.get("V"), group.modal),
+        "zone": zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
+        "time": time_of(given["T"], group.modal),
+        "concurrent": bool(given.get("Conc")),
+        "dwell": dwell_of(stop),
+        "carrier": carrier,
+        "place": here(task),
+    }
+
+
+def joint_move(
+    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+) -> tuple[MotionGroup, Move]:
+    """To a robtarget with all axes together."""
+    group = moving_group(task)
+    kinematics = group.geometry()
+    common = _common(task, group, given)
+    target = given["ToPoint"]
+    near = external_posture(group, target.extax)
+    flange = common["carrier"].at(near).flange(frame(target))
+    wanted = configuration_of(target.robconf) if group.modal.check_joint else None
+    check = group.settings.configuration_check
+    posture = joints_for(kinematics, flange, near, wanted, check)
+    return group, JointMove(target=posture, events=events, **common)
+
+
+def cartesian_move(
+    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+) -> tuple[MotionGroup, Move]:
+    """To a robtarget on a line, or on the circle through `CirPoint`."""
+    group = moving_group(task)
+    group.geometry()
+    common = _common(task, group, given)
+    target, via = given["ToPoint"], given.get("CirPoint")
+    wanted = configuration_of(target.robconf) if group.modal.check_linear else None
+    return group, CartesianMove(
+        target=frame(target),
+        external=external_posture(group, target.extax),
+        via=None if via is None else frame(via),
+        wanted=wanted,
+        singularities=group.modal.singularities,
+        circle=group.modal.circle,
+        events=events,
+        **common,
+    )
+
+
+Maker: TypeAlias = Callable[[Task, Given, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
+"""joint_move or cartesian_move."""
+
+
+def bind(
+    name: str,
+    make: Maker,
+    events_of: Callable[[Task, Given], tuple[PathEvent, ...]] = lambda _task, _given: (),
+) -> None:
+    """Bind a move instruction to what makes its move and its events on the path."""
+    names = parameter_names(name)
+
+    @builtin(name, cost="move")
+    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+        given = dict(zip(names, arguments, strict=True))
+        group, move = make(task, given, events_of(task, given))
+        group.move(task, together(task, group, move, given.get("ID")))
+
+
+def parameter_names(name: str) -> tuple[str, ...]:
+    """Names of a built-in's parameters in order."""
+    signature = routine(name)
+    assert signature is not None
+    return tuple(parameter.name for parameter in signature.parameters)

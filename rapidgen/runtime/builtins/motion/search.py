@@ -1,0 +1,142 @@
+"""SearchL and SearchC: a move that watches a signal.
+
+Source: S4 datasys 2-SearchL. \\Stop brakes hard, \\PStop and \\SStop on the path as a normal
+stop, without a switch and with \\Sup the robot goes on to its target. The move ends in a stop
+point, the point of the hit is where the TCP was when the signal changed. In a step a search
+without a hit stops the program, no handler gets it.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from rapidgen.machine.io import AnySignal
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import Move, Posture
+from rapidgen.runtime.builtins.motion.request import Given, cartesian_move, parameter_names
+from rapidgen.runtime.builtins.motion.targets import rob_target
+from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Ref
+
+_REASON = "search"
+_NO_HIT = 49_906
+"""Event; the number is ours."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Edges:
+    """Which changes count."""
+
+    rising: bool
+    falling: bool
+    level: bool | None = None
+    """A value that counts as a hit already at the start."""
+    supervised: bool = False
+    """A signal that is already 1 at the start is an error."""
+
+
+@dataclass(slots=True)
+class _Hits:
+    group: MotionGroup
+    edges: _Edges
+    read: Callable[[], bool]
+    halt: Callable[[], None] | None
+    last: bool = False
+    found: list[Posture] = field(default_factory=list)
+
+    def changed(self) -> None:
+        """The watched thing has changed."""
+        now = self.read()
+        before, self.last = self.last, now
+        if (now and not before and self.edges.rising) or (
+            before and not now and self.edges.falling
+        ):
+            self.hit()
+
+    def hit(self) -> None:
+        """Keep the place, and stop when that is wanted."""
+        self.found.append(self.group.positions())
+        if self.halt is not None and len(self.found) == 1:
+            self.halt()
+
+
+_EDGES = {
+    "Flanks": _Edges(True, True),
+    "PosFlank": _Edges(True, False),
+    "NegFlank": _Edges(False, True),
+    "HighLevel": _Edges(True, False, level=True),
+    "LowLevel": _Edges(False, True, level=False),
+}
+
+
+def _edges(given: Given) -> _Edges:
+    chosen = next((name for name in _EDGES if given[name]), None)
+    return _Edges(True, False, supervised=True) if chosen is None else _EDGES[chosen]
+
+
+def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callable[[], bool]]:
+    """What to watch, and how to read it."""
+    if signal is not None:
+        source = signal.signal
+        return source.changed, lambda: bool(source.value)
+    if flag is None or flag.cell is None:
+        raise RapidError("ERR_ARGNOTPER", "PersBool")
+    cell = flag.cell
+    return cell, lambda: bool(cell.v)
+
+
+def _search(task: Task, group: MotionGroup, move: Move, given: Given) -> None:
+    edges, hard = _edges(given), bool(given["Stop"])
+    change, read = _source(given["Signal"], given["PersBool"])
+    halting = bool(hard or given["PStop"] or given["SStop"])
+    hits = _Hits(
+        group,
+        edges,
+        read,
+        (lambda: group.stop(_REASON, quick=hard)) if halting else None,
+        read(),
+    )
+    if edges.supervised and hits.last:
+        raise RapidError("ERR_SIGSUPSEARCH")
+    leg = group.enqueue(move)
+    if edges.level is not None and hits.last == edges.level:
+        hits.hit()
+    change.add(hits.changed)
+    try:
+        if leg is not None:
+            group.wait(
+                task,
+                leg,
+                lambda: (
+                    (leg.finished and group.is_settled)
+                    or (halting and bool(hits.found) and group.is_settled)
+                ),
+            )
+    finally:
+        change.remove(hits.changed)
+        if halting and hits.found:
+            group.clear_path()
+        group.start(_REASON)
+    if not hits.found or (given["Sup"] and len(hits.found) > 1):
+        if task.stepping:
+            raise FatalError(_NO_HIT, "Search was not successful", f"{len(hits.found)} hits")
+        raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
+    given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier))
+
+
+def _bind(name: str) -> None:
+    names = parameter_names(name)
+
+    @builtin(name, cost="move")
+    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+        given = dict(zip(names, arguments, strict=True))
+        group, move = cartesian_move(task, given)
+        _search(task, group, together(task, group, move, given["ID"]), given)
+
+
+_bind("SearchL")
+_bind("SearchC")

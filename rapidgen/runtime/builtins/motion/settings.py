@@ -1,0 +1,317 @@
+"""Settings of motion: VelSet, AccSet, ConfL, program displacement and their relatives.
+
+Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-motsetdata;
+3HAC050917 for SpeedRefresh and CSpeedOverride.
+"""
+
+from math import inf
+from typing import Any, TypeAlias
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import IDENTITY
+from rapidgen.axes.mapping import ABSENT
+from rapidgen.motion import events
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.runtime.builtins.motion.access import group_of, named_group
+from rapidgen.runtime.builtins.motion.arguments import RAD, frame
+from rapidgen.runtime.builtins.motion.positions import carrier_for, load0
+from rapidgen.runtime.builtins.motion.targets import rob_target
+from rapidgen.runtime.builtins.motion.units import unit_axis
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Ref, single
+
+Data: TypeAlias = Any
+_NO_OFFSETS = (0.0,) * 6
+_LEAST_ACCELERATION = 0.1
+
+
+@builtin("VelSet")
+def vel_set(task: Task, override: float, limit: float) -> None:
+    """Override in percent of all speeds and of \\T; ceiling of the TCP in mm/s, not with \\T."""
+    if not 0 < override <= 100 or limit <= 0:
+        raise RapidError("ERR_ARGVALERR", f"VelSet {override:g}, {limit:g}")
+    modal = group_of(task).modal
+    modal.speed_override = override / 100
+    modal.speed_limit = limit / 1000
+
+
+@builtin("AccSet")
+def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) -> None:
+    """Percent of acceleration and of the rate at which it builds up; at least 20 and 10.
+
+    Source: S4 datasys 2-AccSet-1. \\FinePointRamp has no effect: ramps are the same all over.
+    """
+    if not 0 <= acceleration <= 100 or not 0 <= ramp <= 100:
+        raise RapidError("ERR_ARGVALERR", f"AccSet {acceleration:g}, {ramp:g}")
+    modal = group_of(task).modal
+    modal.acceleration = max(acceleration, 20) / 100
+    modal.ramp = max(ramp, 10) / 100
+
+
+@builtin("SpeedRefresh")
+def speed_refresh(task: Task, override: float) -> None:
+    """Percent, at once, also for the move under way. ERR_SPEED_REFRESH_LIM outside 0 to 100."""
+    if not 0 <= override <= 100:
+        raise RapidError("ERR_SPEED_REFRESH_LIM", f"{override:g}")
+    group_of(task).refresh = override / 100
+
+
+@builtin("CSpeedOverride")
+def c_speed_override(task: Task, own: bool | None) -> float:
+    """Percent: the controller's override, \\CTask: with the program's own."""
+    group = group_of(task)
+    share = group.override * (group.refresh if own else 1.0)
+    return single(round(share * 100, 3))
+
+
+@builtin("MaxRobSpeed")
+def max_rob_speed(task: Task) -> float:
+    """mm/s"""
+    return single(group_of(task).config.tcp_speed_limit * 1000)
+
+
+@builtin("ConfL")
+def conf_l(task: Task, _on: bool | None, off: bool | None) -> None:
+    """Whether linear and circular moves check the configuration that they end in."""
+    group_of(task).modal.check_linear = not off
+
+
+@builtin("ConfJ")
+def conf_j(task: Task, _on: bool | None, off: bool | None) -> None:
+    """Whether joint moves go to the programmed configuration or to the closest one."""
+    group_of(task).modal.check_joint = not off
+
+
+@builtin("SingArea")
+def sing_area(task: Task, wrist: bool | None, lock_axis_4: bool | None, _off: bool | None) -> None:
+    """What linear and circular moves do about singularities of the wrist."""
+    modal = group_of(task).modal
+    modal.singularities = Singularities.OFF
+    if wrist:
+        modal.singularities = Singularities.WRIST
+    elif lock_axis_4:
+        modal.singularities = Singularities.LOCK_AXIS_4
+
+
+@builtin("PathAccLim")
+def path_acc_lim(
+    task: Task,
+    limits_rise: bool,
+    rise: float | None,
+    limits_fall: bool,
+    fall: float | None,
+) -> None:
+    """m/s^2 of the TCP along its path. One value holds for both: profiles are symmetric.
+
+    ERR_ARGVALERR: a limit without a value of at least 0.1 (switch `argument_error`).
+    """
+    found = []
+    for wanted, value in ((limits_rise, rise), (limits_fall, fall)):
+        if wanted:
+            if value is None or value < _LEAST_ACCELERATION:
+                raise RapidError("ERR_ARGVALERR", "PathAccLim")
+            found.append(value)
+    group_of(task).modal.path_acceleration = min(found, default=inf)
+
+
+@builtin("WorldAccLim")
+def world_acc_lim(task: Task, limit: float | None, _off: bool | None) -> None:
+    """m/s^2 of the TCP in the world, turning included. ERR_ARGVALERR: below 0.1.
+
+    FatalError: the model has no geometry.
+    """
+    group = group_of(task)
+    if limit is None:
+        group.modal.world_acceleration = inf
+        return
+    if limit < _LEAST_ACCELERATION:
+        raise RapidError("ERR_ARGVALERR", f"WorldAccLim {limit:g}")
+    group.geometry()
+    group.modal.world_acceleration = limit
+
+
+@builtin("CirPathMode")
+def cir_path_mode(
+    task: Task,
+    _path: bool | None,
+    in_object: bool | None,
+    circle_point: bool | None,
+    wrist45: bool | None,
+    wrist46: bool | None,
+    wrist56: bool | None,
+) -> None:
+    """How the tool turns on circles.
+
+    FatalError: circles made by two wrist axes are not simulated.
+    """
+    if wrist45 or wrist46 or wrist56:
+        raise FatalError(events.NOT_SIMULATED, "CirPathMode by wrist axes is not simulated")
+    modal = group_of(task).modal
+    modal.circle = CircleMode.PATH
+    if in_object:
+        modal.circle = CircleMode.OBJECT
+    elif circle_point:
+        modal.circle = CircleMode.POINT
+
+
+@builtin("SpeedLimAxis")
+def speed_lim_axis(task: Task, unit: Data, number: float, speed: float) -> None:
+    """deg/s or mm/s of an axis while the system input LimitSpeed is set [mem].
+
+    0: none, as the robots of ETH's cell have it for axes 2 and 3 (tetov/compas_rcf [code]).
+    ERR_SPEEDLIM_VALUE: negative; ERR_AXIS_PAR: no such axis of the unit.
+    """
+    if speed < 0:
+        raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
+    group, joint = unit_axis(task, unit, number)
+    if speed == 0:
+        group.modal.axis_limits.pop(joint.axis, None)
+        return
+    factor = RAD if joint.kind == "revolute" else 1 / 1000
+    group.modal.axis_limits[joint.axis] = speed * factor
+
+
+@builtin("SpeedLimCheckPoint")
+def speed_lim_check_point(task: Task, speed: float) -> None:
+    """mm/s of the TCP while the system input LimitSpeed is set [mem].
+
+    Other check points (elbow, wrist) are not looked at. ERR_SPEEDLIM_VALUE: not positive.
+    """
+    if speed <= 0:
+        raise RapidError("ERR_SPEEDLIM_VALUE", f"{speed:g}")
+    group = group_of(task)
+    group.modal.point_limit = speed / 1000
+    group.limit_point()
+
+
+@builtin("PDispSet")
+def p_disp_set(task: Task, displacement: Data) -> None:
+    """Replaces the program displacement."""
+    group_of(task).modal.displacement = frame(displacement)
+
+
+@builtin("PDispOff")
+def p_disp_off(task: Task) -> None:
+    """No program displacement."""
+    group_of(task).modal.displacement = IDENTITY
+
+
+@builtin("PDispOn")
+def p_disp_on(
+    task: Task,
+    rotation: bool | None,
+    executed: Data,
+    programmed: Data,
+    tool: Ref,
+    work_object: Ref | None,
+) -> None:
+    """Adds the way from the programmed to the executed point (without one: to where it is).
+
+    \\Rot: the executed point in the displaced frame becomes the programmed one in the old.
+    """
+    group = group_of(task)
+    modal = group.modal
+    if executed is None:
+        carrier = carrier_for(group, tool, work_object)
+        executed = rob_target(group, group.positions(), carrier)
+    had, wants = frame(executed), frame(programmed)
+    if rotation:
+        step = frames.compose(had, frames.invert(wants))
+    else:
+        step = (frames.subtract(had[0], wants[0]), frames.UNIT)
+    modal.displacement = frames.compose(modal.displacement, step)
+
+
+@builtin("EOffsSet")
+def e_offs_set(task: Task, offsets: Data) -> None:
+    """Replaces the offsets of external axes."""
+    group_of(task).modal.external_offset = _used(offsets.values())
+
+
+@builtin("EOffsOff")
+def e_offs_off(task: Task) -> None:
+    """No offsets of external axes."""
+    group_of(task).modal.external_offset = _NO_OFFSETS
+
+
+@builtin("EOffsOn")
+def e_offs_on(task: Task, executed: Data, programmed: Data) -> None:
+    """Adds, for each external axis, the executed minus the programmed value."""
+    group = group_of(task)
+    offsets = group.modal.external_offset
+    have = executed.extax.values() if executed is not None else _external_now(group)
+    group.modal.external_offset = tuple(
+        o if max(a, b) > ABSENT / 2 else o + a - b
+        for o, a, b in zip(offsets, have, programmed.extax.values(), strict=True)
+    )
+
+
+def _external_now(group: MotionGroup) -> tuple[float, ...]:
+    values = group.joint_target()[1]
+    return tuple(
+        v if v > ABSENT / 2 else v - o
+        for v, o in zip(values, group.modal.external_offset, strict=True)
+    )
+
+
+def _used(values: tuple[float, ...]) -> tuple[float, ...]:
+    return tuple(0.0 if v > ABSENT / 2 else v for v in values)
+
+
+# -- settings without effect on this model ----------------------------------------------------
+
+
+@builtin("MotionSup")
+def motion_sup(
+    task: Task, _on: bool | None, off: bool | None, tune: float | None, _stay: bool | None
+) -> None:
+    """Collision detection: nothing collides here. ERR_ARGVALERR outside 1 to 300 %."""
+    if tune is not None and not 1 <= tune <= 300:
+        raise RapidError("ERR_ARGVALERR", f"\\TuneValue:={tune:g}")
+    group_of(task).modal.extra["MotionSup"] = not off
+
+
+@builtin("GripLoad")
+def grip_load(task: Task, load: Ref) -> None:
+    """Loads change no kinematics, and there is no dynamic model."""
+    group_of(task).modal.extra["GripLoad"] = load.get().copy()
+
+
+@builtin("CLoad")
+def c_load(task: Task, reference: Data, name: str | None) -> Data:
+    """What GripLoad set, else load0."""
+    load: Data = named_group(task, reference, name).modal.extra.get("GripLoad") or load0()
+    return load.copy()
+
+
+@builtin("SoftAct")
+def soft_act(task: Task, unit: Data, number: float, softness: float, ramp: float | None) -> None:
+    """A soft servo yields to contact: nothing is in contact here.
+
+    ERR_ARGVALERR: softness outside 0 to 100 %, ramp below 100 % (S4 overview p.5-22).
+    """
+    if not 0 <= softness <= 100 or (ramp is not None and ramp < 100):
+        raise RapidError("ERR_ARGVALERR", f"SoftAct {softness:g}")
+    group, joint = unit_axis(task, unit, number)
+    group.modal.extra[f"SoftAct {joint.axis}"] = softness
+
+
+@builtin("SoftDeact")
+def soft_deact(task: Task, ramp: float | None) -> None:
+    """All axes are stiff again. ERR_ARGVALERR: ramp below 100 %."""
+    if ramp is not None and ramp < 100:
+        raise RapidError("ERR_ARGVALERR", f"SoftDeact {ramp:g}")
+    extra = group_of(task).modal.extra
+    for name in [name for name in extra if name.startswith("SoftAct")]:
+        del extra[name]
+
+
+@builtin("PathResol")
+def path_resol(task: Task, percent: float) -> None:
+    """Profiles are exact at any resolution. ERR_ARGVALERR outside 25 to 400 %."""
+    if not 25 <= percent <= 400:
+        raise RapidError("ERR_ARGVALERR", f"PathResol {percent:g}")
+    group_of(task).modal.extra["PathResol"] = percent

@@ -1,0 +1,124 @@
+"""robtargets as moves: frames of tool and work object, inverse kinematics with a configuration."""
+
+from typing import Any, TypeAlias
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import IDENTITY, Pose
+from rapidgen.axes.kinematics import Configuration, ConfigurationCheck, Kinematics, MovingFrame
+from rapidgen.motion import events
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import Carrier, Posture
+from rapidgen.runtime.builtins.motion.arguments import external_target, external_values, frame
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, single
+
+Data: TypeAlias = Any
+
+
+def carrier_of(group: MotionGroup, tool: Data, work_object: Data) -> Carrier:
+    """Frames of tooldata and wobjdata (None: wobj0) with the program displacement.
+
+    Exactly one of them is held by the robot (S4 datasys 2-MoveAbsJ-3). With ufprog FALSE the user
+    frame is that of the unit `ufmec`, and uframe does not count (S4 datasys 1-wobjdata).
+    """
+    held = work_object is not None and work_object.robhold
+    if bool(tool.robhold) == bool(held):
+        raise FatalError(
+            events.FRAMES_CONTRADICT,
+            "Tool and work object contradict",
+            "one of them, and only one, is held by the robot",
+        )
+    placed, unit = IDENTITY, None
+    if work_object is not None:
+        placed = frame(work_object.oframe)
+        if work_object.ufprog:
+            placed = frames.compose(frame(work_object.uframe), placed)
+        else:
+            unit = _unit(group, work_object)
+    return Carrier(
+        tool=frame(tool.tframe),
+        object=frames.compose(placed, group.modal.displacement),
+        stationary=not tool.robhold,
+        unit=unit,
+    )
+
+
+def _unit(group: MotionGroup, work_object: Data) -> MovingFrame:
+    """What carries an object. FatalError: held by the robot too, or of unknown geometry."""
+    if work_object.robhold:
+        raise FatalError(
+            events.FRAMES_CONTRADICT,
+            "Work object contradicts",
+            f"it is held by the robot and by {work_object.ufmec!r}",
+        )
+    found = group.moving_frame(work_object.ufmec)
+    if found is None:
+        raise FatalError(
+            events.NO_GEOMETRY,
+            "No geometry",
+            f"{group.name}: where {work_object.ufmec!r} holds its work object is not known",
+            "give its chain as `positioners:` in the robot's configuration",
+        )
+    return found
+
+
+def external_posture(group: MotionGroup, data: Data) -> Posture:
+    """The path's end with the external axes of an extjoint (deactivated ones as they are)."""
+    ends = group.path_target
+    values = external_values(data, group.modal.external_offset)
+    asked = group.map.from_rapid((0.0,) * 6, values, ends)
+    return group.with_active(
+        tuple(
+            new if joint.axis.startswith("eax") else old
+            for joint, new, old in zip(group.config.joints, asked, ends, strict=True)
+        )
+    )
+
+
+def joints_for(
+    kinematics: Kinematics,
+    flange: Pose,
+    near: Posture,
+    wanted: Configuration | None,
+    check: ConfigurationCheck,
+) -> Posture:
+    """The posture for a flange pose: that of the wanted configuration, or the closest one.
+
+    External axes are those of `near`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis outside its
+    range in every posture); FatalError 50080: not with this configuration.
+    """
+    found = kinematics.solutions(flange, near)
+    if not found:
+        if kinematics.reaches(flange, near):
+            raise RapidError("ERR_ROBLIMIT")
+        raise RapidError("ERR_OUTSIDE_REACH")
+    if wanted is None:
+        return found[0]
+    posture = kinematics.fitting(found, wanted, check)
+    if posture is not None:
+        return posture
+    others = ", ".join(str(list(kinematics.configuration(p))) for p in found[:4])
+    raise FatalError(
+        events.NOT_COMPATIBLE,
+        "Position not compatible",
+        f"no posture with configuration {list(wanted)}; there are {others}",
+    )
+
+
+def configuration_of(data: Data) -> Configuration:
+    """confdata"""
+    return int(data.cf1), int(data.cf4), int(data.cf6), int(data.cfx)
+
+
+def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier) -> Data:
+    """A posture as a fresh robtarget in the frames of a tool and an object."""
+    kinematics = group.geometry()
+    (x, y, z), q = carrier.at(posture).pose(kinematics.forward(posture))
+    if q[0] < 0:
+        q = (-q[0], -q[1], -q[2], -q[3])
+    return RobTarget(
+        Pos(single(x * 1000), single(y * 1000), single(z * 1000)),
+        Orient(*map(single, q)),
+        ConfData(*kinematics.configuration(posture)),
+        external_target(group.map.to_rapid(posture)[1], group.modal.external_offset),
+    )

@@ -1,0 +1,54 @@
+"""Synchronised movement: moves of several robots with one \\ID begin and end together.
+
+Between SyncMoveOn and SyncMoveOff a move waits until every task of the list has come to the one
+of its \\ID; all then take the time of the longest [mem: MultiMove is in no public source].
+"""
+
+from dataclasses import dataclass, field, replace
+
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.motion import events
+from rapidgen.motion.group import MotionGroup
+from rapidgen.motion.moves import Move
+from rapidgen.runtime.builtins.motion.access import motion_of
+from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.task.task import Task
+
+
+@dataclass(slots=True)
+class Gathering:
+    """Tasks that have come to a move of one \\ID, and how long each of them would take (s)."""
+
+    times: dict[str, float] = field(default_factory=dict)
+    changed: WaitSet = field(default_factory=WaitSet)
+    longest: float | None = None
+    """Known when all have come."""
+
+
+def together(task: Task, group: MotionGroup, move: Move, identity: float | None) -> Move:
+    """The move with the time that it takes in synchronised movement; else as it is.
+
+    FatalError: \\ID is missing in synchronised movement.
+    """
+    modal = group.modal
+    if not modal.partners or modal.suspended:
+        return move
+    if identity is None:
+        raise FatalError(
+            events.NOT_ALLOWED, "\\ID is missing", "between SyncMoveOn and SyncMoveOff"
+        )
+    gatherings = motion_of(task).gatherings
+    point, own = (modal.partners, identity), task.name.lower()
+    gathering = gatherings.setdefault(point, Gathering())
+    gathering.times[own] = group.whole_time(move)
+    if gathering.times.keys() == modal.partners:
+        gathering.longest = max(gathering.times.values())
+        del gatherings[point]
+        gathering.changed.notify()
+    else:
+        try:
+            task.wait_for(lambda: gathering.longest is not None, on=(gathering.changed,))
+        finally:
+            if gathering.longest is None:
+                del gathering.times[own]
+    return replace(move, time=gathering.longest) if gathering.longest else move

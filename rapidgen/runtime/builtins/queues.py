@@ -1,0 +1,162 @@
+"""RAPID message queues: RMQFindSlot to IRMQMessage. See `queues.py`.
+
+Sources: 3HAC16581-1's arguments and error names [manual]. Without \\TimeOut RMQReadWait waits for
+ever; how long RMQSendWait does is the switch `queue_patience`.
+"""
+
+from rapidgen.runtime.anytype import target_of, value_of
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.queues import Message, MessageBox, Queue, QueueSystem, Slot
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.values import Ref, RmqHeader, copy_value, dimensions
+
+_DEFAULT_TIME = 60.0
+_WAIT_MAX = 9_999_999
+
+
+def _queues(task: RapidTask) -> QueueSystem:
+    queues: QueueSystem = task.controller.queues
+    return queues
+
+
+def _own(task: RapidTask) -> Queue:
+    return _queues(task).queue(task.name)
+
+
+def _message(task: RapidTask, datum: object, user: float | None) -> Message:
+    value, kind = value_of(datum)
+    name = QueueSystem.slot_name(task.name)
+    return Message(kind, dimensions(value), copy_value(value), name, user or 0)
+
+
+@builtin("RMQFindSlot", cost="string")
+def rmq_find_slot(task: RapidTask, slot: Slot, name: str) -> None:
+    """The queue of a name; ERR_RMQ_NAME when no task has it, or its RmqType is None."""
+    for other in task.controller.rapid_tasks.values():
+        if QueueSystem.slot_name(other.name).lower() == name.lower() and other.spec.queue.open:
+            slot.name = QueueSystem.slot_name(other.name)
+            return
+    raise RapidError("ERR_RMQ_NAME", name)
+
+
+@builtin("RMQGetSlotName", cost="string")
+def rmq_get_slot_name(_task: RapidTask, slot: Slot) -> str:
+    """Name of a queue; ERR_RMQ_INVALID when the slot was never found."""
+    if not slot.name:
+        raise RapidError("ERR_RMQ_INVALID")
+    return slot.name
+
+
+@builtin("RMQSendMessage", cost="string")
+def rmq_send_message(task: RapidTask, slot: Slot, datum: object, user: float | None) -> None:
+    """Send a value; does not wait."""
+    _queues(task).send(slot.name, _message(task, datum, user))
+
+
+@builtin("RMQSendWait", cost="string")
+def rmq_send_wait(
+    task: RapidTask,
+    slot: Slot,
+    datum: object,
+    user: float | None,
+    box: MessageBox,
+    wanted: object,
+    timeout: float | None,
+) -> None:
+    """Send a value and wait for an answer of a type from the same queue."""
+    value, kind = value_of(wanted)
+    dims = dimensions(value)
+    own = _own(task)
+    _queues(task).send(slot.name, _message(task, datum, user))
+
+    def answer() -> Message | None:
+        for message in own.messages:
+            if message.sender == slot.name and message.is_a(kind, dims):
+                return message
+        return None
+
+    patience = _DEFAULT_TIME if task.controller.dialect.queue_patience else None
+    if not task.wait_for(
+        lambda: answer() is not None, on=(own.changed,), timeout=_time(timeout, patience)
+    ):
+        raise RapidError("ERR_RMQ_TIMEOUT")
+    found = answer()
+    assert found is not None
+    own.messages.remove(found)
+    box.message = found
+
+
+def _time(timeout: float | None, default: float | None) -> float | None:
+    if timeout is None:
+        return default
+    return None if timeout >= _WAIT_MAX else timeout
+
+
+@builtin("RMQGetMessage", cost="string")
+def rmq_get_message(task: RapidTask, box: MessageBox) -> None:
+    """The first message, taken out of the queue; ERR_RMQ_NOMSG."""
+    messages = _own(task).messages
+    if not messages:
+        raise RapidError("ERR_RMQ_NOMSG")
+    box.message = messages.popleft()
+
+
+@builtin("RMQReadWait", cost="string")
+def rmq_read_wait(task: RapidTask, box: MessageBox, timeout: float | None) -> None:
+    """Wait for a message."""
+    own = _own(task)
+    if not task.wait_for(
+        lambda: bool(own.messages), on=(own.changed,), timeout=_time(timeout, None)
+    ):
+        raise RapidError("ERR_RMQ_TIMEOUT")
+    box.message = own.messages.popleft()
+
+
+def _held(box: MessageBox) -> Message:
+    if box.message is None:
+        raise RapidError("ERR_RMQ_INVMSG")
+    return box.message
+
+
+@builtin("RMQGetMsgHeader", cost="string")
+def rmq_get_msg_header(
+    _task: RapidTask, box: MessageBox, header: Ref | None, sender: Slot | None, user: Ref | None
+) -> None:
+    """Type and dimensions, sender and user number of a message."""
+    message = _held(box)
+    if header is not None:
+        sizes = (*message.dims, 0, 0, 0)[:3]
+        header.set(RmqHeader(message.type.name, len(message.dims), *sizes))
+    if sender is not None:
+        sender.name = message.sender
+    if user is not None:
+        user.set(message.user)
+
+
+@builtin("RMQGetMsgData", cost="string")
+def rmq_get_msg_data(_task: RapidTask, box: MessageBox, datum: object) -> None:
+    """The value of a message; ERR_RMQ_VALUE or ERR_RMQ_DIM when it does not fit."""
+    message, target = _held(box), target_of(datum)
+    if message.type.name != target.type.name:
+        raise RapidError("ERR_RMQ_VALUE", f"the message is a {message.type.name}")
+    if message.dims != target.dims:
+        raise RapidError("ERR_RMQ_DIM")
+    target.set(copy_value(message.value))
+
+
+@builtin("RMQEmptyQueue", cost="string")
+def rmq_empty_queue(task: RapidTask) -> None:
+    """Throw all messages away."""
+    _own(task).messages.clear()
+
+
+@builtin("IRMQMessage", cost="string")
+def i_rmq_message(task: RapidTask, datum: object, interrupt: Ref) -> None:
+    """Order an interrupt for messages of a type."""
+    value, kind = value_of(datum)
+    order = task.interrupts.order(interrupt.get(), single=False, safe=False)
+    own = _own(task)
+    entry = (kind, dimensions(value), lambda: task.interrupts.happen(order))
+    own.orders.append(entry)
+    order.cancel.append(lambda: own.orders.remove(entry))

@@ -1,0 +1,259 @@
+"""PackRawBytes and its family, and the bit functions of bytes and dnums.
+
+Sources: [manual 3HAC16581-1] for the packing rules; abb_driver [code] for a copy out of an
+empty container, motion_program_exec [code] for \\ASCII:=0.
+"""
+
+from collections.abc import Callable
+
+from rapidgen.runtime.anytype import target_of, value_of
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.rawbytes import (
+    CAPACITY,
+    RawBytes,
+    byte_value,
+    float_bytes,
+    float_from,
+    integer_bytes,
+    integer_from,
+    whole,
+)
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Ref, single
+
+DNUM_BITS = 52
+_MASK = (1 << DNUM_BITS) - 1
+_ULINT = 8
+
+
+@builtin("PackRawBytes", cost="string")
+def pack_raw_bytes(
+    task: Task,
+    datum: object,
+    raw: RawBytes,
+    network: bool | None,
+    start: float,
+    hex1: bool | None,
+    int_type: float | None,
+    float4: bool | None,
+    ascii_: bool | None,
+) -> None:
+    """Write one value into a container."""
+    value, _ = value_of(datum)
+    index = whole(start, "ERR_OUTOFBND")
+    if index > len(raw.data) + 1 and task.controller.dialect.pack_beyond == "error":
+        raise RapidError("ERR_OUTOFBND", f"{index} lies behind a gap after {len(raw.data)} bytes")
+    if isinstance(value, str):
+        if not ascii_ or not value:
+            raise RapidError("ERR_ARGVALERR", "a string is packed with \\ASCII, and not empty")
+        raw.put(index, value.encode("latin-1"))
+    elif int_type is not None:
+        raw.put(index, integer_bytes(value, int_type, network=bool(network)))
+    elif float4:
+        raw.put(index, float_bytes(value, network=bool(network)))
+    elif hex1 or ascii_:
+        raw.put(index, bytes([byte_value(value)]))
+    else:
+        raise _no_format("PackRawBytes")
+
+
+@builtin("UnpackRawBytes", cost="string")
+def unpack_raw_bytes(
+    task: Task,
+    raw: RawBytes,
+    network: bool | None,
+    start: float,
+    datum: object,
+    hex1: bool | None,
+    int_type: float | None,
+    float4: bool | None,
+    ascii_: float | None,
+) -> None:
+    """Read one value out of a container."""
+    value = target_of(datum)
+    index = whole(start, "ERR_OUTOFBND")
+    if task.controller.dialect.unpack_beyond == "zero":
+        raw = RawBytes(bytes(raw.data).ljust(CAPACITY, b"\0"))
+    if int_type == _ULINT:
+        value.set(_unsigned_long(task, integer_from(raw, index, int_type, network=bool(network))))
+    elif int_type is not None:
+        value.set(integer_from(raw, index, int_type, network=bool(network)))
+    elif float4:
+        value.set(float_from(raw, index, network=bool(network)))
+    elif hex1:
+        value.set(raw.take(index, 1)[0])
+    elif ascii_ is not None:
+        count = whole(ascii_, "ERR_ARGVALERR")
+        text = value.type.kind == "string"
+        # No characters: motion_program_exec reads wobj0's empty name so [code].
+        if not (0 if text else 1) <= count <= 80:
+            raise RapidError("ERR_ARGVALERR", f"\\ASCII:={count}")
+        data = raw.take(index, count)
+        value.set(data.decode("latin-1") if text else data[0])
+    else:
+        raise _no_format("UnpackRawBytes")
+
+
+def _unsigned_long(task: Task, value: int) -> float:
+    match task.controller.dialect.unpack_ulint:
+        case "error":
+            raise RapidError("ERR_ARGVALERR", "\\IntX:=ULINT")
+        case "single":
+            return single(value)
+    return value
+
+
+def _no_format(name: str) -> FatalError:
+    return FatalError(
+        40_659, f"{name} needs a format", "one of \\Hex1, \\IntX, \\Float4 and \\ASCII"
+    )
+
+
+@builtin("ClearRawBytes", cost="string")
+def clear_raw_bytes(_task: Task, raw: RawBytes, from_index: float | None) -> None:
+    """Set bytes to 0; the valid length becomes `from_index` - 1 at most."""
+    start = 1 if from_index is None else whole(from_index, "ERR_OUTOFBND")
+    if not 1 <= start <= CAPACITY:
+        raise RapidError("ERR_OUTOFBND", f"\\FromIndex:={start}")
+    del raw.data[start - 1 :]
+
+
+@builtin("CopyRawBytes", cost="string")
+def copy_raw_bytes(
+    _task: Task,
+    source: RawBytes,
+    from_index: float,
+    target: RawBytes,
+    to_index: float,
+    count: float | None,
+) -> None:
+    """Copy valid bytes; what would lie behind the container's end is left out.
+
+    Nothing is copied, and nothing is wrong, when there is nothing from `from_index` on.
+    """
+    start, place = whole(from_index, "ERR_OUTOFBND"), whole(to_index, "ERR_OUTOFBND")
+    if not 1 <= start <= CAPACITY or not 1 <= place <= CAPACITY:
+        raise RapidError("ERR_OUTOFBND", f"from {start} to {place}")
+    data = bytes(source.data[start - 1 :])
+    if count is not None:
+        wanted = whole(count, "ERR_ARGVALERR")
+        if wanted < 0 or wanted > len(data):
+            raise RapidError("ERR_OUTOFBND", f"{wanted} bytes of {len(data)}")
+        data = data[:wanted]
+    data = data[: CAPACITY - place + 1]
+    if data:
+        target.put(place, data)
+
+
+@builtin("RawBytesLen", cost="string")
+def raw_bytes_len(_task: Task, raw: RawBytes) -> int:
+    """Valid length."""
+    return len(raw.data)
+
+
+# -- bits -----------------------------------------------------------------------------------
+
+
+def _steps(value: float, largest: int, low: int = 0) -> int:
+    number = whole(value, "ERR_ARGVALERR")
+    if not low <= number <= largest:
+        raise RapidError("ERR_ARGVALERR", f"{number} is not within {low} to {largest}")
+    return number
+
+
+def _bits(value: float) -> int:
+    return _steps(value, _MASK)
+
+
+def _lowest(size: float | None) -> int:
+    """The mask of \\Size bits, all 52 without it."""
+    return _MASK if size is None else (1 << _steps(size, DNUM_BITS, 1)) - 1
+
+
+def _two(name: str, function: Callable[[int, int], int]) -> None:
+    @builtin(name, cost="string", pure=True)
+    def of_bytes(_task: Task, one: float, two: float) -> int:
+        return function(byte_value(one), byte_value(two))
+
+    @builtin(name + "Dnum", cost="string", pure=True)
+    def of_dnums(_task: Task, one: float, two: float) -> int:
+        return function(_bits(one), _bits(two))
+
+
+_two("BitAnd", lambda a, b: a & b)
+_two("BitOr", lambda a, b: a | b)
+_two("BitXOr", lambda a, b: a ^ b)
+
+
+@builtin("BitNeg", cost="string", pure=True)
+def bit_neg(_task: Task, data: float) -> int:
+    """Every bit of a byte inverted."""
+    return byte_value(data) ^ 0xFF
+
+
+@builtin("BitNegDnum", cost="string", pure=True)
+def bit_neg_dnum(_task: Task, data: float, size: float | None) -> int:
+    """Every one of 52 bits, or of the lowest \\Size, inverted."""
+    mask = _lowest(size)
+    return _steps(data, mask) ^ mask
+
+
+@builtin("BitLSh", cost="string", pure=True)
+def bit_lsh(_task: Task, data: float, steps: float) -> int:
+    """A byte shifted left; bits fall out at the top."""
+    return byte_value(data) << _steps(steps, 8, 1) & 0xFF
+
+
+@builtin("BitRSh", cost="string", pure=True)
+def bit_rsh(_task: Task, data: float, steps: float) -> int:
+    """A byte shifted right."""
+    return byte_value(data) >> _steps(steps, 8, 1)
+
+
+@builtin("BitLShDnum", cost="string", pure=True)
+def bit_lsh_dnum(_task: Task, data: float, steps: float, size: float | None) -> int:
+    """52 bits, or the lowest \\Size, shifted left."""
+    mask = _lowest(size)
+    return _steps(data, mask) << _steps(steps, mask.bit_length(), 1) & mask
+
+
+@builtin("BitRShDnum", cost="string", pure=True)
+def bit_rsh_dnum(_task: Task, data: float, steps: float) -> int:
+    """52 bits shifted right."""
+    return _bits(data) >> _steps(steps, DNUM_BITS, 1)
+
+
+@builtin("BitCheck", cost="string", pure=True)
+def bit_check(_task: Task, data: float, position: float) -> bool:
+    """Whether the bit at `position` (1 = least significant) is set."""
+    return bool(byte_value(data) >> _steps(position, 8, 1) - 1 & 1)
+
+
+@builtin("BitCheckDnum", cost="string", pure=True)
+def bit_check_dnum(_task: Task, data: float, position: float) -> bool:
+    """Whether the bit at `position`, 1 to 52, is set."""
+    return bool(_bits(data) >> _steps(position, DNUM_BITS, 1) - 1 & 1)
+
+
+def _change(data: Ref | None, dnum: Ref | None, position: float, value: int) -> None:
+    target = data if data is not None else dnum
+    assert target is not None
+    if dnum is None:
+        bits, place = byte_value(target.get()), _steps(position, 8, 1)
+    else:
+        bits, place = _bits(target.get()), _steps(position, DNUM_BITS, 1)
+    mask = 1 << place - 1
+    target.set(bits | mask if value else bits & ~mask)
+
+
+@builtin("BitSet", cost="string")
+def bit_set(_task: Task, data: Ref | None, dnum: Ref | None, position: float) -> None:
+    """Set one bit of a byte or a dnum."""
+    _change(data, dnum, position, 1)
+
+
+@builtin("BitClear", cost="string")
+def bit_clear(_task: Task, data: Ref | None, dnum: Ref | None, position: float) -> None:
+    """Clear one bit of a byte or a dnum."""
+    _change(data, dnum, position, 0)

@@ -1,0 +1,431 @@
+"""SocketCreate to SocketReceiveFrom.
+
+Sources: 3HAC16581-1 as quoted on CSDN [manual] for limits, default times and ERR_SOCK_CLOSED;
+abb_driver and open_abb [code] for states and buffers. Remembered only [mem]: a send that
+finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switches:
+`refused_connect`, `failed_connect`, `receive_timeout`, `send_attends`, `sockets_limited`.
+"""
+
+from rapidgen.machine.network.device import SocketDevice, SocketStatus, SocketTable
+from rapidgen.machine.network.interface import BUFFER, Endpoint, Network, NetworkFault, Reason
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import STRING_LIMIT, Ref
+
+DEFAULT_TIME = 60.0
+WAIT_MAX = 9_999_999
+"""A \\Time of this or more waits for ever."""
+
+_REFUSED = {
+    "timeout": "ERR_SOCK_TIMEOUT",
+    "unreachable": "ERR_SOCK_NET_UNREACH",
+    "closed": "ERR_SOCK_CLOSED",
+}
+_ERRORS = {
+    Reason.ADDRESS_IN_USE: "ERR_SOCK_ADDR_INUSE",
+    Reason.ADDRESS_INVALID: "ERR_SOCK_ADDR_INVALID",
+    Reason.UNREACHABLE: "ERR_SOCK_NET_UNREACH",
+    Reason.REFUSED: "ERR_SOCK_TIMEOUT",
+    Reason.RESET: "ERR_SOCK_CLOSED",
+    Reason.CLOSED: "ERR_SOCK_CLOSED",
+    Reason.FAILED: "ERR_SOCK_UNSPEC",
+}
+
+
+def _network(task: Task) -> Network:
+    network: Network = task.controller.network
+    return network
+
+
+def _table(task: Task) -> SocketTable:
+    table: SocketTable = task.controller.sockets
+    return table
+
+
+def _error(fault: NetworkFault) -> RapidError:
+    return RapidError(_ERRORS[fault.reason], str(fault))
+
+
+def _lost(task: Task, socket: SocketDevice, fault: NetworkFault) -> RapidError:
+    """The connection is gone: from now on the program sees a closed socket."""
+    if fault.reason in (Reason.RESET, Reason.CLOSED):
+        _table(task).release(socket, abort=True)
+    return _error(fault)
+
+
+def _seconds(time: float | None) -> float | None:
+    if time is None:
+        return DEFAULT_TIME
+    if time < 0:
+        raise RapidError("ERR_ARGVALERR", f"\\Time:={time:g}")
+    return None if time >= WAIT_MAX else time
+
+
+def _port(number: float) -> int:
+    if number != int(number) or not 0 < number < 65_536:
+        raise RapidError("ERR_SOCK_ADDR_INVALID", f"port {number:g}")
+    return int(number)
+
+
+def _require(socket: SocketDevice, *, udp: bool = False) -> None:
+    if socket.status is SocketStatus.CLOSED:
+        raise RapidError("ERR_SOCK_CLOSED")
+    if socket.udp is not udp:
+        raise RapidError("ERR_SOCK_UNSPEC", "TCP and UDP have instructions of their own")
+
+
+def _stream(socket: SocketDevice) -> Endpoint:
+    _require(socket)
+    if socket.status is not SocketStatus.CONNECTED or socket.endpoint is None:
+        raise RapidError("ERR_SOCK_NOT_CONN")
+    return socket.endpoint
+
+
+# -- making connections -----------------------------------------------------------------------
+
+
+@builtin("SocketCreate", cost="socket")
+def socket_create(task: Task, socket: SocketDevice, udp: bool | None) -> None:
+    """A fresh socket; ERR_SOCK_UNSPEC when it is in use or all are."""
+    if socket.status is not SocketStatus.CLOSED:
+        raise RapidError("ERR_SOCK_UNSPEC", "the socket is in use")
+    table = _table(task)
+    if table.full:
+        raise RapidError("ERR_SOCK_UNSPEC", "all sockets of the controller are in use")
+    socket.udp = bool(udp)
+    socket.status = SocketStatus.CREATED
+    table.add(socket, task.name)
+
+
+@builtin("SocketBind", cost="socket")
+def socket_bind(task: Task, socket: SocketDevice, address: str, port: float) -> None:
+    """Take a port of the controller."""
+    _require(socket, udp=socket.udp)
+    if socket.status is not SocketStatus.CREATED:
+        raise RapidError("ERR_SOCK_IS_BOUND")
+    try:
+        socket.endpoint = _network(task).bind(address, _port(port), datagram=socket.udp)
+    except NetworkFault as fault:
+        raise _error(fault) from fault
+    socket.status = SocketStatus.BOUND
+
+
+@builtin("SocketListen", cost="socket")
+def socket_listen(task: Task, socket: SocketDevice) -> None:
+    """Let clients connect."""
+    _require(socket)
+    if socket.status is SocketStatus.CONNECTED:
+        raise RapidError("ERR_SOCK_IS_CONN")
+    if socket.endpoint is None or socket.status is SocketStatus.CREATED:
+        raise RapidError("ERR_SOCK_NOT_BOUND")
+    try:
+        _network(task).listen(socket.endpoint)
+    except NetworkFault as fault:
+        raise _error(fault) from fault
+    socket.status = SocketStatus.LISTENING
+
+
+@builtin("SocketAccept", cost="socket")
+def socket_accept(
+    task: Task,
+    socket: SocketDevice,
+    client: SocketDevice,
+    client_address: Ref | None,
+    time: float | None,
+) -> None:
+    """Wait for a client."""
+    _require(socket)
+    if socket.status is SocketStatus.CONNECTED or client.status is SocketStatus.CONNECTED:
+        raise RapidError("ERR_SOCK_IS_CONN")
+    listener = socket.endpoint
+    if listener is None or socket.status is not SocketStatus.LISTENING:
+        raise RapidError("ERR_SOCK_NOT_BOUND")
+    network, table = _network(task), _table(task)
+    accepted: list[Endpoint] = []
+
+    def try_it() -> bool:
+        endpoint = network.accept(listener)
+        if endpoint is not None:
+            accepted.append(endpoint)
+        return endpoint is not None
+
+    try:
+        there = task.wait_for(try_it, on=(listener.changed,), timeout=_seconds(time))
+    except NetworkFault as fault:
+        raise _lost(task, socket, fault) from fault
+    if not there:
+        raise RapidError("ERR_SOCK_TIMEOUT")
+    table.release(client)
+    if table.full:
+        network.close(accepted[0], abort=True)
+        raise RapidError("ERR_SOCK_UNSPEC", "all sockets of the controller are in use")
+    client.endpoint = accepted[0]
+    client.udp = False
+    client.status = SocketStatus.CONNECTED
+    table.add(client, task.name)
+    if client_address is not None:
+        peer = accepted[0].peer
+        client_address.set(peer[0] if peer is not None else "")
+
+
+@builtin("SocketConnect", cost="socket")
+def socket_connect(
+    task: Task, socket: SocketDevice, address: str, port: float, time: float | None
+) -> None:
+    """Connect to a server. For what a failure leaves see `Dialect.failed_connect`."""
+    _require(socket)
+    if socket.status is SocketStatus.CONNECTED:
+        raise RapidError("ERR_SOCK_IS_CONN")
+    if socket.status is not SocketStatus.CREATED or socket.endpoint is not None:
+        raise RapidError("ERR_SOCK_UNSPEC", "close the socket and create it again")
+    network = _network(task)
+    again = task.controller.dialect.failed_connect == "again"
+    try:
+        endpoint = socket.endpoint = network.connect(address, _port(port))
+        there = task.wait_for(
+            # An attempt to send raises why there is no connection.
+            lambda: endpoint.connected or network.send(endpoint, b"") > 0,
+            on=(endpoint.changed,),
+            timeout=_seconds(time),
+        )
+    except NetworkFault as fault:
+        if fault.reason is Reason.REFUSED:
+            raise RapidError(_REFUSED[task.controller.dialect.refused_connect]) from fault
+        raise _error(fault) from fault
+    else:
+        if not there:
+            raise RapidError("ERR_SOCK_TIMEOUT")
+        socket.status = SocketStatus.CONNECTED
+    finally:
+        if again and socket.status is SocketStatus.CREATED and socket.endpoint is not None:
+            network.close(socket.endpoint, abort=True)
+            socket.endpoint = None
+
+
+@builtin("SocketClose", cost="socket")
+def socket_close(task: Task, socket: SocketDevice) -> None:
+    """Close; no error when it is closed already."""
+    _table(task).release(socket)
+
+
+@builtin("SocketGetStatus", cost="socket")
+def socket_get_status(_task: Task, socket: SocketDevice) -> int:
+    """The program's own view: a peer that vanished still shows as connected."""
+    return int(socket.status)
+
+
+# -- data ---------------------------------------------------------------------------------------
+
+
+def _payload(
+    text: str | None, raw: RawBytes | None, data: dict[int, float] | None, count: float | None
+) -> bytes:
+    if text is not None:
+        payload = text.encode("latin-1")
+    elif raw is not None:
+        payload = bytes(raw.data)
+    elif data is not None:
+        if len(data) > CAPACITY:
+            raise RapidError("ERR_ARGVALERR", f"{len(data)} bytes; {CAPACITY} go")
+        payload = bytes(byte_value(data[i]) for i in range(1, len(data) + 1))
+    else:
+        raise FatalError(40_660, "Nothing to send", "one of \\Str, \\RawData and \\Data")
+    if count is None:
+        return payload
+    wanted = whole(count, "ERR_ARGVALERR")
+    if not 0 < wanted <= len(payload):
+        raise RapidError("ERR_ARGVALERR", f"\\NoOfBytes:={wanted} of {len(payload)}")
+    return payload[:wanted]
+
+
+@builtin("SocketSend", cost="socket")
+def socket_send(
+    task: Task,
+    socket: SocketDevice,
+    text: str | None,
+    raw: RawBytes | None,
+    data: dict[int, float] | None,
+    count: float | None,
+) -> None:
+    """Send bytes; waits while the connection has no room for them."""
+    payload = _payload(text, raw, data, count)
+    endpoint = _stream(socket)
+    network = _network(task)
+    left = payload
+
+    def some_go() -> bool:
+        nonlocal left
+        taken = network.send(endpoint, left)
+        left = left[taken:]
+        return taken > 0
+
+    interrupts = task.interrupts
+    disabled = interrupts.disabled
+    try:
+        if not task.controller.dialect.send_attends:
+            interrupts.disabled = True
+        while left:
+            if not task.wait_for(some_go, on=(endpoint.changed,), timeout=DEFAULT_TIME):
+                raise RapidError("ERR_SOCK_TIMEOUT", "the peer does not read")
+    except NetworkFault as fault:
+        raise _lost(task, socket, fault) from fault
+    finally:
+        if not task.controller.dialect.send_attends:
+            interrupts.disabled = disabled
+
+
+@builtin("SocketReceive", cost="socket")
+def socket_receive(
+    task: Task,
+    socket: SocketDevice,
+    text: Ref | None,
+    raw: RawBytes | None,
+    data: Ref | None,
+    read_count: float | None,
+    received_count: Ref | None,
+    time: float | None,
+) -> None:
+    """Wait for bytes: some, or exactly \\ReadNoOfBytes."""
+    endpoint = _stream(socket)
+    limit = _limit(text, raw, data, read_count)
+    received = _wait_for_bytes(
+        task, socket, endpoint, limit, exact=read_count is not None, time=time
+    )
+    _deliver(received, text, raw, data, received_count)
+
+
+def _wait_for_bytes(
+    task: Task,
+    socket: SocketDevice,
+    endpoint: Endpoint,
+    limit: int,
+    *,
+    exact: bool,
+    time: float | None,
+) -> bytes:
+    network = _network(task)
+    result: bytes | None = None
+
+    def try_it() -> bool:
+        nonlocal result
+        result = network.receive(endpoint, limit, exact=exact)
+        return result is not None
+
+    try:
+        there = task.wait_for(try_it, on=(endpoint.changed,), timeout=_seconds(time))
+    except NetworkFault as fault:
+        raise _lost(task, socket, fault) from fault
+    if not there or result is None:
+        if task.controller.dialect.receive_timeout == "drop":
+            network.receive(endpoint, limit)
+        raise RapidError("ERR_SOCK_TIMEOUT")
+    if not result and not socket.udp:
+        raise _lost(task, socket, NetworkFault(Reason.CLOSED, "the peer has closed"))
+    return result
+
+
+def _limit(
+    text: Ref | None, raw: RawBytes | None, data: Ref | None, read_count: float | None
+) -> int:
+    if text is not None:
+        room = STRING_LIMIT
+    elif raw is not None:
+        room = CAPACITY
+    elif data is not None:
+        room = min(CAPACITY, len(data.get()))
+    else:
+        raise FatalError(40_660, "Nowhere to receive", "one of \\Str, \\RawData and \\Data")
+    if read_count is None:
+        return room
+    wanted = whole(read_count, "ERR_ARGVALERR")
+    if not 0 < wanted <= room:
+        raise RapidError("ERR_ARGVALERR", f"\\ReadNoOfBytes:={wanted} of at most {room}")
+    return wanted
+
+
+def _deliver(
+    received: bytes,
+    text: Ref | None,
+    raw: RawBytes | None,
+    data: Ref | None,
+    received_count: Ref | None,
+) -> None:
+    if text is not None:
+        text.set(received.decode("latin-1"))
+    elif raw is not None:
+        raw.data[:] = received
+    elif data is not None:
+        data.set({**data.get(), **dict(enumerate(received, 1))})
+    if received_count is not None:
+        received_count.set(len(received))
+
+
+@builtin("SocketPeek", cost="socket")
+def socket_peek(task: Task, socket: SocketDevice) -> int:
+    """Number of bytes that wait."""
+    endpoint = _stream(socket) if not socket.udp else _datagrams(task, socket)
+    try:
+        waiting = _network(task).receive(endpoint, BUFFER, peek=True)
+    except NetworkFault as fault:
+        raise _lost(task, socket, fault) from fault
+    if waiting == b"" and not socket.udp:
+        raise _lost(task, socket, NetworkFault(Reason.CLOSED, "the peer has closed"))
+    return len(waiting or b"")
+
+
+# -- UDP ----------------------------------------------------------------------------------------
+
+
+def _datagrams(task: Task, socket: SocketDevice) -> Endpoint:
+    _require(socket, udp=True)
+    if socket.endpoint is None:
+        try:
+            socket.endpoint = _network(task).bind(_network(task).address, 0, datagram=True)
+        except NetworkFault as fault:
+            raise _error(fault) from fault
+    return socket.endpoint
+
+
+@builtin("SocketSendTo", cost="socket")
+def socket_send_to(
+    task: Task,
+    socket: SocketDevice,
+    address: str,
+    port: float,
+    text: str | None,
+    raw: RawBytes | None,
+    data: dict[int, float] | None,
+    count: float | None,
+) -> None:
+    """Send one datagram."""
+    payload = _payload(text, raw, data, count)
+    endpoint = _datagrams(task, socket)
+    try:
+        _network(task).send(endpoint, payload, (address, _port(port)))
+    except NetworkFault as fault:
+        raise _error(fault) from fault
+
+
+@builtin("SocketReceiveFrom", cost="socket")
+def socket_receive_from(
+    task: Task,
+    socket: SocketDevice,
+    text: Ref | None,
+    raw: RawBytes | None,
+    data: Ref | None,
+    read_count: float | None,
+    received_count: Ref | None,
+    address: Ref,
+    port: Ref,
+    time: float | None,
+) -> None:
+    """Wait for one datagram; what does not fit is lost, as with every BSD socket."""
+    endpoint = _datagrams(task, socket)
+    limit = _limit(text, raw, data, read_count)
+    received = _wait_for_bytes(task, socket, endpoint, limit, exact=False, time=time)
+    _deliver(received, text, raw, data, received_count)
+    sender = endpoint.sender or ("", 0)
+    address.set(sender[0])
+    port.set(sender[1])

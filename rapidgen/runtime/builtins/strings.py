@@ -1,0 +1,262 @@
+"""Strings and conversions.
+
+Sources: the S4 reference's page of each name for the edges (positions from 1, a position
+outside is an error); which error that is: switch `argument_error`.
+"""
+
+from rapidgen.runtime.anytype import target_of, value_of
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.rawbytes import byte_value, whole
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.text import (
+    NotALiteral,
+    exponent_text,
+    fixed_text,
+    limited,
+    parse_value,
+    value_text,
+)
+from rapidgen.runtime.values import single
+
+_LARGEST_STRDIG = 4_294_967_295
+_LARGEST_DECIMAL = 9_223_372_036_854_775_807
+_OPERATORS = {1: "<", 2: "<=", 3: "=", 4: "<>", 5: ">=", 6: ">"}
+
+
+def _place(text: str, position: float) -> int:
+    place = whole(position, "ERR_OUTOFBND")
+    if not 1 <= place <= len(text):
+        raise RapidError("ERR_OUTOFBND", f"position {place} of {len(text)} characters")
+    return place
+
+
+def _search_place(task: Task, text: str, position: float) -> int:
+    """Where a search begins; see `Dialect.find_behind`."""
+    behind = task.controller.dialect.find_behind == "none" and position == len(text) + 1
+    return len(text) + 1 if behind else _place(text, position)
+
+
+@builtin("StrLen", cost="string", pure=True)
+def str_len(_task: Task, text: str) -> int:
+    """Number of characters."""
+    return len(text)
+
+
+@builtin("StrPart", cost="string", pure=True)
+def str_part(_task: Task, text: str, position: float, length: float) -> str:
+    """A part; ERR_OUTOFBND when it sticks out [S4 StrPart]."""
+    count = whole(length, "ERR_OUTOFBND")
+    start = _place(text, position)
+    if count < 0 or start - 1 + count > len(text):
+        raise RapidError("ERR_OUTOFBND", f"{count} characters from {start} of {len(text)}")
+    return text[start - 1 : start - 1 + count]
+
+
+@builtin("StrFind", cost="string", pure=True)
+def str_find(task: Task, text: str, position: float, set_: str, not_in: bool | None) -> int:
+    """First position from there whose character is (not) in the set; length + 1 if none."""
+    for place in range(_search_place(task, text, position), len(text) + 1):
+        if (text[place - 1] in set_) != bool(not_in):
+            return place
+    return len(text) + 1
+
+
+@builtin("StrMatch", cost="string", pure=True)
+def str_match(task: Task, text: str, position: float, pattern: str) -> int:
+    """First position from there where the pattern begins; length + 1 if none."""
+    found = text.find(pattern, _search_place(task, text, position) - 1)
+    return found + 1 if found >= 0 else len(text) + 1
+
+
+@builtin("StrMap", cost="string", pure=True)
+def str_map(_task: Task, text: str, source: str, target: str) -> str:
+    """Each character of `source` replaced by its counterpart in `target`."""
+    if len(source) != len(target):
+        raise RapidError("ERR_ARGVALERR", "FromMap and ToMap differ in length")
+    return text.translate(str.maketrans(source, target))
+
+
+@builtin("StrMemb", cost="string", pure=True)
+def str_memb(_task: Task, text: str, position: float, set_: str) -> bool:
+    """Whether the character at a position is in the set."""
+    return text[_place(text, position) - 1] in set_
+
+
+@builtin("StrOrder", cost="string", pure=True)
+def str_order(_task: Task, one: str, two: str, order: str) -> bool:
+    """Whether `one` does not come behind `two`; characters without a rank come last."""
+
+    def ranks(text: str) -> list[tuple[int, int]]:
+        return [(order.find(c) if c in order else len(order), ord(c)) for c in text]
+
+    # Among ranked characters the rank alone decides; it is unique, so the code never does.
+    return ranks(one) <= ranks(two)
+
+
+@builtin("StrToVal", cost="string")
+def str_to_val(_task: Task, text: str, datum: object) -> bool:
+    """Read a literal of the target's type; FALSE leaves the target as it was [S4 StrToVal]."""
+    target = target_of(datum)
+    try:
+        value = parse_value(text, target.type, target.dims)
+    except NotALiteral:
+        return False
+    target.set(value)
+    return True
+
+
+@builtin("ValToStr", cost="string")
+def val_to_str(task: Task, datum: object) -> str:
+    """The text of any value; ERR_STRTOOLNG over 80 characters."""
+    return limited(value_text(*value_of(datum), whole=task.controller.dialect.whole_text == "all"))
+
+
+@builtin("StrFormat", cost="string", pure=True)
+def str_format(_task: Task, text: str, *arguments: str | None) -> str:
+    """`{1}` to `{5}` replaced by the arguments."""
+    for i, argument in enumerate(arguments, 1):
+        if argument is not None:
+            text = text.replace(f"{{{i}}}", argument)
+    return limited(text)
+
+
+def _decimals(decimals: float) -> int:
+    places = whole(decimals, "ERR_ARGVALERR")
+    if not 0 <= places <= 15:
+        raise RapidError("ERR_ARGVALERR", f"{places} decimals")
+    return places
+
+
+@builtin("NumToStr", cost="string", pure=True)
+def num_to_str(_task: Task, value: float, decimals: float, exponent: bool | None) -> str:
+    """A number with so many decimals, rounded half away from zero."""
+    write = exponent_text if exponent else fixed_text
+    return limited(write(single(value), _decimals(decimals)))
+
+
+@builtin("DnumToStr", cost="string", pure=True)
+def dnum_to_str(_task: Task, value: float, decimals: float, exponent: bool | None) -> str:
+    """As NumToStr, of a dnum."""
+    write = exponent_text if exponent else fixed_text
+    return limited(write(value, _decimals(decimals)))
+
+
+@builtin("DecToHex", cost="string", pure=True)
+def dec_to_hex(_task: Task, text: str) -> str:
+    """Decimal digits to hexadecimal ones, up to 9223372036854775807 [manual]."""
+    return f"{_integer(text, 10):X}"
+
+
+@builtin("HexToDec", cost="string", pure=True)
+def hex_to_dec(_task: Task, text: str) -> str:
+    """Hexadecimal digits to decimal ones, up to 7FFFFFFFFFFFFFFF [manual]."""
+    return str(_integer(text, 16))
+
+
+def _integer(text: str, base: int, largest: int = _LARGEST_DECIMAL) -> int:
+    if not text or not text.isascii() or not text.isalnum():
+        raise RapidError("ERR_ARGVALERR", f"'{text}' is no number")
+    try:
+        number = int(text, base)
+    except ValueError as error:
+        raise RapidError("ERR_ARGVALERR", f"'{text}' is no number") from error
+    if number > largest:
+        raise RapidError("ERR_ARGVALERR", f"{text} is too large")
+    return number
+
+
+@builtin("StrToByte", cost="string", pure=True)
+def str_to_byte(
+    _task: Task,
+    text: str,
+    hexadecimal: bool | None,
+    octal: bool | None,
+    binary: bool | None,
+    char: bool | None,
+) -> int:
+    """A byte from its text: decimal unless told."""
+    if char:
+        if len(text) != 1:
+            raise RapidError("ERR_ARGVALERR", "\\Char takes one character")
+        return ord(text)
+    base, longest = (16, 2) if hexadecimal else (8, 3) if octal else (2, 8) if binary else (10, 3)
+    if len(text) > longest:
+        raise RapidError("ERR_ARGVALERR", f"'{text}' is no byte")
+    return _integer(text, base, 255)
+
+
+@builtin("ByteToStr", cost="string", pure=True)
+def byte_to_str(
+    task: Task,
+    data: float,
+    hexadecimal: bool | None,
+    octal: bool | None,
+    binary: bool | None,
+    char: bool | None,
+) -> str:
+    """A byte's text: decimal unless told. For \\Char see `Dialect.byte_to_str`."""
+    byte = byte_value(data)
+    if hexadecimal:
+        return f"{byte:02X}"
+    if octal:
+        return f"{byte:03o}"
+    if binary:
+        return f"{byte:08b}"
+    if char:
+        shown = chr(byte)
+        as_code = task.controller.dialect.byte_to_str == "code" and not shown.isprintable()
+        return f"\\{byte:02X}" if as_code else shown
+    return str(byte)
+
+
+def _digits(text: str) -> int:
+    if not text.isdigit():
+        raise RapidError("ERR_ARGVALERR", f"'{text}' is no stringdig")
+    return _integer(text, 10, _LARGEST_STRDIG)
+
+
+@builtin("StrDigCmp", cost="string", pure=True)
+def str_dig_cmp(_task: Task, one: str, relation: float, two: str) -> bool:
+    """Compare two whole numbers held as digits."""
+    a, b = _digits(one), _digits(two)
+    match _OPERATORS.get(int(relation)):
+        case "<":
+            return a < b
+        case "<=":
+            return a <= b
+        case "=":
+            return a == b
+        case "<>":
+            return a != b
+        case ">=":
+            return a >= b
+        case ">":
+            return a > b
+    raise RapidError("ERR_ARGVALERR", f"{relation:g} is no opnum")
+
+
+@builtin("StrDigCalc", cost="string", pure=True)
+def str_dig_calc(_task: Task, one: str, operation: float, two: str) -> str:
+    """Calculate with whole numbers held as digits: OpAdd 1, OpSub 2, OpMult 3, OpDiv 4, OpMod 5."""
+    a, b = _digits(one), _digits(two)
+    if operation in (4, 5) and b == 0:
+        raise RapidError("ERR_CALC_DIVZERO")
+    match operation:
+        case 1:
+            result = a + b
+        case 2:
+            result = a - b
+        case 3:
+            result = a * b
+        case 4:
+            result = a // b
+        case 5:
+            result = a % b
+        case _:
+            raise RapidError("ERR_ARGVALERR", f"{operation:g} is no opcalc")
+    if result < 0:
+        raise RapidError("ERR_CALC_NEG")
+    if result > _LARGEST_STRDIG:
+        raise RapidError("ERR_CALC_OVERFLOW")
+    return str(result)

@@ -1,0 +1,118 @@
+"""What the controller tells about itself, and its text tables.
+
+Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the form of its texts is
+remembered only [mem].
+"""
+
+from rapidgen.config.model import MotionGroup
+from rapidgen.machine.files import FileSystem
+from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.rawbytes import whole
+from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.text import limited
+from rapidgen.runtime.texts import TextTables
+from rapidgen.system.model import System
+
+_SERIAL = "00-00000"
+
+
+@builtin("GetSysInfo", cost="string")
+def get_sys_info(
+    task: Task,
+    serial: bool | None,
+    version: bool | None,
+    version_name: bool | None,
+    robot_type: bool | None,
+    controller_id: bool | None,
+    lan_ip: bool | None,
+    language: bool | None,
+    system_name: bool | None,
+) -> str:
+    """One fact about the controller.
+
+    Forms of versions as backups keep what controllers answered (COMPAS RRC [code]):
+    `ROBOTWARE_6.04.1027` and `6.04.01.00`; there is no build number here.
+    """
+    system: System = task.controller.system
+    major, minor = system.robotware
+    if serial:
+        return _SERIAL
+    if version:
+        return f"ROBOTWARE_{major}.{minor:02d}.0000"
+    if version_name:
+        return f"{major}.{minor:02d}.00.00"
+    if robot_type:
+        groups = task.controller.motion.groups.values()
+        configs: list[MotionGroup] = [group.config for group in groups]
+        return limited(configs[0].model if configs else "")
+    if controller_id or system_name:
+        return limited(system.name)
+    if lan_ip:
+        return str(task.controller.network.address)
+    if language:
+        return "en"
+    raise FatalError(40_662, "GetSysInfo needs a part", "such as \\LanIp")
+
+
+@builtin("IsSysId", cost="string")
+def is_sys_id(_task: Task, identity: str) -> bool:
+    """Whether this is the controller's serial number."""
+    return identity == _SERIAL
+
+
+@builtin("GetServiceInfo", cost="string")
+def get_service_info(task: Task, _unit: object, _duty_time: bool | None) -> str:
+    """Hours that the mechanical unit has been in use."""
+    return str(task.scheduler.now // 3_600_000_000_000)
+
+
+@builtin("RobOS")
+def rob_os(_task: Task) -> bool:
+    """Whether this is a real controller: it is a virtual one."""
+    return False
+
+
+# -- text tables ----------------------------------------------------------------------------
+
+
+def _tables(task: Task) -> TextTables:
+    tables: TextTables = task.controller.texts
+    return tables
+
+
+@builtin("TextTabInstall", cost="socket")
+def text_tab_install(task: Task, file: str) -> None:
+    """Install the tables of a file."""
+    files: FileSystem = task.controller.files
+    try:
+        _tables(task).install(files.path(file).read_text(encoding="latin-1"))
+    except OSError as error:
+        raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
+    except ValueError as error:
+        raise FatalError(40_663, "Text table not installed", file, str(error)) from error
+
+
+@builtin("TextTabFreeToUse", cost="string")
+def text_tab_free_to_use(task: Task, name: str) -> bool:
+    """Whether a table's name is not taken yet."""
+    return _tables(task).number(name) is None
+
+
+@builtin("TextTabGet", cost="string")
+def text_tab_get(task: Task, name: str) -> int:
+    """A table's number; ERR_TXTNOEXIST when there is none."""
+    number = _tables(task).number(name)
+    if number is None:
+        raise RapidError("ERR_TXTNOEXIST", f"no text table '{name}'")
+    return number
+
+
+@builtin("TextGet", cost="string")
+def text_get(task: Task, table: float, index: float) -> str:
+    """A text of a table; ERR_TXTNOEXIST when there is none."""
+    wanted = whole(index, "ERR_ARGVALERR")
+    text = _tables(task).text(whole(table, "ERR_ARGVALERR"), wanted)
+    if text is None:
+        raise RapidError("ERR_TXTNOEXIST", f"no text {wanted} in table {table:g}")
+    return limited(text)

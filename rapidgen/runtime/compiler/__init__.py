@@ -1,0 +1,1 @@
+"""RAPID routines as Python source, compiled on first call."""

@@ -1,0 +1,211 @@
+"""One walk over a routine before it is compiled: what is passed by reference, what is whole."""
+
+from collections.abc import Callable, Iterator
+
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.symbols import Routine
+
+WHOLE_FUNCTIONS = frozenset({"strlen", "dim", "strfind", "strmatch"})
+"""Built-ins that become code and give whole numbers from 0."""
+
+
+def children(node: n.Node) -> Iterator[n.Node]:
+    """Direct parts of a node."""
+    for name in _slots(type(node)):
+        value = getattr(node, name)
+        if isinstance(value, n.Node):
+            yield value
+        elif value.__class__ is list:
+            for item in value:
+                if isinstance(item, n.Node):
+                    yield item
+
+
+_SLOTS: dict[type, tuple[str, ...]] = {}
+
+
+def _slots(kind: type) -> tuple[str, ...]:
+    found = _SLOTS.get(kind)
+    if found is None:
+        names: list[str] = []
+        for base in kind.__mro__:
+            names += [s for s in getattr(base, "__slots__", ()) if s not in ("first", "last")]
+        found = _SLOTS[kind] = tuple(names)
+    return found
+
+
+def walk(node: n.Node) -> Iterator[n.Node]:
+    """A node and everything below it."""
+    stack = [node]
+    while stack:
+        at = stack.pop()
+        yield at
+        stack.extend(children(at))
+
+
+class Facts:
+    """What a routine's text says about its own variables."""
+
+    def __init__(
+        self,
+        routine: n.RoutineDeclaration,
+        find: Callable[[str], Routine | None],
+        never_boxes: frozenset[str],
+    ) -> None:
+        self.by_reference: set[str] = set()
+        """Locals that are arguments of reference parameters, lower case."""
+        self.stores: dict[str, list[n.Expression | None]] = {}
+        """What is assigned to whole locals; None = something unknown."""
+        self.loops: list[n.For] = []
+        self.goto: set[str] = set()
+        self.assigned_in_handlers: set[str] = set()
+        for at in walk(routine):
+            self._look(at, find, never_boxes)
+
+    def _look(
+        self, at: n.Node, find: Callable[[str], Routine | None], never_boxes: frozenset[str]
+    ) -> None:
+        match at:
+            case n.Assignment(target=n.Name(name=name)):
+                self.stores.setdefault(name.lower(), []).append(at.value)
+            case n.ProcedureCall() | n.FunctionCall():
+                self._call(at, find(at.name), never_boxes)
+            case n.LateCall():
+                for argument in at.arguments:
+                    self._by_reference(argument.value)
+            case n.Connect(target=n.Name(name=name)):
+                self.by_reference.add(name.lower())
+            case n.For():
+                self.loops.append(at)
+            case n.Goto():
+                self.goto.add(at.name.lower())
+
+    def _call(
+        self,
+        at: n.ProcedureCall | n.FunctionCall,
+        routine: Routine | None,
+        never_boxes: frozenset[str],
+    ) -> None:
+        key = at.name.lower()
+        if routine is None or (routine.node is None and key in never_boxes):
+            self._step(at, key)
+            return
+        required = [p for p in routine.parameters if not p.optional]
+        at_required = 0
+        for argument in at.arguments:
+            index = routine.by_name.get(argument.name.lower()) if argument.name else None
+            if index is not None:
+                parameter = routine.parameters[index]
+            elif argument.name is None and at_required < len(required):
+                parameter = required[at_required]
+                at_required += 1
+                while (
+                    parameter.group >= 0
+                    and at_required < len(required)
+                    and required[at_required].group == parameter.group
+                ):
+                    # Alternatives of one position: any of them may be meant.
+                    if required[at_required].mode:
+                        parameter = required[at_required]
+                    at_required += 1
+            else:
+                continue
+            if parameter.mode:
+                self._by_reference(argument.value)
+
+    def _step(self, at: n.ProcedureCall | n.FunctionCall, key: str) -> None:
+        """Incr and its kin are assignments."""
+        if key not in ("incr", "decr", "add", "clear") or not at.arguments:
+            return
+        target = at.arguments[0].value
+        if isinstance(target, n.Name):
+            value = at.arguments[1].value if key == "add" and len(at.arguments) > 1 else None
+            whole = n.NumberLiteral(at.first, at.first, 1, "1")
+            self.stores.setdefault(target.name.lower(), []).append(value if key == "add" else whole)
+
+    def _by_reference(self, node: n.Expression | None) -> None:
+        if isinstance(node, n.Name):
+            self.by_reference.add(node.name.lower())
+
+
+class Whole:
+    """Which locals and loop variables hold whole numbers only, and which none below zero.
+
+    Both are the largest sets that agree with every store; `initial` are the candidates with
+    their initial values, `constant(name)` gives the value of a num constant, or None.
+    """
+
+    def __init__(
+        self, initial: dict[str, int], facts: Facts, constant: Callable[[str], object]
+    ) -> None:
+        self._constant = constant
+        loops: dict[str, list[n.For]] = {}
+        for loop in facts.loops:
+            loops.setdefault(loop.variable.lower(), []).append(loop)
+        names = {name for name in initial if name not in facts.by_reference} | set(loops)
+        stores = {name: facts.stores.get(name, []) for name in names}
+        self.whole = names
+        self._shrink(
+            self.whole,
+            lambda name: (
+                all(map(self._is_whole, stores[name]))
+                and all(self._is_whole_loop(loop) for loop in loops.get(name, ()))
+            ),
+        )
+        self.natural = {name for name in self.whole if initial.get(name, 0) >= 0}
+        self._shrink(
+            self.natural,
+            lambda name: (
+                all(map(self._is_natural, stores[name]))
+                and all(self._is_natural_loop(loop) for loop in loops.get(name, ()))
+            ),
+        )
+
+    @staticmethod
+    def _shrink(names: set[str], holds: Callable[[str], bool]) -> None:
+        changed = True
+        while changed:
+            wrong = [name for name in sorted(names) if not holds(name)]
+            names.difference_update(wrong)
+            changed = bool(wrong)
+
+    def _is_whole_loop(self, loop: n.For) -> bool:
+        return self._is_whole(loop.start) and (loop.step is None or self._is_whole(loop.step))
+
+    def _is_natural_loop(self, loop: n.For) -> bool:
+        return loop.step is None and self._is_natural(loop.start) and self._is_natural(loop.end)
+
+    def _is_whole(self, node: n.Expression | None) -> bool:
+        match node:
+            case n.NumberLiteral():
+                return isinstance(node.value, int)
+            case n.Name():
+                return node.name.lower() in self.whole or isinstance(
+                    self._constant(node.name.lower()), int
+                )
+            case n.Parenthesis():
+                return self._is_whole(node.inner)
+            case n.Unary():
+                return node.operator != "NOT" and self._is_whole(node.operand)
+            case n.Binary(operator="DIV" | "MOD"):
+                return True
+            case n.Binary(operator="+" | "-" | "*"):
+                return self._is_whole(node.left) and self._is_whole(node.right)
+            case n.FunctionCall():
+                return node.name.lower() in WHOLE_FUNCTIONS
+        return False
+
+    def _is_natural(self, node: n.Expression | None) -> bool:
+        match node:
+            case n.NumberLiteral():
+                return isinstance(node.value, int)
+            case n.Name():
+                value = self._constant(node.name.lower())
+                return node.name.lower() in self.natural or (isinstance(value, int) and value >= 0)
+            case n.Parenthesis():
+                return self._is_natural(node.inner)
+            case n.Binary(operator="+" | "*" | "DIV" | "MOD"):
+                return self._is_natural(node.left) and self._is_natural(node.right)
+            case n.FunctionCall():
+                return node.name.lower() in WHOLE_FUNCTIONS
+        return False

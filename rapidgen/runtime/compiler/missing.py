@@ -1,0 +1,82 @@
+"""Calls of routines that do not exist here, found when modules are loaded.
+
+Trees of large systems are not walked for it: only names that are no known routine and stand, in
+the tokens, where a call stands are looked for in the tree.
+"""
+
+from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.runtime import unsupported
+from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.runtime.compiler.program import LoadedModule, Program
+
+_BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
+_NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
+
+
+def missing_routines(program: Program) -> list[Diagnostic]:
+    """One warning for each built-in that is not available and each name that is not declared."""
+    found: dict[str, Diagnostic] = {}
+    for module in program.modules.values():
+        suspects = _suspects(program, module) - found.keys()
+        if not suspects:
+            continue
+        for routine in module.tree.routines:
+            for node in walk(routine):
+                if isinstance(node, n.ProcedureCall | n.FunctionCall):
+                    key = node.name.lower()
+                    if key in suspects and key not in found:
+                        found[key] = _diagnostic(program, module, node)
+    return list(found.values())
+
+
+def _suspects(program: Program, module: LoadedModule) -> set[str]:
+    tokens = module.tree.source.tokens
+    unknown = set()
+    for text in {t.lower() for t in set(tokens) if t[0].isalpha()}:
+        if text.upper() in KEYWORDS:
+            continue
+        routine = program.find_routine(module, text)
+        if routine is None or routine.missing:
+            unknown.add(text)
+    for declared in module.tree.routines:
+        unknown.difference_update(d.name.lower() for d in declared.data)
+        unknown.difference_update(p.name.lower() for p in declared.parameters)
+    if not unknown:
+        return unknown
+    suspects = set()
+    last = len(tokens) - 1
+    for i, text in enumerate(tokens):
+        key = text.lower()
+        if key not in unknown or key in suspects:
+            continue
+        behind = tokens[i + 1] if i < last else ""
+        before = tokens[i - 1].upper() if i else ""
+        starts = before in _BEFORE_STATEMENT or (before[:1].isalpha() and before not in KEYWORDS)
+        if behind == "(" or (starts and (behind == ";" or behind not in _NO_CALL)):
+            suspects.add(key)
+    return suspects
+
+
+def _diagnostic(
+    program: Program, module: LoadedModule, node: n.ProcedureCall | n.FunctionCall
+) -> Diagnostic:
+    routine = program.find_routine(module, node.name.lower())
+    if routine is not None:
+        return Diagnostic(
+            "RG403",
+            Severity.WARNING,
+            f"{routine.name} is not available on the virtual controller",
+            module.span(node),
+            label="the task stops here",
+            notes=(unsupported.reason(routine.name),),
+        )
+    return Diagnostic(
+        "RG404",
+        Severity.WARNING,
+        f"{node.name} is not declared in any module of {program.task.name}",
+        module.span(node),
+        label="ERR_REFUNKPRC when it is reached",
+        help="load the module that declares it",
+    )

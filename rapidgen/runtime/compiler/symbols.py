@@ -1,0 +1,92 @@
+"""What names in RAPID stand for, and how compiled code reaches it."""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.registry import Builtin
+from rapidgen.runtime.values import Type
+
+if TYPE_CHECKING:
+    from rapidgen.runtime.compiler.program import LoadedModule
+
+Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", "object"]
+"""How a datum is kept:
+
+inline  the value itself stands in the code (atomic CONST, ERR_ numbers)
+global  a global of the task's namespace
+cell    a global `Cell` (PERS)
+local   a Python local
+box     a Python local that holds a `Box` (a variable that is passed by reference)
+ref     a Python local that holds a `Ref` or `Cell` (VAR, INOUT and PERS parameters)
+object  a Python local that is the record, array or non-value object of a VAR parameter
+"""
+
+
+@dataclass(slots=True, eq=False)
+class Data:
+    """A datum, parameter or loop variable."""
+
+    name: str
+    kind: Literal["VAR", "PERS", "CONST", "LOOP", "PARAMETER"]
+    type: Type
+    dims: tuple[int, ...]
+    """Sizes; of an array parameter zeros."""
+    storage: Storage
+    code: str
+    """Python expression of what is kept."""
+    mode: n.Mode = ""
+    optional: bool = False
+    whole: bool = False
+    """Always a whole number, kept as int."""
+    range: tuple[int, int] | None = None
+    value: Any = None
+    """Of `inline` data."""
+    readonly: bool = False
+
+
+@dataclass(slots=True, eq=False)
+class Parameter:
+    """One formal parameter."""
+
+    name: str
+    mode: n.Mode
+    type: Type | None
+    """None: anytype."""
+    type_name: str
+    dims: int
+    optional: bool
+    group: int
+    switch: bool
+
+
+@dataclass(slots=True, eq=False)
+class Routine:
+    """A routine of the program, or a built-in."""
+
+    name: str
+    kind: Literal["PROC", "FUNC", "TRAP"]
+    type: Type | None
+    parameters: tuple[Parameter, ...]
+    code: str
+    """Python expression of the function."""
+    node: n.RoutineDeclaration | None = None
+    module: "LoadedModule | None" = None
+    builtin: Builtin | None = None
+    missing: bool = False
+    """A built-in that exists on controllers but not here."""
+    by_name: dict[str, int] = field(default_factory=dict)
+    type_name: str = ""
+
+    def __post_init__(self) -> None:
+        self.by_name = {p.name.lower(): i for i, p in enumerate(self.parameters)}
+
+
+@dataclass(frozen=True, slots=True)
+class Pending:
+    """Module data that are not evaluated yet."""
+
+    module: "LoadedModule"
+
+
+Symbol: TypeAlias = Data | Routine | Type | Pending

@@ -1,0 +1,99 @@
+"""Containers of raw bytes: 0 to 1024 valid bytes, little endian unless told [manual 3HAC16581-1].
+
+`data` holds the valid bytes only; everything behind counts as 0. Indexes are RAPID's, from 1.
+Which error a value out of range raises is in no public source (switch `argument_error`): a number
+that is not whole raises ERR_INT_NOTVAL, one that does not fit ERR_ARGVALERR, a place outside
+ERR_OUTOFBND.
+"""
+
+import struct
+
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.values import register_type
+
+CAPACITY = 1024
+
+# inttypes: negative = signed, magnitude = bytes.
+_INTEGERS = {1: "B", 2: "H", 4: "I", 8: "Q", -1: "b", -2: "h", -4: "i", -8: "q"}
+
+
+class RawBytes:
+    """A `rawbytes` datum."""
+
+    __slots__ = ("data",)
+
+    def __init__(self, data: bytes = b"") -> None:
+        self.data = bytearray(data)
+
+    def put(self, index: int, data: bytes) -> None:
+        """Write bytes from `index` on; the valid length grows when they end behind it."""
+        end = index - 1 + len(data)
+        if index < 1 or end > CAPACITY:
+            raise RapidError("ERR_OUTOFBND", f"bytes {index} to {end} of a rawbytes")
+        if index - 1 > len(self.data):
+            self.data.extend(bytes(index - 1 - len(self.data)))
+        self.data[index - 1 : end] = data
+
+    def take(self, index: int, count: int) -> bytes:
+        """`count` valid bytes from `index` on; ERR_OUTOFBND beyond the valid length."""
+        if index < 1 or index - 1 + count > len(self.data):
+            raise RapidError(
+                "ERR_OUTOFBND",
+                f"bytes {index} to {index - 1 + count} of {len(self.data)} valid ones",
+            )
+        return bytes(self.data[index - 1 : index - 1 + count])
+
+
+register_type("rawbytes", RawBytes)
+
+
+def whole(value: float, error: str = "ERR_INT_NOTVAL") -> int:
+    """`value` as an int, or the given error when it is not whole."""
+    number = int(value)
+    if number != value:
+        raise RapidError(error, f"{value:g} is not whole")
+    return number
+
+
+def integer_bytes(value: float, kind: float, *, network: bool) -> bytes:
+    """An integer of one of the inttypes."""
+    code = _code(kind)
+    number = whole(value)
+    try:
+        return struct.pack((">" if network else "<") + code, number)
+    except struct.error as error:
+        raise RapidError("ERR_ARGVALERR", f"{number} does not fit the inttype") from error
+
+
+def integer_from(raw: RawBytes, index: int, kind: float, *, network: bool) -> int:
+    """The integer of one of the inttypes at `index`."""
+    code = _code(kind)
+    data = raw.take(index, struct.calcsize("<" + code))
+    number: int = struct.unpack((">" if network else "<") + code, data)[0]
+    return number
+
+
+def float_bytes(value: float, *, network: bool) -> bytes:
+    """An IEEE single."""
+    return struct.pack(">f" if network else "<f", value)
+
+
+def float_from(raw: RawBytes, index: int, *, network: bool) -> float:
+    """The IEEE single at `index`."""
+    number: float = struct.unpack(">f" if network else "<f", raw.take(index, 4))[0]
+    return number
+
+
+def byte_value(value: float) -> int:
+    """A `byte`: whole, 0 to 255; ERR_ARGVALERR otherwise."""
+    number = whole(value, "ERR_ARGVALERR")
+    if not 0 <= number <= 255:
+        raise RapidError("ERR_ARGVALERR", f"{number} is no byte")
+    return number
+
+
+def _code(kind: float) -> str:
+    code = _INTEGERS.get(int(kind))
+    if code is None:
+        raise RapidError("ERR_ARGVALERR", f"{kind:g} is no inttype")
+    return code

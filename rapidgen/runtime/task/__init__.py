@@ -1,0 +1,1 @@
+"""One RAPID task: errors, pointer, steps, interrupts."""

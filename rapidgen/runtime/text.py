@@ -1,0 +1,185 @@
+"""Values as RAPID writes them, and back: ValToStr, TPWrite \\Num, Write, NumToStr, StrToVal.
+
+One "standard format" for all [S4 reference: ValToStr, TPWrite, Write]: 6 significant digits
+(15 of a dnum [mem]), no trailing zeros, no point for a whole number; a num whose fraction is
+below 0.000005 or above 0.999995 counts as whole. Exponents look like 1E+10 [mem].
+"""
+
+import math
+import re
+from decimal import ROUND_DOWN, ROUND_HALF_UP, Context, Decimal
+from typing import Any
+
+from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.values import DNUM, STRING_LIMIT, Record, Type, single
+
+NUM_DIGITS = 6
+DNUM_DIGITS = 15
+_FRACTION = 0.000005
+_EXACT = 2**24
+"""Whole numbers below are exact in a num."""
+_ALL_DIGITS = Context(prec=800)
+"""Enough for every float with decimals behind it."""
+_LITERAL = re.compile(
+    r'[+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?|TRUE|FALSE|"(?:[^"]|"")*"|[\[\],]', re.IGNORECASE
+)
+_BLANK = re.compile(r"\s*")
+
+
+def limited(text: str) -> str:
+    """`text` itself; ERR_STRTOOLNG when it is no RAPID string any more."""
+    if len(text) > STRING_LIMIT:
+        raise RapidError("ERR_STRTOOLNG", f"{len(text)} characters")
+    return text
+
+
+def number_text(value: float, digits: int = NUM_DIGITS, *, whole: bool = False) -> str:
+    """A number in the standard format; `whole`: all digits of one that is whole and exact."""
+    if digits == NUM_DIGITS and math.isfinite(value):
+        fraction = abs(value) % 1
+        if fraction < _FRACTION or fraction > 1 - _FRACTION:
+            value = round(value)
+            if whole and abs(value) < _EXACT:
+                return str(value)
+    text = f"{value:.{digits}G}"
+    return "0" if text == "-0" else text
+
+
+def value_text(
+    value: Any,  # noqa: ANN401 - any RAPID value
+    type_: Type | None = None,
+    *,
+    whole: bool = False,
+) -> str:
+    """Any value in the standard format: texts quoted, aggregates without blanks."""
+    if value.__class__ is dict:
+        return "[" + ",".join(value_text(v, type_, whole=whole) for v in value.values()) + "]"
+    if isinstance(value, Record):
+        parts = zip(value.values(), value.rapid_type.components, strict=True)
+        texts = (value_text(part, kind, whole=whole) for part, (_, kind) in parts)
+        return "[" + ",".join(texts) + "]"
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, str):
+        return '"' + value.replace('"', '""') + '"'
+    return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS, whole=whole)
+
+
+def literal_text(value: Any, type_: Type) -> str:  # noqa: ANN401 - any RAPID value
+    """A value as a literal that reads back as exactly the same value."""
+    if value.__class__ is dict:
+        return "[" + ",".join(literal_text(v, type_) for v in value.values()) + "]"
+    if isinstance(value, Record):
+        parts = zip(value.values(), value.rapid_type.components, strict=True)
+        return "[" + ",".join(literal_text(part, kind) for part, (_, kind) in parts) + "]"
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '""') + '"'
+    if type_ is DNUM:
+        return f"{value:.17G}" if float(f"{value:.15G}") != value else f"{value:.15G}"
+    for digits in range(6, 10):
+        text = f"{value:.{digits}G}"
+        if single(float(text)) == value:
+            return text
+    return text
+
+
+def to_places(value: float, places: int, *, truncate: bool = False) -> Decimal:
+    """`value` rounded (half away from zero) or cut to a number of decimals."""
+    step = Decimal(1).scaleb(-places)
+    rounding = ROUND_DOWN if truncate else ROUND_HALF_UP
+    return Decimal(value).quantize(step, rounding, _ALL_DIGITS)
+
+
+def fixed_text(value: float, places: int) -> str:
+    """`value` with so many decimals."""
+    text = f"{to_places(value, places):f}"
+    return text[1:] if text.startswith("-") and not text.strip("-0.") else text
+
+
+def exponent_text(value: float, places: int) -> str:
+    """`value` as 3.85E-01: so many decimals and an exponent of two digits or more."""
+    number = Decimal(value)
+    exponent = number.adjusted() if number else 0
+    mantissa = number.scaleb(-exponent).quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP)
+    if abs(mantissa) >= 10:
+        exponent += 1
+        mantissa = number.scaleb(-exponent).quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP)
+    return f"{mantissa:f}E{exponent:+03d}"
+
+
+class NotALiteral(Exception):
+    """The text is no literal of the wanted type."""
+
+
+def parse_value(text: str, type_: Type, dims: tuple[int, ...] = ()) -> Any:  # noqa: ANN401
+    """The value of a literal or literal aggregate of a type.
+
+    NotALiteral: the text is something else, or does not fit the type.
+    """
+    tokens = _tokens(text)
+    value, rest = _parse(tokens, 0, type_, dims)
+    if rest != len(tokens):
+        raise NotALiteral
+    return value
+
+
+def _tokens(text: str) -> list[str]:
+    found = []
+    place = _end_of_blank(text, 0)
+    while place < len(text):
+        match = _LITERAL.match(text, place)
+        if match is None:
+            raise NotALiteral
+        found.append(match.group())
+        place = _end_of_blank(text, match.end())
+    return found
+
+
+def _end_of_blank(text: str, place: int) -> int:
+    blank = _BLANK.match(text, place)
+    return blank.end() if blank is not None else place
+
+
+def _parse(tokens: list[str], place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Any, int]:
+    if place >= len(tokens):
+        raise NotALiteral
+    if dims:
+        parts, place = _aggregate(tokens, place, [(type_, dims[1:])] * dims[0])
+        return dict(enumerate(parts, 1)), place
+    if type_.kind == "record":
+        parts, place = _aggregate(tokens, place, [(kind, ()) for _, kind in type_.components])
+        assert type_.make is not None
+        return type_.make(*parts), place
+    return _atom(tokens[place], type_), place + 1
+
+
+def _aggregate(
+    tokens: list[str], place: int, parts: list[tuple[Type, tuple[int, ...]]]
+) -> tuple[list[Any], int]:
+    values = []
+    for i, (kind, dims) in enumerate(parts):
+        if place >= len(tokens) or tokens[place] != ("[" if i == 0 else ","):
+            raise NotALiteral
+        value, place = _parse(tokens, place + 1, kind, dims)
+        values.append(value)
+    if place >= len(tokens) or tokens[place] != "]":
+        raise NotALiteral
+    return values, place + 1
+
+
+def _atom(token: str, type_: Type) -> Any:  # noqa: ANN401
+    if type_.kind == "bool" and token.upper() in ("TRUE", "FALSE"):  # any case [K §2.4, 2.6]
+        return token.upper() == "TRUE"
+    if type_.kind == "string" and token[0] == '"':
+        return token[1:-1].replace('""', '"')
+    if type_.kind in ("num", "dnum") and token[-1] in "0123456789.":
+        number = float(token)
+        try:
+            value = single(number) if type_.kind == "num" else number
+        except OverflowError as error:
+            raise NotALiteral from error
+        if math.isfinite(value):
+            return value
+    raise NotALiteral

@@ -1,0 +1,398 @@
+"""RAPID values as Python objects: types, records, arrays, references, shared cells.
+
+num and dnum are float, or int when known whole; bool and string are Python's; a record is an
+instance of a slotted class made once per record type; an array is a dict from 1. Variables of
+record and array type keep one object for life: assignment writes into it, so passing the
+object is passing by reference.
+"""
+
+import struct
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from keyword import iskeyword
+from typing import Any, Literal, TypeAlias
+
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.runtime.errors import RapidError
+
+Kind: TypeAlias = Literal["num", "dnum", "bool", "string", "record", "nonvalue", "semivalue"]
+STRING_LIMIT = 80
+"""Characters of a string [K §2.13]."""
+_EXACT = 1 << 24
+_single = struct.Struct("<f")
+
+
+def single(value: float) -> float:
+    """`value` as a num: rounded to IEEE single, ties to even. Whole numbers become int.
+
+    OverflowError when it does not fit (ERR_NUM_LIMIT in RAPID).
+    """
+    if value.__class__ is int and -_EXACT <= value <= _EXACT:
+        return value
+    rounded: float = _single.unpack(_single.pack(value))[0]
+    if -_EXACT <= rounded <= _EXACT:
+        whole = int(rounded)
+        if whole == rounded:
+            return whole
+    return rounded
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Type:
+    """One RAPID type. Aliases are resolved: an `errnum` is a `num` (K §2.17)."""
+
+    name: str
+    """Lower case; of an alias its base."""
+    kind: Kind
+    components: tuple[tuple[str, "Type"], ...] = ()
+    """Of a record, names in lower case."""
+    make: Callable[[], Any] | None = None
+    """Makes a fresh datum with its initial value (record, nonvalue, semivalue)."""
+
+    def default(self) -> Any:  # noqa: ANN401 - a RAPID value of this type
+        """The value of an uninitialised datum [K §2.22]."""
+        if self.make is not None:
+            return self.make()
+        return {"num": 0, "dnum": 0, "bool": False, "string": ""}[self.kind]
+
+    def component(self, name: str) -> "Type | None":
+        """Type of a component, by lower-case name."""
+        for own, kind in self.components:
+            if own == name:
+                return kind
+        return None
+
+    @property
+    def is_value(self) -> bool:
+        """Whether it may be assigned and compared [K §2.16]."""
+        if self.kind == "record":
+            return all(t.is_value for _, t in self.components)
+        return self.kind not in ("nonvalue", "semivalue")
+
+
+class Record:
+    """Base of all record classes. Components are attributes, see `attribute`."""
+
+    __slots__ = ()
+    fields: tuple[str, ...] = ()
+    """Attribute names in order."""
+    rapid_type: Type
+
+    def copy(self) -> Any:  # noqa: ANN401 - the class itself; generated below
+        """A deep copy."""
+        raise NotImplementedError
+
+    def assign(self, other: Any) -> None:  # noqa: ANN401
+        """Take over every component of another instance, by value."""
+        raise NotImplementedError
+
+    def values(self) -> tuple[Any, ...]:
+        """Components in order."""
+        return tuple(getattr(self, name) for name in self.fields)
+
+    def __repr__(self) -> str:
+        inside = ", ".join(f"{n}={getattr(self, n)!r}" for n in self.fields)
+        return f"{type(self).__name__}({inside})"
+
+
+_TAKEN = frozenset({"fields", "rapid_type", "copy", "assign", "values"})
+
+
+def attribute(component: str) -> str:
+    """Python attribute of a record's component."""
+    name = component.lower()
+    return name + "_" if iskeyword(name) or name in _TAKEN else name
+
+
+NUM = Type("num", "num")
+DNUM = Type("dnum", "dnum")
+BOOL = Type("bool", "bool")
+STRING = Type("string", "string")
+
+
+def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Any]:
+    """A record class with the given components; its `Type` is the class attribute `rapid_type`.
+
+    Components may be given by position; those left out start at their default value.
+    """
+    fields = tuple(attribute(component) for component, _ in components)
+    kinds = [kind for _, kind in components]
+    inner = {f for f, t in zip(fields, kinds, strict=True) if t.kind == "record"}
+    start = [f"T[{i}].make()" if t.make else repr(t.default()) for i, t in enumerate(kinds)]
+    lines = [
+        "class cls(Record):",
+        f"    __slots__ = fields = {fields!r}",
+        "    __hash__ = None",
+        f"    def __init__(self, {', '.join(f'a{i}=None' for i in range(len(fields)))}):",
+        "        pass",
+        *(f"        self.{f} = {start[i]} if a{i} is None else a{i}" for i, f in enumerate(fields)),
+        "    def copy(self):",
+        "        n = new(cls)",
+        *(f"        n.{f} = self.{f}{'.copy()' if f in inner else ''}" for f in fields),
+        "        return n",
+        "    def assign(self, o):",
+        "        pass",
+        *(
+            f"        self.{f}.assign(o.{f})" if f in inner else f"        self.{f} = o.{f}"
+            for f in fields
+        ),
+        "    def __eq__(self, o):",
+        f"        return {' and '.join(f'self.{f} == o.{f}' for f in fields) or True}",
+        "    def __ne__(self, o):",
+        f"        return {' or '.join(f'self.{f} != o.{f}' for f in fields) or False}",
+    ]
+    scope: dict[str, Any] = {"Record": Record, "new": object.__new__, "T": kinds}
+    exec("\n".join(lines), scope)
+    cls: type[Any] = scope["cls"]
+    cls.__module__, cls.__name__, cls.__qualname__ = __name__, name, name
+    named = tuple((c.lower(), t) for (c, t) in components)
+    cls.rapid_type = Type(name.lower(), "record", named, cls)
+    return cls
+
+
+# -- predefined records, components in order -----------------------------------------------------
+
+
+def _predefine(name: str, components: str) -> type[Any]:
+    parts = [c.strip().split() for c in components.split(",")]
+    cls = make_record(name, [(c, TYPES[t]) for t, c in parts])
+    TYPES[name.lower()] = cls.rapid_type
+    return cls
+
+
+TYPES: dict[str, Type] = {"num": NUM, "dnum": DNUM, "bool": BOOL, "string": STRING}
+"""Predefined types by lower-case name. Aliases of num and others are in the signature data."""
+
+Pos = _predefine("Pos", "num x, num y, num z")
+Orient = _predefine("Orient", "num q1, num q2, num q3, num q4")
+Pose = _predefine("Pose", "pos trans, orient rot")
+ConfData = _predefine("ConfData", "num cf1, num cf4, num cf6, num cfx")
+RobJoint = _predefine(
+    "RobJoint", "num rax_1, num rax_2, num rax_3, num rax_4, num rax_5, num rax_6"
+)
+ExtJoint = _predefine(
+    "ExtJoint", "num eax_a, num eax_b, num eax_c, num eax_d, num eax_e, num eax_f"
+)
+JointTarget = _predefine("JointTarget", "robjoint robax, extjoint extax")
+RobTarget = _predefine("RobTarget", "pos trans, orient rot, confdata robconf, extjoint extax")
+SpeedData = _predefine("SpeedData", "num v_tcp, num v_ori, num v_leax, num v_reax")
+ZoneData = _predefine(
+    "ZoneData",
+    "bool finep, num pzone_tcp, num pzone_ori, num pzone_eax, num zone_ori, num zone_leax,"
+    "num zone_reax",
+)
+InposData = _predefine("InposData", "num position, num speed, num mintime, num maxtime")
+StopPointData = _predefine(
+    "StopPointData",
+    "num type, bool progsynch, inposdata inpos, num stoptime, num followtime, string signal,"
+    "num relation, num checkvalue",
+)
+LoadData = _predefine("LoadData", "num mass, pos cog, orient aom, num ix, num iy, num iz")
+ToolData = _predefine("ToolData", "bool robhold, pose tframe, loaddata tload")
+WobjData = _predefine(
+    "WobjData", "bool robhold, bool ufprog, string ufmec, pose uframe, pose oframe"
+)
+ProgDisp = _predefine("ProgDisp", "pose pdisp, extjoint eoffs")
+EgmMinMax = _predefine("Egm_MinMax", "num min, num max")
+Tasks = _predefine("Tasks", "string taskname")
+ListItem = _predefine("ListItem", "string image, string text")
+RmqHeader = _predefine("RmqHeader", "string datatype, num ndim, num dim1, num dim2, num dim3")
+
+
+def register_type(name: str, make: Callable[[], Any], kind: Kind = "nonvalue") -> Type:
+    """Declare the Python class behind an atomic type that is no value, e.g. `socketdev`."""
+    kept = Type(name.lower(), kind, (), make)
+    TYPES[name.lower()] = kept
+    return kept
+
+
+# -- arrays --------------------------------------------------------------------------------------
+
+
+def make_array(dims: Sequence[int], element: Callable[[], Any]) -> dict[int, Any]:
+    """An array of the given sizes, `{1: ..}`, nested for more dimensions."""
+    if len(dims) == 1:
+        return {i: element() for i in range(1, dims[0] + 1)}
+    return {i: make_array(dims[1:], element) for i in range(1, dims[0] + 1)}
+
+
+def dimensions(value: Any, degree: int = 3) -> tuple[int, ...]:  # noqa: ANN401
+    """Sizes of an array value; `()` for anything else."""
+    sizes = []
+    while value.__class__ is dict and degree:
+        sizes.append(len(value))
+        value, degree = value[1], degree - 1
+    return tuple(sizes)
+
+
+def copy_value(value: Any) -> Any:  # noqa: ANN401
+    """A copy by value: records and arrays deeply, atoms as they are."""
+    if value.__class__ is dict:
+        first = value[1]
+        if first.__class__ is dict or isinstance(first, Record):
+            return {i: copy_value(v) for i, v in value.items()}
+        return value.copy()
+    return value.copy() if isinstance(value, Record) else value
+
+
+def assign_array(target: dict[int, Any], value: dict[int, Any]) -> None:
+    """Write every element of `value` into `target`, which keeps its elements' identity."""
+    if target is value:
+        return
+    if len(target) != len(value):
+        raise RapidError("ERR_NOTEQDIM")
+    first = target[1]
+    if first.__class__ is dict:
+        for i, part in target.items():
+            assign_array(part, value[i])
+    elif isinstance(first, Record):
+        for i, record in target.items():
+            record.assign(value[i])
+    else:
+        target.update(value)
+
+
+# -- references and cells ------------------------------------------------------------------------
+
+
+class Cell(WaitSet):
+    """One PERS: its value and who watches it. `w` is the list of watchers."""
+
+    __slots__ = ("dims", "name", "type", "v")
+
+    def __init__(self, name: str, type: Type, dims: tuple[int, ...], value: Any) -> None:  # noqa: ANN401
+        super().__init__()
+        self.name = name
+        self.type = type
+        self.dims = dims
+        self.v = value
+
+    @property
+    def cell(self) -> "Cell":
+        """Itself: a cell stands wherever a built-in wants a `Ref`."""
+        return self
+
+    @property
+    def whole(self) -> bool:
+        """A cell is a whole PERS."""
+        return True
+
+    def get(self) -> Any:  # noqa: ANN401
+        """The current value itself, not a copy. As of any `Ref`."""
+        return self.v
+
+    def set(self, value: Any) -> None:  # noqa: ANN401
+        """Store a value (taken over by value) and wake IPers, WaitUntil and whoever waits."""
+        store(self, value)
+        if self.w:
+            self.notify()
+
+
+class SharedVariable(Cell):
+    """One VAR that all tasks have in common: of a shared module [K §14.2]. No persistent."""
+
+    __slots__ = ()
+
+    @property
+    def cell(self) -> None:  # type: ignore[override]
+        """What tells a PERS from a variable."""
+        return None
+
+
+class Ref:
+    """A datum that a built-in or a VAR parameter may read and write.
+
+    `v` reads and writes without rounding; `get()` and `set()` are for built-ins: `set` rounds
+    a num, copies records and arrays, limits a string and wakes the watchers of a PERS.
+    """
+
+    __slots__ = ("cell", "dims", "name", "type", "whole")
+    v: Any
+
+    def __init__(
+        self,
+        type: Type,
+        dims: tuple[int, ...] = (),
+        name: str = "",
+        *,
+        whole: bool = True,
+        cell: Cell | None = None,
+    ) -> None:
+        self.type = type
+        self.dims = dims
+        self.name = name
+        """Name of the whole datum at its origin, for ArgName."""
+        self.whole = whole
+        """False for an element or a component."""
+        self.cell = cell
+        """The cell when it is (part of) a PERS."""
+
+    def get(self) -> Any:  # noqa: ANN401
+        """The current value itself, not a copy."""
+        return self.v
+
+    def set(self, value: Any) -> None:  # noqa: ANN401
+        """Store a value."""
+        store(self, value)
+        if self.cell is not None and self.cell.w:
+            self.cell.notify()
+
+
+class Box(Ref):
+    """A Ref that holds its value: a routine's variable that is passed by reference."""
+
+    __slots__ = ("v",)
+
+    def __init__(self, value: Any, type: Type, dims: tuple[int, ...] = (), name: str = "") -> None:  # noqa: ANN401
+        super().__init__(type, dims, name)
+        self.v = value
+
+
+class View(Ref):
+    """A Ref to something inside a container: module data, an element or a component."""
+
+    __slots__ = ("_get", "_put")
+
+    def __init__(
+        self,
+        get: Callable[[], Any],
+        put: Callable[[Any], None],
+        type: Type,
+        dims: tuple[int, ...] = (),
+        name: str = "",
+        *,
+        whole: bool = True,
+        cell: Cell | None = None,
+    ) -> None:
+        super().__init__(type, dims, name, whole=whole, cell=cell)
+        self._get = get
+        self._put = put
+
+    @property
+    def v(self) -> Any:  # noqa: ANN401
+        """The value."""
+        return self._get()
+
+    @v.setter
+    def v(self, value: Any) -> None:  # noqa: ANN401
+        self._put(value)
+
+
+def store(target: "Ref | Cell", value: Any) -> None:  # noqa: ANN401
+    """Store by value what a built-in made: rounded, limited, copied."""
+    kind = target.type.kind
+    if target.dims:
+        if len(target.dims) > 1 or target.type.kind != "num":
+            assign_array(target.v, value)
+        else:
+            assign_array(target.v, {i: single(v) for i, v in value.items()})
+    elif kind == "num":
+        target.v = single(value)
+    elif kind == "string":
+        if len(value) > STRING_LIMIT:
+            raise RapidError("ERR_STRTOOLNG")
+        target.v = value
+    elif kind == "record":
+        target.v.assign(value)
+    else:
+        target.v = value

@@ -1,0 +1,1 @@
+"""RAPID and its clients in tests: pytest plugin, asyncio on the virtual clock."""

@@ -1,0 +1,1 @@
+"""What people look at, of a robot, a simulation or a recording."""

@@ -1,0 +1,1 @@
+"""The bytes between controller and client as data, no I/O."""

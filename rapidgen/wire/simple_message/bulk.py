@@ -1,0 +1,247 @@
+"""Trajectories to bytes by numpy: a million points a second. Import it where it is needed."""
+
+from collections.abc import Sequence as Rows
+from itertools import groupby
+from struct import Struct
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message.frames import ContentError
+from rapidgen.wire.simple_message.spec import (
+    CHECKSUM_MODULUS,
+    INDEX_WRAP,
+    PAIR_BASE,
+    PAIR_BITS,
+    PAIR_LIMIT,
+    PAIR_SCALE,
+    PAIR_ZERO,
+    Comm,
+    ReplyCode,
+    Sequence,
+    StreamFlag,
+    Wire,
+)
+
+Words = npt.NDArray[np.uint64]
+
+_TYPES = {Wire.INT32: "<i4", Wire.FLOAT32: "<f4"}
+FRAME_BYTES = spec.PREFIX_BYTES + spec.JOINT_TRAJ_PT.length
+
+
+def _frame_type() -> np.dtype[Any]:
+    head: list[Any] = [(name, "<i4") for name in ("length", "number", "comm", "reply")]
+    fields: list[Any] = [
+        (f.name, _TYPES[f.type], (f.count,)) if f.count > 1 else (f.name, _TYPES[f.type])
+        for f in spec.JOINT_TRAJ_PT.fields
+    ]
+    return np.dtype(head + fields)
+
+
+POINT_FRAME = _frame_type()
+"""One JOINT_TRAJ_PT frame as a structured numpy type, without gaps."""
+
+
+def encode_trajectory(
+    joints: npt.ArrayLike, durations: npt.ArrayLike, *, request_end: bool = True
+) -> bytes:
+    """All frames of a trajectory: the first -1, the last -3, 1, 2, 3, ... between.
+
+    `joints` is (n, k) controller axis values, rad or m, n >= 2, k <= 10; `durations` (n,) s.
+    With `request_end` the end frame is a request, which the driver answers; a topic otherwise.
+    """
+    positions = np.asarray(joints, dtype=np.float64)
+    count, axes = positions.shape
+    if count < 2 or axes > spec.MAX_JOINTS:
+        raise ValueError(f"{count} points of {axes} joints")
+    frames = np.zeros(count, dtype=POINT_FRAME)
+    frames["length"] = spec.JOINT_TRAJ_PT.length
+    frames["number"] = spec.JOINT_TRAJ_PT.number
+    frames["comm"] = Comm.TOPIC
+    frames["reply"] = ReplyCode.NONE
+    frames["sequence"] = np.arange(count)
+    frames["sequence"][0] = Sequence.START_DOWNLOAD
+    frames["sequence"][-1] = Sequence.END
+    frames["joints"][:, :axes] = positions
+    frames["duration"] = durations
+    if request_end:
+        frames["comm"][-1] = Comm.REQUEST
+    return frames.tobytes()
+
+
+def decode_points(data: bytes) -> npt.NDArray[Any]:
+    """Whole JOINT_TRAJ_PT frames as an array of POINT_FRAME: for sinks and recordings."""
+    return np.frombuffer(data, dtype=POINT_FRAME)
+
+
+_WORD = np.dtype("<u8")
+_HALF = np.uint64(PAIR_BITS)
+_LOW = np.uint64(PAIR_BASE - 1)
+_UPPER = np.uint64(32)
+_MODULUS = np.uint64(CHECKSUM_MODULUS)
+_SQUARE = PAIR_BASE**2
+_POINTS_HEAD = Struct("<8i")
+_CHECKSUM = Struct("<Q")
+_POINTS = spec.POINTS.number
+_REQUEST, _TOPIC, _NONE = int(Comm.REQUEST), int(Comm.TOPIC), int(ReplyCode.NONE)
+_HEAD = (spec.PREFIX_BYTES + spec.HEADER_BYTES) // _WORD.itemsize
+"""Words before the data."""
+_PAIRS = _HEAD + 2
+"""Words before the pairs: stream and flags, first and points enter the checksum too."""
+# 2^k modulo the checksum's modulus, for every place that a word of a message can have.
+_POWERS = np.array(
+    [pow(2, k, CHECKSUM_MODULUS) for k in reversed(range(spec.MAX_MESSAGE_BYTES // 8))],
+    dtype=np.uint64,
+)
+_POWERS_HIGH, _POWERS_LOW = _POWERS >> _HALF, _POWERS & _LOW
+
+
+class Batch(NamedTuple):
+    """What one POINTS frame holds: `durations` (n,) s, `joints` (n, k) rad or m."""
+
+    stream: int
+    flags: int
+    first: int
+    durations: npt.NDArray[np.float64]
+    joints: npt.NDArray[np.float64]
+
+
+def checksums(words: Words) -> list[int]:
+    """The checksum of each row of (n, m) words, m <= 128.
+
+    It is linear, the sum of word i * 2^(m-1-i), and so three sums of products of 26-bit halves.
+    None of them reaches 2^60: everything is exact in 64 bits.
+    """
+    reduced = words % _MODULUS
+    high, low = reduced >> _HALF, reduced & _LOW
+    width = words.shape[1]
+    powers_high, powers_low = _POWERS_HIGH[-width:], _POWERS_LOW[-width:]
+    top = (high @ powers_high).tolist()
+    middle = (high @ powers_low + low @ powers_high).tolist()
+    bottom = (low @ powers_low).tolist()
+    return [
+        (t * _SQUARE + m * PAIR_BASE + b) % CHECKSUM_MODULUS
+        for t, m, b in zip(top, middle, bottom, strict=True)
+    ]
+
+
+def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
+    """(n, pairs) words of n points: `durations` (n,) s, `joints` (n, k) rad or m, k <= 10.
+
+    Raises ContentError for what a pair cannot hold.
+    """
+    values = np.asarray(joints, dtype=np.float64)
+    count, axes = values.shape
+    if not 1 <= axes <= spec.MAX_JOINTS:
+        raise ValueError(f"points of {axes} joints")
+    numbers = np.zeros((count, 2 * spec.point_pairs(axes)))
+    numbers[:, 0] = durations
+    numbers[:, 1 : 1 + axes] = values
+    # Written so that NaN does not pass.
+    if not np.all(np.abs(numbers) <= PAIR_LIMIT):
+        raise ContentError(f"values beyond {PAIR_LIMIT}, or none at all")
+    steps = (np.rint(numbers * PAIR_SCALE) + PAIR_ZERO).astype(_WORD)
+    words: Words = steps[:, ::2] << _HALF | steps[:, 1::2]
+    return words
+
+
+def points_frame(
+    stream: int, first: int, words: Words, *, flags: int = 0, request: bool = True
+) -> bytes:
+    """Points `first`, `first` + 1, ... of a stream, packed, as one POINTS frame."""
+    return _sealed([_unsealed(stream, first, words, flags, request)])[0]
+
+
+def encode_points(
+    stream: int,
+    first: int,
+    durations: npt.ArrayLike,
+    joints: npt.ArrayLike,
+    *,
+    flags: int = 0,
+    batch: int | None = None,
+    request: bool = True,
+) -> list[bytes]:
+    """Points `first`, `first` + 1, ... of a stream as POINTS frames; a frame also for no point.
+
+    As `pack_points`; `batch` is how many points a frame takes, by default as many as fit. BEGIN
+    goes to the first frame, END and FLUSH to the last.
+    """
+    words = pack_points(durations, joints)
+    size = spec.batch_points(2 * words.shape[1] - 1) if batch is None else batch
+    starts = range(0, len(words), size) if len(words) else range(1)
+    every = [0] * len(starts)
+    every[0] |= flags & StreamFlag.BEGIN
+    every[-1] |= flags & ~StreamFlag.BEGIN
+    return _sealed(
+        [
+            _unsealed(stream, first + at, words[at : at + size], own, request)
+            for at, own in zip(starts, every, strict=True)
+        ]
+    )
+
+
+def _unsealed(stream: int, first: int, words: Words, flags: int, request: bool) -> bytes:
+    """A POINTS frame without its checksum."""
+    length = spec.POINTS.length + words.nbytes
+    if length > spec.MAX_LENGTH:
+        raise ValueError(f"{len(words)} points do not fit in one message")
+    comm = _REQUEST if request else _TOPIC
+    head = _POINTS_HEAD.pack(
+        length, _POINTS, comm, _NONE, stream, flags, first % INDEX_WRAP, len(words)
+    )
+    return head + words.tobytes()
+
+
+def _sealed(frames: Rows[bytes]) -> list[bytes]:
+    """Frames with their checksums; only the last one may be of another length."""
+    found = []
+    for same in (frames[:-1], frames[-1:]):
+        if same:
+            words = np.frombuffer(b"".join(same), dtype=_WORD).reshape(len(same), -1)
+            pairs = zip(same, checksums(words[:, _HEAD:]), strict=True)
+            found += [frame + _CHECKSUM.pack(checksum) for frame, checksum in pairs]
+    return found
+
+
+def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
+    """POINTS frames of a robot with `axes` joints, one or many, each whole.
+
+    Raises ContentError for one that a driver would refuse as a whole: another type or length, a
+    wrong checksum, a word that is no pair, padding that is not zero.
+    """
+    found: list[Batch] = []
+    for length, same in groupby(data, len):
+        block = list(same)
+        if length < _WORD.itemsize * (_PAIRS + 1) or length % _WORD.itemsize:
+            raise ContentError(f"a frame of {length} bytes is no POINTS")
+        frames = np.frombuffer(b"".join(block), dtype=_WORD).reshape(len(block), -1)
+        found += _batches(frames, axes)
+    return found
+
+
+def _batches(frames: Words, axes: int) -> list[Batch]:
+    pairs = spec.point_pairs(axes)
+    count, rest = divmod(frames.shape[1] - _PAIRS - 1, pairs)
+    length = spec.points_length(count, axes)
+    if rest or np.any(frames[:, 0] != (length | spec.POINTS.number << 32)):
+        raise ContentError(f"no POINTS of {axes} joints")
+    if np.any(frames[:, _HEAD + 1] >> _UPPER != count):
+        raise ContentError("the count does not fit the length")
+    if frames[:, -1].tolist() != checksums(frames[:, _HEAD:-1]):
+        raise ContentError("the checksum is wrong")
+    words = frames[:, _PAIRS:-1]
+    if np.any(words >> np.uint64(2 * PAIR_BITS)):
+        raise ContentError("a word is no pair")
+    steps = np.stack([words >> _HALF, words & _LOW], axis=-1).astype(np.int64) - PAIR_ZERO
+    steps = steps.reshape(len(frames), count, 2 * pairs)
+    if np.any(steps[:, :, 1 + axes :]):
+        raise ContentError("a joint that the robot does not have is not zero")
+    numbers = steps / PAIR_SCALE
+    heads = frames[:, _HEAD : _HEAD + 2].copy().view("<i4").tolist()
+    return [
+        Batch(stream, flags, first, points[:, 0], points[:, 1 : 1 + axes])
+        for (stream, flags, first, _), points in zip(heads, numbers, strict=True)
+    ]

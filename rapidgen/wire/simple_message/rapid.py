@@ -1,0 +1,49 @@
+"""The wire's numbers as RAPID constants: what the templates of the modules declare."""
+
+from dataclasses import dataclass
+
+from rapidgen.wire.simple_message import spec
+
+
+@dataclass(frozen=True, slots=True)
+class RapidConstant:
+    """`CONST <type> <name> := <value>;` with what it means."""
+
+    name: str
+    value: int
+    text: str
+    type: str = "num"
+    """dnum for what enters the arithmetic of 64-bit words."""
+
+
+def rapid_constants() -> tuple[RapidConstant, ...]:
+    """Every number of the wire under the name that the generated modules use (`ROS_...`)."""
+    found = [
+        RapidConstant("ROS_HEADER_BYTES", spec.HEADER_BYTES, "bytes of a header"),
+        RapidConstant("ROS_MAX_LENGTH", spec.MAX_LENGTH, "largest length field"),
+        RapidConstant("ROS_MAX_JOINTS", spec.MAX_JOINTS, "joints of a message"),
+        RapidConstant("ROS_PROTOCOL", spec.PROTOCOL_VERSION, "version of messages from 1300 on"),
+        RapidConstant("ROS_INDEX_WRAP", spec.INDEX_WRAP, "points of a stream count modulo this"),
+        RapidConstant("ROS_PAIR_BASE", spec.PAIR_BASE, "first number of a pair x this", "dnum"),
+        RapidConstant("ROS_PAIR_ZERO", spec.PAIR_ZERO, "stands for 0 in a pair", "dnum"),
+        RapidConstant("ROS_PAIR_SCALE", spec.PAIR_SCALE, "steps of a pair in 1", "dnum"),
+        RapidConstant("ROS_CHECKSUM_MODULUS", spec.CHECKSUM_MODULUS, "of a checksum", "dnum"),
+    ]
+    for message in spec.MESSAGES:
+        name = message.name
+        found.append(RapidConstant(f"ROS_MSG_{name}", message.number, "message type"))
+        found.append(RapidConstant(f"ROS_LEN_{name}", message.length, "its length field"))
+    found += [RapidConstant(f"ROS_COMM_{c.name}", c, "comm_type") for c in spec.Comm]
+    found += [RapidConstant(f"ROS_REPLY_{r.name}", r, "reply_code") for r in spec.ReplyCode]
+    found += [RapidConstant(f"ROS_SEQ_{s.name}", s, "special sequence") for s in spec.Sequence]
+    found += [RapidConstant(f"ROS_TRI_{t.name}", t, "tri-state") for t in spec.TriState]
+    found += [RapidConstant(f"ROS_MODE_{m.name}", m, "operating mode") for m in spec.Mode]
+    found += [RapidConstant(f"ROS_VALID_{v.name}", v, "bit of valid_fields") for v in spec.Valid]
+    found += [RapidConstant(f"ROS_FEATURE_{f.name}", f, "bit in HELLO") for f in spec.Feature]
+    found += [
+        RapidConstant(f"ROS_TRAJ_{s.name}", s, "trajectory state") for s in spec.TrajectoryState
+    ]
+    found += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
+    found += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
+    found += [RapidConstant(f"ROS_REASON_{r.name}", r, spec.REASON_TEXTS[r]) for r in spec.Reason]
+    return tuple(RapidConstant(c.name, int(c.value), c.text, c.type) for c in found)

@@ -1,0 +1,344 @@
+"""The controller from outside: stops, modes, faults, values, real time."""
+
+import threading
+
+import pytest
+
+from rapidgen.controller import Deadlock, VirtualController
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system.model import EventRoutine, ModuleFile, System, TaskSpec
+from tests.runtime.booting import boot, system
+
+COUNT = """
+  PERS num n := 0;
+  VAR num v := 7;
+  CONST num C := 3;
+  VAR pos p := [1,2,3];
+  PROC main()
+    WHILE TRUE DO
+      n := n + 1;
+      WaitTime 0.1;
+    ENDWHILE
+  ENDPROC
+"""
+
+
+WAITING = """
+  PROC main()
+    WaitTime 0.1;
+  ENDPROC
+"""
+
+
+def codes(controller: VirtualController) -> list[int]:
+    return [event.code for event in controller.log]
+
+
+def test_values_by_name() -> None:
+    controller, _ = boot(COUNT)
+    with controller:
+        task = controller.task("T1")
+        assert (task["m:n"], task["M:V"], task["c"], task["p"].y) == (0, 7, 3, 2)
+        task["m:v"] = 0.1
+        assert task["v"] == pytest.approx(0.1, abs=1e-8)
+        assert task["v"] != 0.1  # stored as IEEE single
+        with pytest.raises(KeyError):
+            task["c"] = 4
+        for name in ("m:nothing", "x:n", "nothing"):
+            with pytest.raises(KeyError):
+                task[name]
+
+
+def test_setting_a_pers_from_outside_wakes_the_program() -> None:
+    controller, printed = boot(
+        """
+  PERS bool go := FALSE;
+  PROC main()
+    WaitTestAndSet go;
+    WaitTestAndSet go;
+    TPWrite "went";
+  ENDPROC
+""",
+        cycle="once",
+    )
+    with controller:
+        controller.start_program()
+        with pytest.raises(Deadlock, match=r"T1\.mod:6"):
+            controller.run_until(lambda: bool(printed))
+        controller.task("T1")["go"] = False
+        assert controller.run_until(lambda: bool(printed), timeout=1)
+
+
+def test_stop_and_start_go_on_where_it_was() -> None:
+    controller, _ = boot(COUNT)
+    with controller:
+        controller.start_program()
+        controller.run_for(1.0)
+        controller.stop_program()
+        controller.run_for(0.01)
+        n = controller.task("T1")["n"]
+        assert controller.task("T1").state == "stopped"
+        controller.run_for(5)
+        assert controller.task("T1")["n"] == n
+        controller.start_program()
+        controller.run_for(1.05)
+        assert controller.task("T1")["n"] == n + 10
+
+
+def test_a_stopped_wait_counts_from_its_beginning_again() -> None:
+    """[S4 overview 5-23]"""
+    controller, printed = boot('PROC main()\n WaitTime 2;\n TPWrite "done";\nENDPROC', cycle="once")
+    with controller:
+        controller.start_program()
+        controller.run_for(1.5)
+        controller.stop_program()
+        controller.run_for(1)
+        controller.start_program()
+        controller.run_for(1.9)
+        assert printed == []
+        controller.run_for(0.2)
+        assert printed == ["done"]
+
+
+def test_pp_to_main_initialises_variables_and_runs_undo() -> None:
+    """[S4 overview 4-24]"""
+    controller, printed = boot(
+        """
+  VAR num v := 1;
+  PERS num p := 1;
+  PROC main()
+    v := v + 1;
+    p := p + 1;
+    TPWrite ValToStr(v) + ValToStr(p);
+    inner;
+  ENDPROC
+  PROC inner()
+    WaitTime 100;
+  UNDO
+    TPWrite "undo";
+  ENDPROC
+"""
+    )
+    with controller:
+        controller.start_program()
+        controller.run_for(1)
+        controller.stop_program()
+        controller.pp_to_main()
+        controller.run_for(0.1)
+        assert controller.task("T1").state == "ready"
+        controller.start_program()
+        controller.run_for(1)
+        assert printed == ["22", "undo", "23"]
+        assert 10_002 in codes(controller)
+
+
+def test_emergency_stop_needs_reset_and_motors_on() -> None:
+    controller, _ = boot(COUNT)
+    with controller:
+        controller.start_program()
+        controller.run_for(1)
+        controller.perform("e-stop")
+        controller.run_for(1)
+        n = controller.task("T1")["n"]
+        assert controller.task("T1").state == "stopped"
+        assert not controller.start_program()
+        controller.perform("reset-e-stop")
+        assert not controller.start_program()
+        controller.perform("motors-on")
+        assert controller.start_program()
+        controller.run_for(1)
+        assert controller.task("T1")["n"] > n
+        assert {10_013, 10_010, 10_011, 10_126} <= set(codes(controller))
+
+
+def test_background_tasks_go_on_during_a_stop() -> None:
+    controller, _ = boot(WAITING, COUNT, specs={"T2": {"type": "STATIC"}})
+    with controller:
+        controller.start_program()
+        controller.run_for(1)
+        controller.perform("e-stop")
+        controller.run_for(1)
+        assert controller.task("T1").state == "stopped"
+        assert controller.task("T2")["n"] >= 19
+
+
+FAULT = """
+  PROC main()
+    VAR num z;
+    WaitTime 1;
+    z := 1 / z;
+  ENDPROC
+"""
+
+
+@pytest.mark.parametrize(
+    ("trust", "normal", "startable"),
+    [
+        ("NoSafety", "running", True),
+        ("SysStop", "stopped", True),
+        ("SysHalt", "stopped", False),
+        ("SysFail", "stopped", False),
+    ],
+)
+def test_trust_levels(trust: str, normal: str, startable: bool) -> None:
+    """[S4 overview 4-45]"""
+    controller, _ = boot(COUNT, FAULT, specs={"T2": {"type": "SEMISTATIC", "trust": trust}})
+    with controller:
+        controller.start_program()
+        controller.run_for(2)
+        assert controller.task("T2").state == "error"
+        assert controller.task("T1").state == normal
+        assert controller.start_program() == startable
+        assert 40_199 in codes(controller)
+
+
+def test_a_fault_names_event_module_line_and_call_stack() -> None:
+    controller, _ = boot(
+        """
+  PROC main()
+    outer;
+  ENDPROC
+  PROC outer()
+    inner 0;
+  ENDPROC
+  PROC inner(num z)
+    z := 1 / z;
+  ENDPROC
+"""
+    )
+    with controller:
+        controller.start_program()
+        controller.run_for(0.1)
+        fault = controller.task("T1").fault
+        assert fault is not None
+        assert [(p.routine, p.span.line) for p in fault.stack] == [
+            ("main", 4),
+            ("outer", 7),
+            ("inner", 10),
+        ]
+        event = next(e for e in controller.log if e.code == 40_199)
+        assert event.task == "T1"
+        assert "m/inner/10" in event.texts[0]
+
+
+def test_a_generated_module_points_to_its_template() -> None:
+    text = b"MODULE m\nPROC main()\n VAR num z;\n z := 1 / z;\nENDPROC\nENDMODULE\n"
+    file = ModuleFile("m", "m.mod", text, origin=((1, "a.j2", 10), (4, "b.j2", 3)))
+    with VirtualController(System("s", (TaskSpec("T1", modules=(file,)),))) as controller:
+        controller.run_for(0.1)
+        assert controller.task("T1").fault.stack[-1].origin == ("b.j2", 3)
+
+
+def test_event_routines() -> None:
+    base = system(
+        {
+            "T1": """
+  PROC power()
+    TPWrite "power " + ValToStr(EventType());
+  ENDPROC
+  PROC started()
+    TPWrite "start " + ValToStr(EventType()) + ValToStr(ExecLevel());
+  ENDPROC
+  PROC again()
+    TPWrite "restart";
+  ENDPROC
+  PROC main()
+    TPWrite "main " + ValToStr(EventType()) + ValToStr(ExecLevel());
+    WaitTime 1;
+    Stop;
+    TPWrite "end";
+    EXIT;
+  ENDPROC
+"""
+        }
+    )
+    events = tuple(
+        EventRoutine(routine, event, "T1")
+        for routine, event in (("power", "POWER_ON"), ("started", "START"), ("again", "RESTART"))
+    )
+    printed: list[str] = []
+    with VirtualController(System("s", base.tasks, events=events), autostart=False) as controller:
+        controller.operator.subscribe(lambda _, text: printed.append(text))
+        controller.start_program()
+        controller.run_for(5)
+        assert controller.task("T1").state == "stopped"
+        controller.start_program()
+        controller.run_for(5)
+    assert printed == ["power 1", "start 22", "main 00", "restart", "end"]
+
+
+def test_an_endless_loop_and_a_deadlocked_task_do_not_hold_up_the_others() -> None:
+    controller, _ = boot(
+        COUNT,
+        "PROC main()\n WHILE TRUE DO\n ENDWHILE\nENDPROC",
+        "PERS bool b := TRUE;\nPROC main()\n WaitTestAndSet b;\nENDPROC",
+    )
+    with controller:
+        controller.start_program()
+        controller.run_for(3)
+        assert controller.task("T1")["n"] >= 28
+        assert [t.state for t in controller.tasks.values()] == ["running"] * 3
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("MODULE m\nPROC main(\nENDMODULE", "RG201"),
+        ("MODULE m\nPROC start()\nENDPROC\nENDMODULE", "RG402"),
+        ("MODULE m\nVAR nosuch x;\nPROC main()\nENDPROC\nENDMODULE", "RG401"),
+        ("MODULE m\nVAR num x{2} := [1,2,3];\nPROC main()\nENDPROC\nENDMODULE", "RG401"),
+        (
+            "MODULE m\nCONST num a := b;\nCONST num b := a;\nPROC main()\nENDPROC\nENDMODULE",
+            "RG401",
+        ),
+    ],
+)
+def test_what_cannot_be_loaded_is_said(text: str, code: str) -> None:
+    file = ModuleFile("m", "m.mod", text.encode())
+    with pytest.raises(DiagnosticError) as caught:
+        VirtualController(System("s", (TaskSpec("T1", modules=(file,)),)))
+    assert code in {d.code for d in caught.value.diagnostics}
+
+
+def test_missing_routines_are_said_at_load_and_stop_when_reached() -> None:
+    controller, printed = boot(
+        'VAR egmident e;\nPROC main()\n TPWrite "x";\n EGMReset e;\n nobody;\nENDPROC'
+    )
+    with controller:
+        assert {d.code for d in controller.diagnostics} == {"RG403", "RG404"}
+        controller.start_program()
+        controller.run_for(1)
+        assert printed == ["x"]
+        assert controller.task("T1").fault.event == 40_001
+
+
+def test_two_tasks_may_not_share_a_pers_of_two_types() -> None:
+    """[S4 overview 4-44]"""
+    with pytest.raises(DiagnosticError, match="another type"):
+        boot(
+            "PERS num n := 0;\nPROC main()\nENDPROC", "PERS bool n := FALSE;\nPROC main()\nENDPROC"
+        )
+
+
+def test_the_first_declaration_with_a_value_counts() -> None:
+    """[K §14.4]"""
+    body = "\nPROC main()\nENDPROC"
+    controller, _ = boot(f"PERS num n;{body}", f"PERS num n := 5;{body}", f"PERS num n := 6;{body}")
+    with controller:
+        assert [t["n"] for t in controller.tasks.values()] == [5, 5, 5]
+
+
+def test_real_time_in_a_thread() -> None:
+    controller, printed = boot(
+        'PROC main()\n TPWrite "tick";\n WaitTime 0.02;\nENDPROC', clock="real"
+    )
+    seen = threading.Event()
+    with controller:
+        controller.operator.subscribe(lambda *_: seen.set() if len(printed) > 3 else None)
+        controller.start_program()
+        controller.start()
+        assert seen.wait(10)
+        assert controller.call(lambda: controller.task("T1").state) == "running"
+        controller.stop()
+        count = len(printed)
+    assert len(printed) == count

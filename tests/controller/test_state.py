@@ -1,0 +1,290 @@
+"""I/O, faults, files, sockets and the control commands on a whole controller."""
+
+import pytest
+
+from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.faults import ControllerRule, FaultPlan, NetworkRule
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.faces.control_commands import commands, subscribe
+from rapidgen.faces.control_socket import CommandError
+from rapidgen.system.model import (
+    ModuleFile,
+    SignalSpec,
+    System,
+    SystemInput,
+    SystemOutput,
+    TaskSpec,
+)
+
+LOOP = """MODULE work
+    VAR num passes := 0;
+    VAR socketdev server;
+    VAR iodev file;
+    PERS num speed := 10;
+    PERS pos where := [1, 2, 3];
+    CONST num fixed := 4;
+    PROC main()
+        VAR num answer;
+        SocketCreate server;
+        SocketBind server, "127.0.0.1", 5000;
+        SocketListen server;
+        Open "HOME:/log", file \\Write;
+        WHILE TRUE DO
+            WaitTime 0.1;
+            Incr passes;
+            IF passes = 1000 TPReadNum answer, "go on?";
+        ENDWHILE
+    ENDPROC
+ENDMODULE
+"""
+SIGNALS = (
+    *(SignalSpec(name, "DO") for name in ("doMotors", "doStop", "doRuns", "doError")),
+    SignalSpec("diStart", "DI"),
+    SignalSpec("diStop", "DI"),
+)
+
+
+def make(text=LOOP, **options):
+    modules = (ModuleFile("work", "work.mod", text.encode()),)
+    system = System(
+        "cell",
+        (TaskSpec("T_ROB1", modules=modules),),
+        signals=SIGNALS,
+        outputs=(
+            SystemOutput("MotorOn", "doMotors"),
+            SystemOutput("EmStop", "doStop"),
+            SystemOutput("TaskExecuting", "doRuns", "T_ROB1"),
+            SystemOutput("ExecError", "doError"),
+        ),
+        inputs=(SystemInput("Start", "diStart"), SystemInput("Stop", "diStop")),
+    )
+    return VirtualController(system, **options)
+
+
+@pytest.fixture
+def cell():
+    with make() as controller:
+        controller.run_for(1)
+        yield controller
+
+
+def outputs(controller):
+    return [int(controller.signals[n]) for n in ("doMotors", "doStop", "doRuns", "doError")]
+
+
+def test_system_outputs_follow_the_controller(cell):
+    assert outputs(cell) == [1, 0, 1, 0]
+    cell.set_e_stop(True)
+    assert outputs(cell) == [0, 1, 0, 0]
+    cell.set_e_stop(False)
+    cell.set_motors(True)
+    cell.start_program()
+    assert outputs(cell) == [1, 0, 1, 0]
+
+
+def test_an_error_is_shown():
+    with make("MODULE work\nPROC main()\nVAR num x;\nx := 1 / x;\nENDPROC\nENDMODULE") as c:
+        c.run_for(1)
+        assert outputs(c)[2:] == [0, 1]
+
+
+def test_system_inputs_stop_and_start(cell):
+    cell.signals["diStop"] = 1
+    passes = cell.task("T_ROB1")["work:passes"]
+    cell.run_for(1)
+    assert cell.task("T_ROB1")["work:passes"] == passes
+    cell.signals["diStart"] = 1
+    cell.run_for(1)
+    assert cell.task("T_ROB1")["work:passes"] > passes
+
+
+def test_pp_to_main_closes_sockets_and_files(cell):
+    """Sockets and files do not outlive PP to main [S4 overview 4-24]; so main can run again."""
+    assert 5000 in cell.network.listeners
+    cell.pp_to_main()
+    cell.run_for(0.1)
+    cell.start_program()
+    cell.run_for(1)
+    assert cell.task("T_ROB1").state == "running"
+    assert 5000 in cell.network.listeners
+
+
+def test_dynamic_modules_go_at_pp_to_main(cell):
+    """[S4 Load]: \\Dynamic modules vanish, static ones stay."""
+    text = """MODULE work
+        VAR num there := 0;
+        PROC main()
+            IF ModExist("static") there := there + 1;
+            IF ModExist("dynamic") there := there + 10;
+            IF there = 0 THEN
+                Load "HOME:/static.mod";
+                Load \\Dynamic, "HOME:/dynamic.mod";
+            ENDIF
+            WaitTime 100;
+        ENDPROC
+    ENDMODULE"""
+    with make(text.replace("\\\\", "\\"), autostart=False) as c:
+        for name in ("static", "dynamic"):
+            (c.files.folder / "HOME" / f"{name}.mod").write_text(f"MODULE {name}\nENDMODULE\n")
+        c.start_program()
+        c.run_for(1)
+        assert c.task("T_ROB1")["work:there"] == 0
+        c.pp_to_main()
+        c.run_for(0.1)
+        c.start_program()
+        c.run_for(1)
+        assert c.task("T_ROB1")["work:there"] == 1
+
+
+def test_a_plan_acts_at_its_time_and_at_its_statement():
+    plan = FaultPlan(
+        controller=(
+            ControllerRule("stop", task="T_ROB1", module="work", line=16, pass_=5),
+            ControllerRule("e-stop", at=3.0),
+        )
+    )
+    with make(faults=plan) as c:
+        c.run_for(2)
+        assert c.task("T_ROB1")["work:passes"] == 4
+        assert c.task("T_ROB1").state == "stopped"
+        assert not c.e_stop
+        c.run_for(2)
+        assert c.e_stop
+
+
+def test_a_plan_reaches_the_network():
+    with make(faults=FaultPlan(network=(NetworkRule("reset", direction="in", after=2),))) as c:
+        c.run_for(0.1)
+        assert type(c.network).__name__ == "FaultyNetwork"
+        assert 5000 in c.network.listeners
+
+
+def test_power_loss_closes_sockets_and_sets_outputs_back(cell):
+    cell.perform("power-loss")
+    assert 5000 not in cell.network.listeners
+    assert outputs(cell)[0] == 0
+
+
+# -- control commands -----------------------------------------------------------------------
+
+
+@pytest.fixture
+def do(cell):
+    """Carries out one request."""
+    known = commands(cell)
+    return lambda action, **request: known[action]({"do": action, **request})
+
+
+def test_status(do, cell):
+    status = do("status")
+    assert status["tasks"] == {"T_ROB1": "running"}
+    assert status["listeners"] == {"5000": 5000}
+    assert status["time"] == cell.now
+    assert "work.mod:" in do("where")[0]
+
+
+def test_variables_as_rapid_text(do, cell):
+    assert do("get", task="t_rob1", name="work:where") == "[1,2,3]"
+    do("set", task="T_ROB1", name="work:where", value="[4, 5, 6]")
+    assert do("get", task="T_ROB1", name="where") == "[4,5,6]"
+    do("set", task="T_ROB1", name="work:passes", value="500")
+    cell.run_for(0.15)
+    assert cell.task("T_ROB1")["work:passes"] >= 501
+
+
+@pytest.mark.parametrize(
+    ("request_", "words"),
+    [
+        ({"do": "get", "task": "T_NONE", "name": "x"}, "no task"),
+        ({"do": "get", "task": "T_ROB1", "name": "nothing"}, "no data"),
+        ({"do": "get", "task": "T_ROB1"}, "'name' is missing"),
+        ({"do": "set", "task": "T_ROB1", "name": "fixed", "value": "1"}, "can be set"),
+        ({"do": "set", "task": "T_ROB1", "name": "where", "value": "[1]"}, "no literal"),
+        ({"do": "set", "task": "T_ROB1", "name": "server", "value": "1"}, "no value type"),
+        ({"do": "set-signal", "name": "none", "value": 1}, "no signal"),
+        ({"do": "set-signal", "name": "diStart", "value": 2}, "does not fit"),
+        ({"do": "set-signal", "name": "diStart", "value": True}, "no number"),
+        ({"do": "override", "value": 101}, "0 to 100"),
+        ({"do": "override", "value": -1}, "0 to 100"),
+        ({"do": "override", "value": 50, "group": "rob9"}, "no group"),
+        ({"do": "mode", "value": "sleepy"}, "one of auto"),
+        ({"do": "log", "since": "x"}, "sequence number"),
+        ({"do": "answer", "number": 9, "value": "1"}, "no such question"),
+    ],
+)
+def test_requests_that_cannot_be_carried_out(cell, request_, words):
+    with pytest.raises(CommandError, match=words):
+        commands(cell)[request_["do"]](request_)
+
+
+def test_signals_and_log(do, cell):
+    assert do("signals")["doRuns"] == 1
+    do("set-signal", name="diStop", value=1)
+    assert do("status")["tasks"]["T_ROB1"] == "stopped"
+    last = do("log")[-1]["sequence"]
+    do("motors-off")
+    assert do("log", since=last)[0]["code"] == 10_010
+
+
+def test_subscribers_get_events_and_can_answer_dialogs(do, cell):
+    seen = []
+    end = subscribe(cell, seen.append)
+    do("set", task="T_ROB1", name="work:passes", value="998")
+    cell.run_for(1)
+    (question,) = [e for e in seen if e["event"] == "question"]
+    assert (question["dialog"], question["text"]) == ("TPReadNum", "go on?")
+    assert do("questions")[0]["number"] == question["number"]
+    with pytest.raises(CommandError):
+        do("answer", number=question["number"], value="perhaps")
+    do("answer", number=question["number"], value="1")
+    cell.run_for(1)
+    assert cell.task("T_ROB1")["work:passes"] > 1000
+    do("motors-off")
+    assert any(e["event"] == "log" and e["code"] == 10_010 for e in seen)
+    end()
+    count = len(seen)
+    do("motors-on")
+    assert len(seen) == count
+    assert "go on?" in do("screen")
+
+
+# -- bad programs ---------------------------------------------------------------------------
+
+
+def test_a_program_that_leaks_sockets_is_told(cell):
+    text = """MODULE work
+        VAR socketdev s{40};
+        VAR num made := 0;
+        PROC main()
+            FOR i FROM 1 TO 40 DO
+                SocketCreate s{i};
+                made := i;
+            ENDFOR
+        ERROR
+            IF ERRNO = ERR_SOCK_UNSPEC Stop;
+        ENDPROC
+    ENDMODULE"""
+    with make(text) as c:
+        c.run_for(1)
+        assert c.task("T_ROB1")["work:made"] == 32
+
+
+def test_the_same_seed_gives_the_same_run():
+    def trace():
+        with make() as c:
+            seen = []
+            c.log.subscribe(lambda event: seen.append(str(event)))
+            c.run_for(5)
+            c.perform("power-loss")
+            return c.scheduler.now, c.scheduler.switches, seen, c.task("T_ROB1")["work:passes"]
+
+    assert trace() == trace()
+
+
+def test_a_record_without_components_is_a_finding(tmp_path):
+    """Found with Modula text in a .mod file: it was an internal fault."""
+    path = tmp_path / "modula.mod"
+    path.write_text("MODULE m\nRECORD r\nENDRECORD\nPROC main()\nENDPROC\nENDMODULE\n")
+    with pytest.raises(DiagnosticError) as raised:
+        VirtualController.from_files([path])
+    assert raised.value.diagnostics[0].code == "RG201"

@@ -1,0 +1,141 @@
+"""The JSON control socket: answers, limits, and clients that misbehave."""
+
+import json
+import socket
+
+import pytest
+
+from rapidgen.faces.control_socket import MAX_CLIENTS, MAX_LINE, CommandError, ControlSocket
+from rapidgen.machine.scheduler import Scheduler
+
+
+@pytest.fixture
+def served():
+    """A scheduler and a control socket with two commands and an event source."""
+    scheduler = Scheduler(clock="real")
+    listeners = []
+
+    def subscribe(listener):
+        listeners.append(listener)
+        return lambda: listeners.remove(listener)
+
+    def fail(_request):
+        raise CommandError("cannot be done")
+
+    commands = {"echo": lambda request: request.get("value"), "fail": fail}
+    control = ControlSocket(scheduler, commands, subscribe)
+    yield scheduler, control, listeners
+    control.close()
+    scheduler.close()
+
+
+def client(control):
+    sock = socket.create_connection(control.address, timeout=5)
+    sock.setblocking(False)
+    return sock
+
+
+def until(scheduler, condition):
+    """Let the scheduler run until `condition()`, at most 5 s."""
+    scheduler.advance(until=scheduler.now + 5_000_000_000, stop=condition)
+    assert condition()
+
+
+def receive(scheduler, sock, lines=1):
+    data = bytearray()
+
+    def there():
+        try:
+            while part := sock.recv(65_536):
+                data.extend(part)
+        except BlockingIOError:
+            pass
+        return data.count(b"\n") >= lines
+
+    # The scheduler serves its sockets; ours is looked at between its turns.
+    for _ in range(5000):
+        if there():
+            return [json.loads(line) for line in data.splitlines()]
+        scheduler.advance(until=scheduler.now + 1_000_000)
+    raise AssertionError(f"only {bytes(data)!r} came")
+
+
+def ask(scheduler, sock, *requests):
+    sock.sendall(b"".join(json.dumps(r).encode() + b"\n" for r in requests))
+    return receive(scheduler, sock, len(requests))
+
+
+def test_requests_and_answers(served):
+    scheduler, control, _ = served
+    with client(control) as sock:
+        assert ask(
+            scheduler, sock, {"do": "echo", "value": [1, 2], "id": 7}, {"do": "fail", "id": "x"}
+        ) == [
+            {"id": 7, "ok": True, "result": [1, 2]},
+            {"id": "x", "ok": False, "error": "cannot be done"},
+        ]
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        (b"\xff\xfe garbage", "not JSON"),
+        (b"[1]", "object"),
+        (b"{}", "object"),
+        (b'{"do": 3}', "object"),
+        (b'{"do": "dance"}', "can do echo, fail, subscribe"),
+        (b"[" * 60_000, "not JSON"),
+    ],
+)
+def test_garbage_gets_an_answer_and_the_line_stays_open(served, line, words):
+    scheduler, control, _ = served
+    with client(control) as sock:
+        sock.sendall(line + b"\n")
+        (answer,) = receive(scheduler, sock)
+        assert answer["ok"] is False
+        assert words in answer["error"]
+        assert ask(scheduler, sock, {"do": "echo", "value": 1})[0]["ok"]
+
+
+def test_a_line_without_end_is_cut_off(served):
+    scheduler, control, _ = served
+    with client(control) as sock:
+        sock.setblocking(True)
+        sock.sendall(b"x" * (MAX_LINE + 10))
+        sock.setblocking(False)
+        (answer,) = receive(scheduler, sock)
+        assert "at most" in answer["error"]
+        until(scheduler, lambda: not control._clients)
+
+
+def test_events_flow_after_subscribe_and_end_with_the_client(served):
+    scheduler, control, listeners = served
+    with client(control) as sock:
+        ask(scheduler, sock, {"do": "subscribe"})
+        listeners[0]({"event": "log", "code": 10_011})
+        assert receive(scheduler, sock) == [{"event": "log", "code": 10_011}]
+    until(scheduler, lambda: not listeners)
+
+
+def test_a_client_that_does_not_read_is_dropped(served):
+    scheduler, control, listeners = served
+    with client(control) as sock:
+        ask(scheduler, sock, {"do": "subscribe"})
+        for _ in range(2000):
+            if not listeners:
+                break
+            listeners[0]({"event": "x", "text": "y" * 10_000})
+        assert not listeners
+
+
+def test_clients_beyond_the_limit_are_closed_and_the_others_served(served):
+    scheduler, control, _ = served
+    first, crowd = client(control), []
+    for _ in range(40):
+        crowd.append(client(control))
+        scheduler.advance(until=scheduler.now + 1_000_000)
+    assert ask(scheduler, first, {"do": "echo", "value": 1})[0]["ok"]
+    assert len(control._clients) == MAX_CLIENTS
+    for sock in (first, *crowd):
+        sock.close()
+    until(scheduler, lambda: not control._clients)

@@ -1,0 +1,154 @@
+"""The control socket: whatever comes, every line gets an answer and the controller goes on."""
+
+import contextlib
+import json
+import socket
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from rapidgen.faces.control_commands import commands, subscribe
+from rapidgen.faces.control_socket import ControlSocket
+from rapidgen.system.model import SignalSpec
+from tests.runtime.booting import boot
+
+PROGRAM = """
+  PERS num n := 1;
+  PERS pos p := [1,2,3];
+  VAR string s := "a";
+  VAR num list{3};
+  VAR socketdev sock;
+  CONST num C := 5;
+  PROC main()
+    WaitTime 0.01;
+  ENDPROC
+"""
+
+
+class Client:
+    """One connection: a line out, a line in."""
+
+    def __init__(self, port: int) -> None:
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=10)
+        self.file = self.socket.makefile("rb")
+
+    def send(self, line: bytes) -> dict:
+        self.socket.sendall(line.replace(b"\n", b" ") + b"\n")
+        return json.loads(self.file.readline())
+
+    def ask(self, do: str, **request: object) -> dict:
+        return self.send(json.dumps({"do": do, **request}).encode())
+
+    def close(self) -> None:
+        self.file.close()
+        self.socket.close()
+
+
+@pytest.fixture(scope="module")
+def client():
+    controller, _ = boot(PROGRAM, signals=(SignalSpec("di", "DI"),), clock="real")
+    with controller:
+        control = ControlSocket(
+            controller.scheduler, commands(controller), lambda tell: subscribe(controller, tell)
+        )
+        controller.start_program()
+        controller.start()
+        made = Client(control.address[1])
+        yield made
+        made.close()
+        controller.call(control.close)
+
+
+def test_values(client: Client) -> None:
+    assert client.ask("set", task="t1", name="m:n", value="2.5")["ok"]
+    assert client.ask("get", task="T1", name="m:n") == {"ok": True, "result": "2.5"}
+    assert client.ask("get", task="T1", name="p", id=7) == {
+        "id": 7,
+        "ok": True,
+        "result": "[1,2,3]",
+    }
+    for name in ("c", "sock", "nothing", "x:n"):
+        assert not client.ask("set", task="T1", name=name, value="1")["ok"]
+    assert not client.ask("get", task="T1", name="sock")["ok"]
+
+
+def test_step(client: Client) -> None:
+    assert not client.ask("step", task="T1")["ok"]  # it runs
+    assert not client.ask("step", task="nobody")["ok"]
+    client.ask("stop")
+    assert client.ask("step", task="T1")["ok"]
+    client.ask("start")
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        b"garbage",
+        b"\x00\xff\xfe",
+        b"[]",
+        b"{}",
+        b'{"do": 5}',
+        b'{"do": "nope"}',
+        b"[" * 60_000,
+        b'{"do": "status", "id": NaN}',
+        b'{"do": "status", "id": 1e999}',
+        b'{"do": "status", "id": [[]]}',
+        b'{"do": "set-signal", "name": "di", "value": 1e999}',
+        b'{"do": "set-signal", "name": "di", "value": -Infinity}',
+        b'{"do": "set-signal", "name": "di", "value": 1' + b"0" * 400 + b"}",
+        b'{"do": "set-signal", "name": "di", "value": 0.5}',
+        b'{"do": "override", "value": 1' + b"0" * 5000 + b"}",
+        b'{"do": "answer", "number": 1e999, "value": "x"}',
+        b'{"do": "get", "task": [], "name": {}}',
+        b'{"do": "set", "task": "T1", "name": "n", "value": "1E400"}',
+        b'{"do": "set", "task": "T1", "name": "list", "value": "[1,2]"}',
+    ],
+)
+def test_nonsense_is_refused_in_words(client: Client, line: bytes) -> None:
+    answer = client.send(line)
+    assert not answer["ok"]
+    assert answer["error"]
+    assert client.ask("where")["ok"]
+
+
+VALUES = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats()
+    | st.text()
+    | st.sampled_from(["T1", "m:n", "p", "s", "list", "sock", "di", "[1,2,3]", '"x"', "1E39"]),
+    lambda inner: st.lists(inner) | st.dictionaries(st.text(), inner),
+    max_leaves=5,
+)
+# What would stop the program for the other tests is left out.
+WORDS = sorted(
+    {"get", "set", "set-signal", "log", "answer", "override", "questions", "screen", "where"}
+    | {"status", "signals"}
+)
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
+@given(
+    st.sampled_from(WORDS) | st.text(),
+    st.dictionaries(
+        st.sampled_from(["task", "name", "value", "number", "since", "group", "id"]), VALUES
+    ),
+)
+def test_any_request_gets_an_answer(client: Client, do: str, request: dict) -> None:
+    if do in ("e-stop", "stop", "power-loss", "manual", "motors-off", "subscribe"):
+        return
+    answer = client.send(json.dumps({**request, "do": do}).encode())
+    assert answer["ok"] or answer["error"]
+
+
+def test_a_line_without_end_is_cut_off(client: Client) -> None:
+    port = client.socket.getpeername()[1]
+    other = Client(port)
+    other.socket.sendall(b"x" * 100_000)
+    assert not json.loads(other.file.readline())["ok"]
+    with contextlib.suppress(ConnectionResetError):  # what was never read makes it a reset
+        assert other.file.read() == b""
+    other.close()
+    assert client.ask("status")["ok"]

@@ -1,0 +1,143 @@
+"""Clock, events, processes."""
+
+import threading
+import time
+
+import pytest
+
+from rapidgen.machine.scheduler import MS, Process, Scheduler, WaitSet
+
+
+def test_events_come_in_order_of_time_then_of_making() -> None:
+    scheduler, seen = Scheduler(), []
+    scheduler.at(20, lambda: seen.append("c"))
+    scheduler.at(10, lambda: seen.append("a"))
+    scheduler.at(10, lambda: seen.append("b"))
+    gone = scheduler.at(15, lambda: seen.append("never"))
+    gone.cancel()
+    assert not gone.active
+    assert scheduler.advance() == "idle"
+    assert (seen, scheduler.now) == (["a", "b", "c"], 20)
+
+
+def test_events_see_their_own_time_while_a_process_computes() -> None:
+    scheduler, seen = Scheduler(), []
+    process = Process(scheduler, "p")
+    process.launch(lambda: [process.charge(3 * MS) for _ in range(5)])
+    scheduler.at(4 * MS, lambda: seen.append(scheduler.now))
+    scheduler.advance()
+    assert seen == [4 * MS]
+    assert scheduler.now == 15 * MS
+
+
+def test_an_event_made_by_a_running_process_shortens_its_budget() -> None:
+    scheduler, seen = Scheduler(), []
+    process = Process(scheduler, "p")
+
+    def body() -> None:
+        scheduler.after(MS, lambda: seen.append(scheduler.now))
+        process.charge(MS // 2)
+        assert not seen
+        process.charge(MS)
+        assert seen == [MS]
+
+    process.launch(body)
+    scheduler.advance()
+    assert scheduler.now == 3 * MS // 2
+
+
+def test_until_and_stop() -> None:
+    scheduler = Scheduler()
+    ticks: list[int] = []
+
+    def tick() -> None:
+        ticks.append(scheduler.now)
+        scheduler.after(10, tick)
+
+    scheduler.after(10, tick)
+    assert scheduler.advance(until=35) == "time"
+    assert (ticks, scheduler.now) == ([10, 20, 30], 35)
+    assert scheduler.advance(until=1000, stop=lambda: len(ticks) == 5) == "stop"
+    assert scheduler.now == 50
+
+
+def test_running_in_pieces_changes_nothing() -> None:
+    def order(pieces: int) -> list[str]:
+        scheduler, seen = Scheduler(), []
+        for name in "abc":
+            process = Process(scheduler, name)
+
+            def body(process: Process = process) -> None:
+                for _ in range(7):
+                    process.charge(MS)
+                    seen.append(f"{process.name}{scheduler.now}")
+
+            process.launch(body)
+        for i in range(1, pieces + 1):
+            scheduler.advance(until=21 * MS * i // pieces)
+        scheduler.advance()
+        return seen
+
+    assert order(1) == order(13) == order(100)
+
+
+def test_a_wait_set_wakes_in_order() -> None:
+    scheduler, seen, done = Scheduler(), [], WaitSet()
+    for name in "ab":
+        process = Process(scheduler, name)
+
+        def body(process: Process = process) -> None:
+            done.add(process.wake)
+            process.block()
+            done.remove(process.wake)
+            seen.append(process.name)
+
+        process.launch(body)
+    scheduler.after(5, done.notify)
+    scheduler.advance()
+    assert seen == ["a", "b"]
+    assert not done
+
+
+def test_an_exception_of_a_process_is_not_swallowed() -> None:
+    scheduler = Scheduler()
+    process = Process(scheduler, "p")
+    process.launch(lambda: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        scheduler.advance()
+
+
+def test_real_clock_keeps_to_the_wall_and_posts_from_other_threads() -> None:
+    scheduler, seen = Scheduler(clock="real"), []
+    scheduler.after(50 * MS, lambda: seen.append("timer"))
+    thread = threading.Thread(target=lambda: scheduler.post(lambda: seen.append("posted")))
+    started = time.monotonic()
+    thread.start()
+    assert scheduler.advance(until=100 * MS) == "time"
+    thread.join()
+    assert 0.09 < time.monotonic() - started < 2
+    assert sorted(seen) == ["posted", "timer"]
+    scheduler.close()
+
+
+def test_a_machine_that_falls_behind_does_not_make_up_for_it_in_a_burst() -> None:
+    scheduler = Scheduler(clock="real")
+
+    def stall() -> None:
+        start, wall = scheduler._origin
+        scheduler._origin = (start, wall - 10_000 * MS)
+
+    scheduler.after(1 * MS, stall)
+    scheduler.after(2 * MS, lambda: None)
+    started = time.monotonic()
+    scheduler.advance(until=500 * MS)
+    assert time.monotonic() - started > 0.2
+    scheduler.close()
+
+
+def test_speed() -> None:
+    scheduler = Scheduler(clock="real", speed=100)
+    started = time.monotonic()
+    scheduler.advance(until=10_000 * MS)
+    assert 0.09 < time.monotonic() - started < 2
+    scheduler.close()

@@ -1,0 +1,134 @@
+"""Built-ins on a scheduler without compiled RAPID: Python functions stand for tasks."""
+
+from collections.abc import Callable, Iterator
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from rapidgen.machine.files import FileSystem
+from rapidgen.machine.io import IOSystem
+from rapidgen.machine.log import EventLog
+from rapidgen.machine.network.device import SocketTable
+from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.operator import Operator
+from rapidgen.machine.scheduler import Scheduler
+from rapidgen.rapid.builtins import signatures
+from rapidgen.runtime.registry import bound
+from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Box, Type
+from rapidgen.system.model import System
+
+_TYPES = {bool: BOOL, str: STRING}
+
+
+def box(value: Any, type_: Type | None = None, dims: tuple[int, ...] = ()) -> Box:
+    """A variable; numbers are num unless told."""
+    return Box(value, type_ or _TYPES.get(type(value), NUM), dims)
+
+
+def dnum(value: float) -> Box:
+    """A dnum variable."""
+    return Box(value, DNUM)
+
+
+class Bench:
+    """A controller's parts, and tasks that are Python functions of a `Task`."""
+
+    def __init__(self, system: System | None = None, *, clock: Any = "virtual", **parts: Any):
+        self.scheduler = Scheduler(clock=clock, seed=1)
+        log = EventLog(self.scheduler)
+        network = parts.pop("network", MemoryNetwork)(self.scheduler)
+        self.controller = SimpleNamespace(
+            scheduler=self.scheduler,
+            log=log,
+            network=network,
+            sockets=SocketTable(network),
+            io=IOSystem(self.scheduler, log, system or System("test", ())),
+            dialect=Dialect(),
+            operator=Operator(self.scheduler, parts.pop("answers", None)),
+            files=parts.pop("files", None) or FileSystem(),
+        )
+
+    def close(self) -> None:
+        self.controller.network.shut_down()
+        self.controller.files.close()
+        self.scheduler.close()
+
+    def run(self, *bodies: Callable[[Task], Any], until: float | None = None) -> list[Any]:
+        """Run tasks until all have returned (or until `until` s); what they returned.
+
+        An exception of a task comes out here.
+        """
+        results: dict[int, Any] = {}
+
+        def start(i: int, body: Callable[[Task], Any], task: Task) -> None:
+            task.launch(lambda: results.update({i: body(task)}))
+
+        for i, body in enumerate(bodies):
+            start(i, body, Task(self.scheduler, f"T{i + 1}", self.controller))
+        self.scheduler.advance(
+            until=None if until is None else round(until * 1e9),
+            stop=lambda: len(results) == len(bodies),
+        )
+        return [results.get(i) for i in range(len(bodies))]
+
+    @property
+    def now(self) -> float:
+        """Simulated seconds."""
+        return self.scheduler.now * 1e-9
+
+    def call(self, task: Task, name: str, *required: Any, **optional: Any) -> Any:
+        """Call a built-in in a task."""
+        return call(task, name, *required, **optional)
+
+    def __call__(self, name: str, *required: Any, **optional: Any) -> Any:
+        """Call a built-in in a task of its own and let it finish."""
+        return self.run(lambda task: call(task, name, *required, **optional))[0]
+
+    box = staticmethod(box)
+    dnum = staticmethod(dnum)
+
+
+def call(task: Task, name: str, *required: Any, **optional: Any) -> Any:
+    """Call a built-in as the compiler does: by its signature, in order."""
+    signature = signatures.routine(name)
+    builtin = bound(name)
+    assert signature is not None
+    assert builtin is not None
+    given = {key.lower(): value for key, value in optional.items()}
+    values, rest, group = [], list(required), -1
+    for parameter in signature.parameters:
+        if parameter.optional or parameter.name.lower() in given:
+            values.append(given.pop(parameter.name.lower(), None))
+        elif parameter.group >= 0 and parameter.group == group:
+            values.append(None)
+        else:
+            values.append(rest.pop(0))
+        group = parameter.group if not parameter.optional else -1
+    assert not rest, f"{name}: too many arguments"
+    assert not given, f"{name} has no {', '.join(given)}"
+    return builtin.function(task, *values)
+
+
+@pytest.fixture
+def bench() -> Iterator[Bench]:
+    """A virtual-clock bench."""
+    made = Bench()
+    yield made
+    made.close()
+
+
+@pytest.fixture
+def make_bench() -> Iterator[Callable[..., Bench]]:
+    """Makes benches with other parts, and closes them."""
+    made: list[Bench] = []
+
+    def make(*args: Any, **kwargs: Any) -> Bench:
+        made.append(Bench(*args, **kwargs))
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.close()

@@ -1,0 +1,31 @@
+"""Conformance files are red for defects: a sample; all in
+benchmarks/conformance_mutants_runtime.py."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from tests.runtime.campaign import BROAD, GREEN, RED, Campaign, all_files, outcome
+
+FILES = {file.path.stem: file for file in all_files()}
+SAMPLE = [FILES[name] for name in ("goto", "for_counts")]
+
+
+@pytest.fixture(scope="module")
+def campaign() -> Campaign:
+    found = Campaign(SAMPLE, SAMPLE, BROAD)
+    found.search()
+    return found
+
+
+def test_each_file_of_a_sample_is_red_for_a_mutant(campaign: Campaign) -> None:
+    assert campaign.left == []
+    for file, (mutant, _) in campaign.shown.items():
+        assert (outcome(file), outcome(file, mutant)) == (GREEN, RED)
+
+
+def test_a_file_that_says_something_else_is_red(tmp_path: Path) -> None:
+    path = tmp_path / "goto.mod"
+    path.write_text(SAMPLE[0].path.read_text().replace("! expect: ", "! expect: not ", 1))
+    assert outcome(replace(SAMPLE[0], path=path)) == RED

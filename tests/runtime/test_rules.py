@@ -1,0 +1,59 @@
+"""docs/runtime-rules.md: what it names exists, and no conformance program is left out."""
+
+import re
+from dataclasses import fields
+from pathlib import Path
+
+from rapidgen.runtime.switches import NOT_THE_DRIVERS, Dialect
+
+TESTS = Path(__file__).parents[1]
+TEXT = (TESTS.parent / "docs" / "runtime-rules.md").read_text("utf-8")
+ROWS = re.findall(
+    r"^\| ([A-Z]*[\d.]*[A-Z]?-[^|]*) \| ([^|]+) \| ([^|]+) \| ([^|]+) \|$", TEXT, re.MULTILINE
+)
+NAMED = {name for *_, held in ROWS for name in re.findall(r"`([^`]+)`", held)}
+
+
+def exists(name: str) -> bool:
+    file, _, test = name.partition("::")
+    path = TESTS / file
+    return path.is_file() and (not test or f"def {test}(" in path.read_text("utf-8"))
+
+
+def test_every_rule_has_what_holds_it() -> None:
+    assert len(ROWS) > 180
+    assert sorted(name for name in NAMED if not exists(name)) == []
+
+
+def test_every_program_holds_a_rule() -> None:
+    programs = {
+        path.relative_to(TESTS).as_posix()
+        for room in ("runtime", "runtime/builtins")
+        for path in (TESTS / room / "conformance").rglob("*.mod")
+    }
+    assert sorted(programs - NAMED) == []
+
+
+def test_every_number_is_there_once() -> None:
+    numbers = [number for row in ROWS for number in row[0].split()]
+    assert len(numbers) == len(set(numbers))
+    themes: dict[str, list[int]] = {}
+    for number in numbers:
+        theme, _, place = number.rpartition("-")
+        themes.setdefault(theme, []).append(int(place))
+    for theme, places in themes.items():
+        assert sorted(places) == list(range(1, len(places) + 1)), theme
+
+
+def test_every_switch_is_documented_with_its_values() -> None:
+    page = (TESTS.parent / "docs" / "virtual-controller.md").read_text("utf-8")
+    rows = dict(re.findall(r"^\| `(\w+)` \| (`[^|]+) \| [^|]+ \|$", page, re.MULTILINE))
+    for field in fields(Dialect):
+        default = field.default
+        values = (
+            [str(default).lower(), str(not default).lower()]
+            if isinstance(default, bool)
+            else [default, *(v for v in field.type.__args__ if v != default)]
+        )
+        assert rows[field.name].replace("`", "").split(", ") == values, field.name
+    assert {f.name for f in fields(Dialect)} >= NOT_THE_DRIVERS
