@@ -86,8 +86,8 @@ def files_of(folder: Path) -> None:
     loop = "MODULE loop\n  PROC main()\n    WHILE TRUE DO\n      WaitTime 1;\n    ENDWHILE\n"
     texts = {
         "broken.yaml": BROKEN_YAML,
-        "typo.yaml": "extends: irb120\nname: t\ntrajectroy: {capacity: 10}\nports: {motoin: 1}\n",
-        "range.yaml": "extends: irb120\nname: r\nports: {motion: 99999}\nrates: {state: -1}\n",
+        "typo.yaml": "model: irb120\nname: t\ntrajectroy: {capacity: 10}\nports: {motoin: 1}\n",
+        "range.yaml": "model: irb120\nname: r\nports: {motion: 99999}\nrates: {state: -1}\n",
         "hello.mod": HELLO,
         "broken.mod": BROKEN_MODULE,
         "ends.mod": ENDS,
