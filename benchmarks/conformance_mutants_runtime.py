@@ -2,7 +2,8 @@
 
     python benchmarks/conformance_mutants_runtime.py [--every N] [--share PERCENT] [-v] [FILE...]
 
-Makes mutants of machine, motion, runtime and controller
+Makes mutants of machine, motion, runtime and controller until
+each conformance file of tests/runtime and tests/runtime/builtins has one that turns it
 red. A mutant counts when it turns at most PERCENT of all files red (default 10); for a file that
 has no such mutant, up to half of them, told apart. Hangs and crashes do not count. Tried first is
 what the fewest files execute; each trial is a process of its own.

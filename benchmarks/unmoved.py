@@ -155,10 +155,10 @@ def either(*names: str) -> object:
 
 
 def trace(path: Path) -> dict[str, object]:
-    controller_room = either("rapidgen.controller", "rapidgen.controller.controller")
-    tracing = either("rapidgen.controller.tracing", "rapidgen.controller.tracing")
+    controller_room = either("rapidgen.controller", "rapidgen.virtual")
+    tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
     dialects = either("rapidgen.runtime.dialect", "rapidgen.runtime.switches")
-    mechanics = either("rapidgen.controller.mechanics", "rapidgen.controller.mechanics")
+    mechanics = either("rapidgen.controller.mechanics", "rapidgen.virtual.mechanics")
     load_config = importlib.import_module("rapidgen.config").load_config
     model = importlib.import_module("rapidgen.system.model")
     text = path.read_text(encoding="utf-8")
