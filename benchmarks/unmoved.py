@@ -157,7 +157,7 @@ def either(*names: str) -> object:
 def trace(path: Path) -> dict[str, object]:
     controller_room = either("rapidgen.controller", "rapidgen.virtual")
     tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
-    dialects = either("rapidgen.runtime.dialect", "rapidgen.runtime.switches")
+    dialects = either("rapidgen.runtime.switches", "rapidgen.virtual.dialect")
     mechanics = either("rapidgen.controller.mechanics", "rapidgen.virtual.mechanics")
     load_config = importlib.import_module("rapidgen.config").load_config
     model = importlib.import_module("rapidgen.system.model")
