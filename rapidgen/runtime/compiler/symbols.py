@@ -1,11 +1,11 @@
 """What names in RAPID stand for, and how compiled code reaches it."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.registry import Builtin
-from rapidgen.runtime.values import Type
+from rapidgen.runtime.values import Type, Value
 
 if TYPE_CHECKING:
     from rapidgen.runtime.compiler.program import LoadedModule
@@ -40,7 +40,7 @@ class Data:
     whole: bool = False
     """Always a whole number, kept as int."""
     range: tuple[int, int] | None = None
-    value: Any = None
+    value: Value = None
     """Of `inline` data."""
     readonly: bool = False
 
