@@ -23,7 +23,6 @@ _FAULTS = {
     Misfit.SURPLUS: "too many arguments for {0}",
     Misfit.UNKNOWN: "{0} has no parameter {1}",
     Misfit.TWICE: "{1} is given twice",
-    Misfit.ORDER: "{1} stands too late",
 }
 
 
@@ -32,14 +31,14 @@ def _matched(
 ) -> list[n.Argument | None]:
     """Arguments in the order of the parameters; None where a parameter gets none.
 
-    Alternatives that are both given are run time's to find.
+    An order that only the checker minds is taken; of alternatives run time finds two.
     """
     parameters = routine.parameters
     found = match(parameters, arguments, lambda a, among: _meant(unit, parameters, a, among))
     for pair in found.pairs:
         argument = pair.argument
         for misfit in pair.misfits:
-            if misfit is Misfit.EXCLUSIVE or argument.kind == "conditional":
+            if misfit not in _FAULTS or argument.kind == "conditional":
                 continue
             name = argument.name if pair.parameter < 0 else parameters[pair.parameter].name
             raise CannotCompile(_FAULTS[misfit].format(routine.name, name), node)

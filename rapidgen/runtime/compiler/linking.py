@@ -7,7 +7,7 @@ classes are common to all tasks.
 from dataclasses import dataclass, field
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span
-from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, installed_objects
+from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, builtin, installed_objects
 from rapidgen.rapid.binding.symbols import (
     DataSymbol,
     ModuleSymbol,
@@ -344,9 +344,10 @@ class Linker:
 
 
 def _meant(symbol: Symbol | None) -> Symbol | None:
-    """A module may have the name of something that it declares: that is meant."""
+    """The name of a module means nothing in code: its own or predefined object of that name."""
     if isinstance(symbol, ModuleSymbol) and symbol.module is not None:
-        return symbol.module.own.get(symbol.name.lower())
+        key = symbol.name.lower()
+        return symbol.module.own.get(key) or builtin(key)
     return symbol
 
 
