@@ -13,7 +13,7 @@ from types import FrameType
 from typing import Any
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.resume import Standing, find
