@@ -39,7 +39,7 @@ class MotionSystem:
 
     @property
     def settings(self) -> MotionSettings:
-        """The switches of docs/motion-model.md; set them before anything moves."""
+        """The switches of docs/rapid/motion-model.md; set them before anything moves."""
         return self._settings
 
     @settings.setter

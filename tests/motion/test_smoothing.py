@@ -113,7 +113,8 @@ def test_limits_reach_as_far_as_the_mean():
 def test_acceleration_has_no_jump_on_straight_ways_whatever_happens(make_cell, zones, seed):
     """Stops, starts, overrides, new moves at random: jerk stays what the ramp allows.
 
-    Fine points: inside a corner the parabola's own turning begins at once (docs/motion-model.md).
+    Fine points: inside a corner the parabola's own turning begins at once
+    (docs/rapid/motion-model.md).
     """
     rng = random.Random(seed)
     cell = make_cell()
