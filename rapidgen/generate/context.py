@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from rapidgen import __version__
-from rapidgen.config.model import Frame, Joint, Load, MotionGroup, RobotConfig, Tool, WorkObject
+from rapidgen.config.model import Frame, GroupConfig, Joint, Load, RobotConfig, Tool, WorkObject
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
@@ -38,7 +38,7 @@ _FACTORS = (
 
 
 def group_context(
-    config: RobotConfig, group: MotionGroup, build_id: str, templates: Path
+    config: RobotConfig, group: GroupConfig, build_id: str, templates: Path
 ) -> dict[str, object]:
     """What the modules of one motion group are rendered from."""
     x = layout.suffix(config, group)
@@ -108,7 +108,7 @@ def group_context(
     }
 
 
-def _tight(config: RobotConfig, group: MotionGroup) -> bool:
+def _tight(config: RobotConfig, group: GroupConfig) -> bool:
     """Corners have sizes of their own: that needs the TCP's speed, so the group's geometry."""
     policy = config.trajectory
     return policy.corners == "tight" and policy.zone != "fine" and bool(group.chain)
@@ -185,7 +185,7 @@ def to_rapid(joint: Joint, value: float) -> float:
     return math.degrees(value) if joint.kind == "revolute" else value * _MM
 
 
-def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]:
+def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]:
     joint = group.joints[n - 1]
     policy = config.trajectory
     revolute = joint.kind == "revolute"
@@ -214,7 +214,7 @@ def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]
     }
 
 
-def _axes(group: MotionGroup, names: list[str], absent: str) -> list[str]:
+def _axes(group: GroupConfig, names: list[str], absent: str) -> list[str]:
     """Members of a robjoint or extjoint: the variable of each joint, `absent` where is none."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
     return [joints.get(name, absent) for name in names]

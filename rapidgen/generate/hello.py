@@ -3,14 +3,14 @@
 import re
 
 from rapidgen import __version__
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.generate.numbers import literal
 from rapidgen.wire.simple_message import spec
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.spec import Feature, ReplyCode, Wire
 
 
-def features(config: RobotConfig, group: MotionGroup) -> Feature:
+def features(config: RobotConfig, group: GroupConfig) -> Feature:
     """What the driver of a group can do beyond the standard messages."""
     found = Feature.PROGRESS | Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK
     if group.ports.control:
@@ -20,7 +20,7 @@ def features(config: RobotConfig, group: MotionGroup) -> Feature:
     return found
 
 
-def hello_reply(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, object]:
+def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[str, object]:
     """The reply to HELLO as pack instructions, in the order of the specification.
 
     The first of a field that is not zero has its `label`, for people who read the module.
