@@ -30,12 +30,11 @@ from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
 from rapidgen.wire.simple_message.codec import number_of
+from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, POINTS
 from rapidgen.wire.simple_message.spec import (
-    HEARTBEAT,
     INDEX_WRAP,
-    JOINT_TRAJ_PT,
     MAX_JOINTS,
-    POINTS,
     PROTOCOL_VERSION,
     Comm,
     Feature,
@@ -281,7 +280,7 @@ class Core:
         self.heartbeat.sent(now, timeout, self.talks[Port.CONTROL].request(HEARTBEAT.number))
         return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
 
-    def post(self, content: messages.Content) -> Pending:
+    def post(self, content: Content) -> Pending:
         """A request for the control port; it goes out next."""
         pending = Pending(number_of(content))
         self._outbox.append((pending, encode(content, Comm.REQUEST)))
@@ -435,7 +434,7 @@ class Core:
         self.override = 1.0
         return self.run
 
-    def answered(self, run: Run, reply: messages.Content) -> None:
+    def answered(self, run: Run, reply: Content) -> None:
         """The reply to the end frame has come: accepted, or TrajectoryRefused is raised."""
         if isinstance(reply, messages.Accepted):
             run.accepted(reply.trajectory)
@@ -447,7 +446,7 @@ class Core:
         run.failed(error)
         raise error
 
-    def _refusal(self, reply: messages.Content) -> TrajectoryRefused:
+    def _refusal(self, reply: Content) -> TrajectoryRefused:
         point, joint, text = -1, 0, "no reason given"
         reason = None
         if isinstance(reply, messages.Refused):

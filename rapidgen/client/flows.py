@@ -12,7 +12,8 @@ from rapidgen.client.stop_flows import PER_POINT, stop_and_leave
 from rapidgen.client.talk import Pending
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
-from rapidgen.wire.simple_message.spec import JOINT_TRAJ_PT, Port, TrajectoryState
+from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
+from rapidgen.wire.simple_message.spec import Port, TrajectoryState
 
 
 def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:

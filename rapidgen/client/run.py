@@ -14,7 +14,7 @@ from rapidgen.client.motion import Motion, Phase
 from rapidgen.client.state import Progress, State, trajectory_state
 from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
-from rapidgen.wire.simple_message.spec import REASON_TEXTS, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
 GOAL_TOLERANCE = 0.01
 """rad or m: as industrial_robot_client."""
@@ -119,7 +119,7 @@ class Run(Motion):
         if status.drives is TriState.FALSE:
             return "the motors are off"
         if status.in_error is TriState.TRUE and not self._was_in_error:
-            text = REASON_TEXTS[status.error] if status.error else f"code {status.error_code}"
+            text = status.error.text if status.error else f"code {status.error_code}"
             return f"the controller reports an error ({text})"
         return ""
 

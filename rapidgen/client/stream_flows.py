@@ -15,7 +15,8 @@ from rapidgen.client.run import Run
 from rapidgen.client.stop_flows import stop_and_leave
 from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.wire.simple_message.spec import MAX_JOINTS, Port, batch_points
+from rapidgen.wire.simple_message.messages import batch_points
+from rapidgen.wire.simple_message.spec import MAX_JOINTS, Port
 
 _AHEAD = 2
 """Batches that wait in the client for room at the controller before an append waits."""

@@ -6,8 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rapidgen.config.model import MotionGroup as GroupConfig
-from rapidgen.config.model import RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan

@@ -5,7 +5,7 @@ from typing import Any
 
 from rapidgen.axes.frames import IDENTITY, Pose, Vector, compose
 from rapidgen.axes.kinematics import Kinematics
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import GroupConfig
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import Posture
 from rapidgen.motion.pieces import AxisLimits
@@ -26,7 +26,7 @@ def tool_frame(tool: Record | None) -> Pose:
 
 
 def limits_now(
-    config: MotionGroup,
+    config: GroupConfig,
     kinematics: Kinematics | None,
     settings: MotionSettings,
     modal: ModalSettings,

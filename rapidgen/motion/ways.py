@@ -4,7 +4,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
 from rapidgen.axes.limits import outside
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import GroupConfig
 from rapidgen.motion import events
 from rapidgen.motion.cartesian import CartesianWay
 from rapidgen.motion.legs import Geometry, joint_measure, joint_way, lever_measure
@@ -15,7 +15,7 @@ from rapidgen.motion.settings import MotionSettings
 from rapidgen.runtime.errors import FatalError, RapidError
 
 
-def require(config: MotionGroup, kinematics: Kinematics | None) -> Kinematics:
+def require(config: GroupConfig, kinematics: Kinematics | None) -> Kinematics:
     """The kinematics of a group. FatalError: its model has no geometry."""
     if kinematics is None:
         raise FatalError(
@@ -26,7 +26,7 @@ def require(config: MotionGroup, kinematics: Kinematics | None) -> Kinematics:
     return kinematics
 
 
-def check_range(config: MotionGroup, settings: MotionSettings, move: Move) -> None:
+def check_range(config: GroupConfig, settings: MotionSettings, move: Move) -> None:
     """ERR_ROBLIMIT or FatalError 50027: a joint target outside the axis ranges."""
     if not isinstance(move, JointMove):
         return
@@ -39,7 +39,7 @@ def check_range(config: MotionGroup, settings: MotionSettings, move: Move) -> No
 
 
 def goes_nowhere(
-    config: MotionGroup, kinematics: Kinematics | None, move: Move, ends: Posture
+    config: GroupConfig, kinematics: Kinematics | None, move: Move, ends: Posture
 ) -> bool:
     """Whether a move asks for the place where the path ends anyhow."""
     if isinstance(move, JointMove):
@@ -61,7 +61,7 @@ def goes_nowhere(
 
 
 def apart(
-    config: MotionGroup,
+    config: GroupConfig,
     kinematics: Kinematics | None,
     settings: MotionSettings,
     postures: tuple[Posture, Posture],
@@ -76,7 +76,7 @@ def apart(
 
 
 def make(
-    config: MotionGroup,
+    config: GroupConfig,
     kinematics: Kinematics | None,
     settings: MotionSettings,
     limits: AxisLimits,

@@ -9,7 +9,7 @@ from typing import NoReturn
 
 from paramiko import SFTPClient, SFTPError
 
-from rapidgen.deploy.transport import LISTING_LIMIT
+from rapidgen.deploy.transports.transport import LISTING_LIMIT
 
 _VERSION, _STATUS, _HANDLE, _DATA, _NAME, _ATTRS, _EXTENDED = 2, 101, 102, 103, 104, 105, 201
 _SIZE, _OWNER, _MODE, _TIMES, _MORE = 1, 2, 4, 8, 0x8000_0000

@@ -1,22 +1,12 @@
-"""Fields of the specification as packed bytes, and back. Knows no message."""
+"""Fields of a declaration as packed bytes, and back. Knows no message."""
 
 from collections.abc import Sequence
 from struct import Struct
 from struct import error as StructError
 
+from rapidgen.wire.simple_message.declaration import ANY, Field, Value, Wire
 from rapidgen.wire.simple_message.frames import ContentError
-from rapidgen.wire.simple_message.spec import (
-    ANY,
-    PAIR_BASE,
-    PAIR_LIMIT,
-    PAIR_SCALE,
-    PAIR_ZERO,
-    Field,
-    Wire,
-)
-
-Value = int | float | str | tuple[int, ...] | tuple[float, ...]
-"""One field's value: a scalar, a text, or a tuple of `count` numbers (two for each PAIR)."""
+from rapidgen.wire.simple_message.spec import PAIR_BASE, PAIR_LIMIT, PAIR_SCALE, PAIR_ZERO
 
 _CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.UINT64: "Q", Wire.PAIR: "Q"}
 
@@ -39,7 +29,7 @@ def pair_of(word: int) -> tuple[float, float]:
     return (first - PAIR_ZERO) / PAIR_SCALE, (second - PAIR_ZERO) / PAIR_SCALE
 
 
-class Layout:
+class Packing:
     """Packs and unpacks the values of some fields, in their order; none of any count."""
 
     def __init__(self, fields: Sequence[Field]) -> None:
@@ -98,7 +88,7 @@ class Layout:
         return ", ".join(field.name for field in self.fields)
 
 
-class OpenLayout:
+class OpenPacking:
     """The same with one field of PAIRs whose count follows from the length of the data."""
 
     def __init__(self, fields: Sequence[Field]) -> None:
@@ -107,8 +97,8 @@ class OpenLayout:
             raise ValueError(f"{fields[place].name}: only pairs may be of any count")
         self._name = fields[place].name
         self._place = place
-        self._head = Layout(fields[:place])
-        self._tail = Layout(fields[place + 1 :])
+        self._head = Packing(fields[:place])
+        self._tail = Packing(fields[place + 1 :])
         self.size = self._head.size + self._tail.size
         """Bytes without any pair."""
 

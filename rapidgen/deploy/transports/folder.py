@@ -7,7 +7,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from rapidgen.deploy.transport import (
+from rapidgen.deploy.secrets import Credentials
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import (
     FILE_LIMIT,
     LISTING_LIMIT,
     Entry,
@@ -95,6 +97,11 @@ class FolderTransport:
         """The name itself: a link at the end is not followed."""
         head, _, tail = safe(path).rpartition("/")
         return self._real(head) / tail
+
+
+def open_folder(target: Target, _login: Credentials, _timeout: float) -> FolderTransport:
+    """The folder that a URL names. Raises TransportFault (RG506)."""
+    return FolderTransport(Path(target.path))
 
 
 def _sync(folder: Path) -> None:

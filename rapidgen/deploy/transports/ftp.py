@@ -11,9 +11,10 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-from rapidgen.deploy.listing import parse_facts, parse_list, parse_names
 from rapidgen.deploy.secrets import Credentials, redact
-from rapidgen.deploy.transport import (
+from rapidgen.deploy.transports.listing import parse_facts, parse_list, parse_names
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import (
     FILE_LIMIT,
     LISTING_LIMIT,
     Entry,
@@ -48,11 +49,10 @@ class FtpTransport:
         ),
     )
 
-    def __init__(
-        self, host: str, port: int, home: str, login: Credentials, *, timeout: float = 10.0
-    ) -> None:
+    def __init__(self, target: Target, login: Credentials, timeout: float) -> None:
         """Connect and log in. Raises TransportFault (RG501, RG502, RG504..RG506)."""
-        self.shown = f"ftp://{host}{'' if port == 21 else f':{port}'}{home}"
+        host, port, home = target.host, target.port, target.path
+        self.shown = target.shown
         self._login = login
         self._timeout = timeout
         self._dead = False

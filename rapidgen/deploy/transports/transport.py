@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, error
 
 FILE_LIMIT = 8 * 1024 * 1024
 """Largest file that is read from a controller; a RAPID module of 8 MB is refused elsewhere too."""
@@ -37,9 +37,7 @@ class TransportFault(DiagnosticError):
 
     def __init__(self, kind: Kind, message: str, *, help: str = "", code: str = "") -> None:
         known, mend = _CODES[kind]
-        super().__init__(
-            Diagnostic(code or known, Severity.ERROR, message, help=help or mend), exit_code=1
-        )
+        super().__init__(error(code or known, None, message, help or mend), exit_code=1)
         self.kind = kind
 
 

@@ -8,7 +8,7 @@ is passed over; a name that could lead elsewhere is dropped.
 import re
 from collections.abc import Iterable
 
-from rapidgen.deploy.transport import Entry
+from rapidgen.deploy.transports.transport import Entry
 
 _UNIX = re.compile(
     r"(?P<type>[-dlbcps])[-rwxsStTl.+@]{9,11}\s+"

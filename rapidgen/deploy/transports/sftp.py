@@ -11,8 +11,9 @@ from contextlib import contextmanager
 import paramiko
 
 from rapidgen.deploy.secrets import Credentials, redact
-from rapidgen.deploy.sftp_answers import CheckedClient
-from rapidgen.deploy.transport import (
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.sftp_answers import CheckedClient
+from rapidgen.deploy.transports.transport import (
     FILE_LIMIT,
     LISTING_LIMIT,
     Entry,
@@ -53,11 +54,10 @@ class SftpTransport:
         unseen=("loaded configuration, tasks, operating mode and running programs are not seen",),
     )
 
-    def __init__(
-        self, host: str, port: int, home: str, login: Credentials, *, timeout: float = 10.0
-    ) -> None:
+    def __init__(self, target: Target, login: Credentials, timeout: float) -> None:
         """Connect and log in. Raises TransportFault (RG501..RG506)."""
-        self.shown = f"sftp://{host}{'' if port == 22 else f':{port}'}{home}"
+        host, port, home = target.host, target.port, target.path
+        self.shown = target.shown
         self._login = login
         self._dead = False
         # What goes wrong is raised; paramiko's own log would print it a second time.

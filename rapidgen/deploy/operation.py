@@ -6,7 +6,7 @@ from typing import Literal
 
 from rapidgen.deploy.driverset import STATE
 from rapidgen.deploy.plan import Plan
-from rapidgen.deploy.transport import Transport, TransportFault, parent, read_or_none
+from rapidgen.deploy.transports.transport import Transport, TransportFault, parent, read_or_none
 
 Rename = Literal["replace", "move", "none"]
 """rename() replaces an existing file; or only takes a free name; or does not work."""
@@ -15,8 +15,8 @@ Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Run:
-    """What every part of one run needs."""
+class Operation:
+    """What every part of one run needs to know."""
 
     transport: Transport
     plan: Plan
@@ -35,59 +35,59 @@ class Run:
         return self.home + STATE
 
 
-def write(run: Run, path: str, data: bytes) -> None:
+def write(work: Operation, path: str, data: bytes) -> None:
     """Write a file and read it back; once more when it differs.
 
     Raises TransportFault RG526 when it differs again.
     """
     folder = parent(path)
-    if folder and folder not in run.made:
-        run.transport.make_folder(folder)
-        run.made.add(folder)
+    if folder and folder not in work.made:
+        work.transport.make_folder(folder)
+        work.made.add(folder)
     for _ in range(2):
-        run.transport.write(path, data)
-        if read_or_none(run.transport, path) == data:
+        work.transport.write(path, data)
+        if read_or_none(work.transport, path) == data:
             return
     raise differs(path)
 
 
-def swap(run: Run, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
+def swap(work: Operation, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
     """Put a staged file in place by the smallest step that there is."""
-    if run.mode == "none":
-        write(run, where, data)
+    if work.mode == "none":
+        write(work, where, data)
         return
-    if run.mode == "move" and exists:
-        delete(run, where)
-    run.transport.rename(where + suffix, where)
+    if work.mode == "move" and exists:
+        delete(work, where)
+    work.transport.rename(where + suffix, where)
 
 
-def delete(run: Run, path: str) -> None:
+def delete(work: Operation, path: str) -> None:
     """Delete a file that may be gone already."""
     try:
-        run.transport.delete(path)
+        work.transport.delete(path)
     except TransportFault as fault:
         if fault.kind != "missing":
             raise
 
 
-def delete_all(run: Run, paths: Iterable[str]) -> None:
+def delete_all(work: Operation, paths: Iterable[str]) -> None:
     """Delete those of the files that are there: one listing a folder."""
     folders: dict[str, list[str]] = {}
     for path in paths:
         folders.setdefault(parent(path), []).append(path)
     for folder, members in folders.items():
-        there = names(run.transport, folder)
+        there = names(work.transport, folder)
         for path in members:
             if path.rpartition("/")[2] in there:
-                delete(run, path)
+                delete(work, path)
 
 
-def delete_folder(run: Run, folder: str) -> None:
+def delete_folder(work: Operation, folder: str) -> None:
     """Delete a folder if it is there and empty; one that refuses stays."""
     try:
-        if not run.transport.entries(folder):
-            run.transport.delete_folder(folder)
-            run.made.discard(folder)
+        if not work.transport.entries(folder):
+            work.transport.delete_folder(folder)
+            work.made.discard(folder)
     except TransportFault as fault:
         if fault.kind in ("lost", "garbled"):
             raise
