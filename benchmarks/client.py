@@ -19,9 +19,9 @@ import time
 import numpy as np
 
 from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeouts, Trajectory
-from rapidgen.client.core import STOP_FRAME
-from rapidgen.client.group import Group
-from rapidgen.client.tracker import Tracker
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.robot import STOP_FRAME
+from rapidgen.client.core.state_port import Tracker
 from rapidgen.wire.simple_message.bulk import (
     FRAME_BYTES,
     decode_batches,

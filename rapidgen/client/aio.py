@@ -12,17 +12,13 @@ from typing import Self, TypeVar, cast
 
 import numpy.typing as npt
 
-from rapidgen.client import (
-    connect_flows,
-    control_flows,
-    flows,
-    state_flows,
-    stop_flows,
-    stream_flows,
-)
 from rapidgen.client.address import Address
-from rapidgen.client.core import STOP_FRAME, Core, Timeouts
-from rapidgen.client.effects import Close, Connect, Effect, Flow, Send, Wait
+from rapidgen.client.core.feed import Feed, batches
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import Motion, Result, Way
+from rapidgen.client.core.robot import STOP_FRAME, Core, Timeouts
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.core.view import StreamView, View
 from rapidgen.client.errors import (
     MotionStopped,
     RobotError,
@@ -31,14 +27,16 @@ from rapidgen.client.errors import (
     not_reached,
     os_reason,
 )
-from rapidgen.client.feed import Feed, batches
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Result, Way
+from rapidgen.client.flows import connect as connect_flows
+from rapidgen.client.flows import control as control_flows
+from rapidgen.client.flows import download as flows
+from rapidgen.client.flows import state as state_flows
+from rapidgen.client.flows import stop as stop_flows
+from rapidgen.client.flows import stream as stream_flows
+from rapidgen.client.flows.effects import Close, Connect, Effect, Flow, Send, Wait
 from rapidgen.client.recording import Recording
-from rapidgen.client.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES

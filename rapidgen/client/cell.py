@@ -6,14 +6,14 @@ from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
 from types import TracebackType
 from typing import Self, TypeVar
 
-from rapidgen.client import flows
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
-from rapidgen.client.core import Core
+from rapidgen.client.core.download import Run
+from rapidgen.client.core.motion import Result
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTrajectory, RobotError
-from rapidgen.client.motion import Result
-from rapidgen.client.run import Run
-from rapidgen.client.state import State
-from rapidgen.client.sync import Execution, Robot
+from rapidgen.client.flows import download as flows
+from rapidgen.client.threads import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 

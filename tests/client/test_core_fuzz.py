@@ -13,12 +13,12 @@ from hypothesis import Phase as Stage
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from rapidgen.client.checks import piece
-from rapidgen.client.core import Core, Timeouts
+from rapidgen.client.core.checks import piece
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import Phase
+from rapidgen.client.core.robot import Core, Timeouts
+from rapidgen.client.core.stream import StreamRun
 from rapidgen.client.errors import ConnectionLost, ProtocolError, RobotTimeout
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Phase
-from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import (
     ContentError,

@@ -263,7 +263,7 @@ def test_signals_have_names_and_rights(fake, client):
 
 
 def _mapping(config):
-    from rapidgen.client.group import Group
+    from rapidgen.client.core.group import Group
 
     return Group.of(config, config.groups[0]).mapping
 

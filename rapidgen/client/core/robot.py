@@ -9,7 +9,15 @@ from dataclasses import dataclass, replace
 from typing import TypedDict
 
 from rapidgen import __version__
-from rapidgen.client.checks import Plan, fits_a_stream, plan
+from rapidgen.client.core.checks import Plan, fits_a_stream, plan
+from rapidgen.client.core.download import Run
+from rapidgen.client.core.group import PLAIN_CAPACITY, Group
+from rapidgen.client.core.heartbeat import Heartbeat
+from rapidgen.client.core.motion import Way, place_of, reason_of, reason_text
+from rapidgen.client.core.requests import Conversation, Pending
+from rapidgen.client.core.state import State
+from rapidgen.client.core.state_port import Tracker
+from rapidgen.client.core.stream import StreamRun
 from rapidgen.client.errors import (
     ConnectionLost,
     NotReady,
@@ -19,14 +27,6 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
     fault,
 )
-from rapidgen.client.group import PLAIN_CAPACITY, Group
-from rapidgen.client.heartbeat import Heartbeat
-from rapidgen.client.motion import Way, place_of, reason_of, reason_text
-from rapidgen.client.run import Run
-from rapidgen.client.state import State
-from rapidgen.client.stream import StreamRun
-from rapidgen.client.talk import Conversation, Pending
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
 from rapidgen.wire.simple_message.codec import number_of

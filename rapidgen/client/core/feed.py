@@ -5,11 +5,11 @@ from itertools import islice
 
 import numpy as np
 
-from rapidgen.client.checks import Before
-from rapidgen.client.motion import Way
-from rapidgen.client.run import Run
-from rapidgen.client.state import Progress
-from rapidgen.client.stream import StreamRun
+from rapidgen.client.core.checks import Before
+from rapidgen.client.core.download import Run
+from rapidgen.client.core.motion import Way
+from rapidgen.client.core.state import Progress
+from rapidgen.client.core.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import TrajectoryState
 

@@ -1,7 +1,7 @@
 """Connecting, and finding out who is there, as generators run by both clients (see `effects`)."""
 
-from rapidgen.client.core import Core
-from rapidgen.client.effects import Close, Connect, Flow, Send, Wait
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
@@ -9,7 +9,7 @@ from rapidgen.client.errors import (
     RobotTimeout,
     fault,
 )
-from rapidgen.client.group import Group
+from rapidgen.client.flows.effects import Close, Connect, Flow, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import HELLO, MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
 

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 
-from rapidgen.client.connect_flows import alive
-from rapidgen.client.core import Core
-from rapidgen.client.effects import Flow, Wait
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.errors import NotSupported, RobotTimeout, fault
-from rapidgen.client.state import Event, Feedback, State
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.wire.simple_message.spec import Feature
 
 

@@ -10,27 +10,25 @@ from typing import Self, TypeVar
 
 import numpy.typing as npt
 
-from rapidgen.client import (
-    connect_flows,
-    control_flows,
-    flows,
-    state_flows,
-    stop_flows,
-    stream_flows,
-)
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
-from rapidgen.client.core import STOP_FRAME, Core, Timeouts
-from rapidgen.client.effects import Close, Connect, Effect, Flow, Wait
+from rapidgen.client.core.feed import Feed, batches
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import Motion, Result, Way
+from rapidgen.client.core.robot import STOP_FRAME, Core, Timeouts
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.core.view import StreamView, View
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
-from rapidgen.client.feed import Feed, batches
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Result, Way
+from rapidgen.client.flows import connect as connect_flows
+from rapidgen.client.flows import control as control_flows
+from rapidgen.client.flows import download as flows
+from rapidgen.client.flows import state as state_flows
+from rapidgen.client.flows import stop as stop_flows
+from rapidgen.client.flows import stream as stream_flows
+from rapidgen.client.flows.effects import Close, Connect, Effect, Flow, Wait
 from rapidgen.client.recording import Recording
-from rapidgen.client.state import Driver, Event, Feedback, Progress, State
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message.spec import Port

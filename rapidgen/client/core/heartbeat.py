@@ -1,6 +1,6 @@
 """When the controller must hear from this client, while something moves. Sans-IO."""
 
-from rapidgen.client.talk import Pending
+from rapidgen.client.core.requests import Pending
 from rapidgen.wire.simple_message import messages
 
 _OFTEN = 4

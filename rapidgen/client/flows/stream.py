@@ -4,16 +4,16 @@ from collections.abc import Callable
 
 import numpy.typing as npt
 
-from rapidgen.client import flows
-from rapidgen.client.checks import Piece, piece
-from rapidgen.client.core import Core
-from rapidgen.client.effects import INTERRUPTIONS, Flow
+from rapidgen.client.core.checks import Piece, piece
+from rapidgen.client.core.download import Run
+from rapidgen.client.core.feed import Feed
+from rapidgen.client.core.motion import Result, Way
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.stream import StreamRun
 from rapidgen.client.errors import InvalidTrajectory, NotSupported, RobotTimeout, fault
-from rapidgen.client.feed import Feed
-from rapidgen.client.motion import Result, Way
-from rapidgen.client.run import Run
-from rapidgen.client.stop_flows import stop_and_leave
-from rapidgen.client.stream import StreamRun
+from rapidgen.client.flows import download as flows
+from rapidgen.client.flows.effects import INTERRUPTIONS, Flow
+from rapidgen.client.flows.stop import stop_and_leave
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import MAX_JOINTS, Port, batch_points
 

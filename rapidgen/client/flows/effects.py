@@ -11,7 +11,7 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from rapidgen.client.motion import Motion
+from rapidgen.client.core.motion import Motion
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")

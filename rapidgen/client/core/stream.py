@@ -9,7 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rapidgen.client.checks import Before, Piece
+from rapidgen.client.core.checks import Before, Piece
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import Motion, Way, place_of, reason_of, reason_text
+from rapidgen.client.core.requests import Pending
+from rapidgen.client.core.state import Progress, trajectory_state
+from rapidgen.client.core.state_port import Tracker
 from rapidgen.client.errors import (
     MotionStopped,
     ProtocolError,
@@ -17,11 +22,6 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
     fault,
 )
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Way, place_of, reason_of, reason_text
-from rapidgen.client.state import Progress, trajectory_state
-from rapidgen.client.talk import Pending
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame

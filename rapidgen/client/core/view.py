@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from rapidgen.client.feed import Feed
-from rapidgen.client.motion import Motion, Way
-from rapidgen.client.state import State
+from rapidgen.client.core.feed import Feed
+from rapidgen.client.core.motion import Motion, Way
+from rapidgen.client.core.state import State
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 

@@ -1,7 +1,9 @@
 """STOP, as generators run by both clients (see `effects`)."""
 
-from rapidgen.client.core import STOP_FRAME, Core
-from rapidgen.client.effects import Connect, Flow, Send, Wait
+from rapidgen.client.core.motion import Motion, Phase
+from rapidgen.client.core.requests import Pending
+from rapidgen.client.core.robot import STOP_FRAME, Core
+from rapidgen.client.core.state import State
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
@@ -10,9 +12,7 @@ from rapidgen.client.errors import (
     StopFailed,
     fault,
 )
-from rapidgen.client.motion import Motion, Phase
-from rapidgen.client.state import State
-from rapidgen.client.talk import Pending
+from rapidgen.client.flows.effects import Connect, Flow, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Port, TriState
 

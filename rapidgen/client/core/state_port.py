@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rapidgen.client.group import Group
-from rapidgen.client.state import (
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import (
     Driver,
     Event,
     Feedback,

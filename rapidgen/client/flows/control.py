@@ -1,10 +1,10 @@
 """What goes over the control port, as generators run by both clients (see `effects`)."""
 
-from rapidgen.client.connect_flows import alive
-from rapidgen.client.core import Core
-from rapidgen.client.effects import Flow, Wait
+from rapidgen.client.core.motion import reason_of, reason_text
+from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout, fault
-from rapidgen.client.motion import reason_of, reason_text
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Feature, Port

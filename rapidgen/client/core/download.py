@@ -7,12 +7,12 @@ arrived.
 
 import numpy as np
 
-from rapidgen.client.checks import Plan
+from rapidgen.client.core.checks import Plan
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import Motion, Phase
+from rapidgen.client.core.state import Progress, State, trajectory_state
+from rapidgen.client.core.state_port import Tracker
 from rapidgen.client.errors import MotionFailed, MotionStopped, fault
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Phase
-from rapidgen.client.state import Progress, State, trajectory_state
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
 from rapidgen.wire.simple_message.spec import REASON_TEXTS, TrajectoryState, TriState
 

@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.limits import ROUNDING
+from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory
-from rapidgen.client.group import Group
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, suggest
 from rapidgen.wire.simple_message.spec import PAIR_LIMIT, PAIR_SCALE

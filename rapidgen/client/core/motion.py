@@ -11,10 +11,10 @@ from typing import Literal
 
 import numpy as np
 
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import Progress, State
+from rapidgen.client.core.state_port import Tracker
 from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
-from rapidgen.client.group import Group
-from rapidgen.client.state import Progress, State
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message import messages

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable
 
-from rapidgen.client.connect_flows import alive
-from rapidgen.client.core import Core
-from rapidgen.client.effects import INTERRUPTIONS, Flow, Send, Wait
+from rapidgen.client.core.download import Run
+from rapidgen.client.core.motion import Motion, Result
+from rapidgen.client.core.requests import Pending
+from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import RobotError, RobotTimeout, fault
-from rapidgen.client.motion import Motion, Result
-from rapidgen.client.run import Run
-from rapidgen.client.stop_flows import PER_POINT, stop_and_leave
-from rapidgen.client.talk import Pending
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
+from rapidgen.client.flows.stop import PER_POINT, stop_and_leave
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.spec import JOINT_TRAJ_PT, Port, TrajectoryState
