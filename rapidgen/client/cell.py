@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import Self, TypeVar
 
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
-from rapidgen.client.core.download import Run
+from rapidgen.client.core.download import Download
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 def _prepare_all(
     cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]
-) -> dict[str, tuple[Run, bytes]]:
+) -> dict[str, tuple[Download, bytes]]:
     """Every trajectory checked, with the faults of all; then every run made."""
     unknown = sorted(set(trajectories) - set(cores))
     if unknown:
@@ -39,7 +39,7 @@ def _prepare_all(
     return {name: flows.prepare(cores[name], what) for name, what in trajectories.items()}
 
 
-def _give_up(runs: Iterable[tuple[Run, bytes]], error: RobotError) -> None:
+def _give_up(runs: Iterable[tuple[Download, bytes]], error: RobotError) -> None:
     """None of these runs is under way any more."""
     for run, _ in runs:
         run.failed(error)

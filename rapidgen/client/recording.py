@@ -12,7 +12,7 @@ from rapidgen.client.core.state_port import Sample
 from rapidgen.client.trajectory import Array, Trajectory
 
 
-class Recording:
+class JointRecording:
     """Every joint message since it began; times count from the first one kept, s."""
 
     def __init__(self, group: Group) -> None:

@@ -40,7 +40,7 @@ class Sample:
     joints: tuple[float, ...]
 
 
-class Tracker:
+class StatePort:
     """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
 
     def __init__(self, clock: Callable[[], float]) -> None:

@@ -64,10 +64,10 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
 def _ask(core: Core, content: messages.Content, what: str) -> Flow[messages.Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
-    talk = core.talks[Port.CONTROL]
+    talk = core.ports[Port.CONTROL]
     if not talk.is_open:
-        has_port = Feature.CONTROL in core.tracker.driver.features
-        why = core.tracker.driver.control_fault or "it was lost"
+        has_port = Feature.CONTROL in core.state_port.driver.features
+        why = core.state_port.driver.control_fault or "it was lost"
         raise NotSupported(
             fault(
                 "RG624",
