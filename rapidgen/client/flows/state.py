@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 
-from rapidgen.client.connect_flows import alive
-from rapidgen.client.core import Core
-from rapidgen.client.effects import Flow, Wait
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import Event, Feedback, State
 from rapidgen.client.errors import NotSupported, RobotTimeout, fault
-from rapidgen.client.state import Event, Feedback, State
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.wire.simple_message.spec import Feature
 
 
@@ -15,12 +15,12 @@ def wait_until(
 ) -> Flow[State]:
     """The first state, from now on, for which the condition holds."""
     yield from alive(core)
-    tracker = core.tracker
+    state_port = core.state_port
     found: list[State] = []
 
     def holds() -> bool:
-        state = tracker.state
-        if state is not None and tracker.is_complete and condition(state):
+        state = state_port.state
+        if state is not None and state_port.is_complete and condition(state):
             found.append(state)
         return bool(found) or not core.state_open
 
@@ -37,7 +37,7 @@ def wait_until(
 def next_state(core: Core, timeout: float | None) -> Flow[State]:
     """The state of the next joint message."""
     yield from alive(core)
-    seen = core.tracker.samples
+    seen = core.state_port.samples
     patience = core.timeouts.state if timeout is None else timeout
     return (
         yield from wait_until(core, lambda state: state.number > seen, patience, "the next state")
@@ -48,11 +48,11 @@ def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[E
     """The next entry of the controller's log, or the one behind `after`; without a time-out as
     long as there is a link."""
     yield from alive(core)
-    tracker = core.tracker
-    seen = tracker.event_count if after is None else after.number
+    state_port = core.state_port
+    seen = state_port.event_count if after is None else after.number
     patience = float("inf") if timeout is None else timeout
-    yield Wait(lambda: tracker.event_count > seen or not core.state_open, patience)
-    found = [event for event in tracker.events if event.number > seen]
+    yield Wait(lambda: state_port.event_count > seen or not core.state_open, patience)
+    found = [event for event in state_port.events if event.number > seen]
     if found:
         return found[0]
     if not core.state_open:
@@ -63,8 +63,8 @@ def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[E
 def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
     """The next joints with the controller's time."""
     yield from alive(core)
-    tracker = core.tracker
-    if Feature.FEEDBACK not in tracker.driver.features & core.subscribe:
+    state_port = core.state_port
+    if Feature.FEEDBACK not in state_port.driver.features & core.subscribe:
         raise NotSupported(
             fault(
                 "RG624",
@@ -72,11 +72,11 @@ def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
                 "Robot(..., feedback=True) asks for it, where the driver has it",
             )
         )
-    seen = tracker.feedbacks
+    seen = state_port.feedbacks
     limit = core.timeouts.state if timeout is None else timeout
-    yield Wait(lambda: tracker.feedbacks > seen or not core.state_open, limit)
-    feedback = tracker.feedback
-    if feedback is not None and tracker.feedbacks > seen:
+    yield Wait(lambda: state_port.feedbacks > seen or not core.state_open, limit)
+    feedback = state_port.feedback
+    if feedback is not None and state_port.feedbacks > seen:
         return feedback
     if not core.state_open:
         raise core.disconnected()

@@ -2,9 +2,9 @@
 
 from collections.abc import Sequence
 
-from rapidgen.client.feed import Feed
-from rapidgen.client.motion import Motion, Way
-from rapidgen.client.state import State
+from rapidgen.client.core.feed import Feed
+from rapidgen.client.core.motion import CommandedMotion, Way
+from rapidgen.client.core.state import State
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 
@@ -12,7 +12,7 @@ from rapidgen.diagnostics import Diagnostic
 class View:
     """A motion as its caller may look at it."""
 
-    def __init__(self, run: Motion) -> None:
+    def __init__(self, run: CommandedMotion) -> None:
         self._run = run
         self._stopped: State | None = None
 
@@ -86,7 +86,7 @@ class StreamView:
         return stopped_position(self._feed.run, self._stopped) if self._feed.run else None
 
 
-def stopped_position(run: Motion, seen: State | None) -> tuple[float, ...] | None:
+def stopped_position(run: CommandedMotion, seen: State | None) -> tuple[float, ...] | None:
     """Where the robot stood at the end of a motion, by the best that is known."""
     if run.stood is not None:
         return run.stood

@@ -7,8 +7,8 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rapidgen.client.group import Group
-from rapidgen.client.state import (
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import (
     Driver,
     Event,
     Feedback,
@@ -41,7 +41,7 @@ class Sample:
     joints: tuple[float, ...]
 
 
-class Tracker:
+class StatePort:
     """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
 
     def __init__(self, clock: Callable[[], float]) -> None:

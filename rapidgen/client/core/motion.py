@@ -1,7 +1,7 @@
 """What is common to everything under way: how a motion ends, and what is known of it. Sans-IO.
 
-A driver that tells PROGRESS is believed: its states end a motion here. `Run` (a trajectory that
-was sent whole) and `StreamRun` (one that is sent while it is executed) add the rest.
+A driver that tells PROGRESS is believed: its states end a motion here. `Download` (a trajectory
+that was sent whole) and `PointStream` (one that is sent while it is executed) add the rest.
 """
 
 from collections.abc import Sequence
@@ -11,10 +11,10 @@ from typing import Literal
 
 import numpy as np
 
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import Progress, State
+from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
-from rapidgen.client.group import Group
-from rapidgen.client.state import Progress, State
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message import messages
@@ -51,13 +51,13 @@ class Result:
     starved: int = 0
 
 
-class Motion:
+class CommandedMotion:
     """A motion from its first byte to its end. Its owner holds a lock or a loop."""
 
     way: Way = "download"
     starved = 0
 
-    def __init__(self, group: Group, tracker: Tracker, silence: float) -> None:
+    def __init__(self, group: Group, state_port: StatePort, silence: float) -> None:
         self.phase = Phase.SENDING
         self.result: Result | None = None
         self.error: RobotError | None = None
@@ -72,12 +72,12 @@ class Motion:
         self.stood: tuple[float, ...] | None = None
         """Joints where the controller says that the robot stood after a halt."""
         self._group = group
-        self._tracker = tracker
+        self._state_port = state_port
         self._silence = silence
-        self._before = tracker.progress
-        self._began = tracker.clock()
-        self._first_sample = tracker.samples
-        self._first_progress = tracker.progresses
+        self._before = state_port.progress
+        self._began = state_port.clock()
+        self._first_sample = state_port.samples
+        self._first_progress = state_port.progresses
 
     @property
     def is_over(self) -> bool:
@@ -121,9 +121,9 @@ class Motion:
             return
         self.phase = Phase.MOVING
         self.number = number
-        self._began = self._tracker.clock()
-        self._first_sample = self._tracker.samples
-        self._first_progress = self._tracker.progresses
+        self._began = self._state_port.clock()
+        self._first_sample = self._state_port.samples
+        self._first_progress = self._state_port.progresses
 
     def failed(self, error: RobotError) -> None:
         """It is over; only the first reason counts."""
@@ -145,8 +145,8 @@ class Motion:
 
     def _is_silent(self) -> bool:
         """Whether nobody sees the robot any more: then it is over."""
-        tracker = self._tracker
-        silent = tracker.clock() - tracker.heard
+        state_port = self._state_port
+        silent = state_port.clock() - state_port.heard
         if silent <= self._silence:
             return False
         self.failed(
@@ -156,8 +156,8 @@ class Motion:
                     f"no state for {silent:.1f} s while the robot may be moving",
                     "look at the robot; a STOP was sent",
                 ),
-                messages=tracker.messages,
-                states=tracker.states,
+                messages=state_port.messages,
+                states=state_port.states,
             )
         )
         return True
@@ -169,9 +169,9 @@ class Motion:
         was put together while the trajectory came in may have the number of this one and the
         state of the one before. So it counts from the second message after the acceptance.
         """
-        if self._tracker.progresses < self._first_progress + 2:
+        if self._state_port.progresses < self._first_progress + 2:
             return None
-        progress = self._tracker.progress
+        progress = self._state_port.progress
         if progress is None:
             return None
         if self.number is not None:
@@ -182,13 +182,13 @@ class Motion:
     def _by_progress(self, told: messages.Progress) -> None:
         match told.state:
             case TrajectoryState.DONE:
-                if self._tracker.status.in_motion is not TriState.TRUE:
+                if self._state_port.status.in_motion is not TriState.TRUE:
                     self._succeed()
             case TrajectoryState.STOPPED:
                 if not self.stopping:
                     text = "stopped by another request or by the operator"
                     self._end(MotionStopped, fault("RG631", text), reason_of(told.reason))
-                elif self._tracker.status.in_motion is not TriState.TRUE:
+                elif self._state_port.status.in_motion is not TriState.TRUE:
                     self.stopped()
             case TrajectoryState.FAILED | TrajectoryState.REFUSED:
                 point = self._index(told.point)
@@ -214,12 +214,12 @@ class Motion:
         return float(np.abs(np.array(state.joints) - self.goal).max())
 
     def _succeed(self) -> None:
-        state = self._tracker.state
+        state = self._state_port.state
         assert state is not None
         self.phase = Phase.OVER
         self.result = Result(
             points=self.total,
-            seconds=self._tracker.clock() - self._began,
+            seconds=self._state_port.clock() - self._began,
             planned_seconds=self.planned_seconds,
             deviation=self._deviation(state),
             state=state,
@@ -236,7 +236,7 @@ class Motion:
         point: int = -1,
         joint: int = 0,
     ) -> None:
-        tracker = self._tracker
+        state_port = self._state_port
         self.failed(
             kind(
                 diagnostic,
@@ -244,8 +244,8 @@ class Motion:
                 reached=self._reached(),
                 point=point,
                 joint=joint,
-                messages=tracker.messages,
-                states=tracker.states,
+                messages=state_port.messages,
+                states=state_port.states,
             )
         )
 

@@ -1,7 +1,9 @@
 """STOP, as generators run by both clients (see `effects`)."""
 
-from rapidgen.client.core import STOP_FRAME, Core
-from rapidgen.client.effects import Connect, Flow, Send, Wait
+from rapidgen.client.core.motion import CommandedMotion, Phase
+from rapidgen.client.core.request_port import PendingReply
+from rapidgen.client.core.robot import STOP_FRAME, Core
+from rapidgen.client.core.state import State
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
@@ -10,9 +12,7 @@ from rapidgen.client.errors import (
     StopFailed,
     fault,
 )
-from rapidgen.client.motion import Motion, Phase
-from rapidgen.client.state import State
-from rapidgen.client.talk import Pending
+from rapidgen.client.flows.effects import Flow, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Port, TriState
 
@@ -24,18 +24,18 @@ _STILL_SAMPLES = 5
 
 def stop_and_leave(core: Core) -> Flow[None]:
     """Write a STOP on every connection for it; nobody waits for the answer."""
-    for port, talk in core.talks.items():
+    for port, talk in core.ports.items():
         if not talk.is_open:
             continue
         try:
             yield from _send_stop(core, port)
         except RobotError as error:
-            core.tracker.note(str(error))
+            core.state_port.note(str(error))
 
 
-def _send_stop(core: Core, port: Port) -> Flow[Pending]:
-    if not core.talks[port].is_open:
-        yield Connect(port, core.timeouts.connect)
+def _send_stop(core: Core, port: Port) -> Flow[PendingReply]:
+    if not core.ports[port].is_open:
+        yield Open(port, core.timeouts.connect)
     pending = core.request_stop(port)
     yield Send(port, STOP_FRAME, core.timeouts.stop, urgent=True)
     return pending
@@ -49,8 +49,8 @@ def stop(core: Core) -> Flow[State | None]:
     motion port when there is no connection, and to the control port when that fails. None
     without a state connection (then nobody saw it stand). Raises StopFailed.
     """
-    run = core.run
-    talks = core.talks
+    run = core.motion
+    talks = core.ports
     control = talks[Port.CONTROL]
     limit = core.timeouts.stop
     heard = None
@@ -58,7 +58,7 @@ def stop(core: Core) -> Flow[State | None]:
         try:
             heard = yield from _send_stop(core, Port.CONTROL)
         except (ConnectionLost, RobotTimeout) as error:
-            core.tracker.note(f"STOP could not be sent over the control port ({error})")
+            core.state_port.note(f"STOP could not be sent over the control port ({error})")
     read = None
     if heard is None or talks[Port.MOTION].pending:
         try:
@@ -73,7 +73,7 @@ def stop(core: Core) -> Flow[State | None]:
     if heard is not None:
         yield Wait(lambda: heard.reply is not None or not control.is_open, limit / 2)
         if heard.reply is None and read is None:
-            core.tracker.note("the control port did not answer STOP")
+            core.state_port.note("the control port did not answer STOP")
             read = yield from _stop_behind_points(core)
     if read is not None:
         left = limit + PER_POINT * _unread(run)
@@ -94,7 +94,7 @@ def stop(core: Core) -> Flow[State | None]:
     return state
 
 
-def _stop_behind_points(core: Core) -> Flow[Pending]:
+def _stop_behind_points(core: Core) -> Flow[PendingReply]:
     """STOP over the motion port: carried out after what was sent there."""
     try:
         return (yield from _send_stop(core, Port.MOTION))
@@ -102,34 +102,34 @@ def _stop_behind_points(core: Core) -> Flow[Pending]:
         raise _not_stopped(core, f"STOP could not be sent ({error})") from error
 
 
-def _stop_as_a_stranger(core: Core) -> Flow[Pending | None]:
+def _stop_as_a_stranger(core: Core) -> Flow[PendingReply | None]:
     """STOP over the control port, though nobody asked who is there: the last that is left."""
     try:
         return (yield from _send_stop(core, Port.CONTROL))
     except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
-        core.tracker.note(str(error))
+        core.state_port.note(str(error))
         return None
 
 
-def _unread(run: Motion | None) -> int:
+def _unread(run: CommandedMotion | None) -> int:
     """Points that the controller may have to read before a STOP behind them."""
     return run.total if run is not None and run.phase is Phase.SENDING else 0
 
 
 def _until_standing(core: Core) -> Flow[State]:
-    tracker = core.tracker
-    seen = tracker.samples
+    state_port = core.state_port
+    seen = state_port.samples
 
     def stands() -> bool:
         # Two joint messages: the status between them was made after the STOP was answered.
-        if tracker.samples < seen + 2:
+        if state_port.samples < seen + 2:
             return False
         # After an emergency stop a driver may call a motion under way that stands.
-        still = tracker.samples >= seen + _STILL_SAMPLES and tracker.is_still(_STILL_SAMPLES)
-        return tracker.status.in_motion is not TriState.TRUE or still
+        still = state_port.samples >= seen + _STILL_SAMPLES and state_port.is_still(_STILL_SAMPLES)
+        return state_port.status.in_motion is not TriState.TRUE or still
 
     yield Wait(lambda: stands() or not core.state_open, core.timeouts.stop)
-    state = tracker.state
+    state = state_port.state
     if not stands() or state is None:
         raise _not_stopped(core, "STOP was answered, and the robot was not seen to stand")
     return state

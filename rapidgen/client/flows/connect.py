@@ -1,7 +1,7 @@
 """Connecting, and finding out who is there, as generators run by both clients (see `effects`)."""
 
-from rapidgen.client.core import Core
-from rapidgen.client.effects import Close, Connect, Flow, Send, Wait
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
@@ -9,7 +9,7 @@ from rapidgen.client.errors import (
     RobotTimeout,
     fault,
 )
-from rapidgen.client.group import Group
+from rapidgen.client.flows.effects import Close, Flow, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.messages import HELLO
 from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
@@ -22,12 +22,12 @@ def connect(core: Core) -> Flow[None]:
     """Open the connections and find out who is there."""
     core.fault = None
     limits = core.timeouts
-    yield Connect(Port.STATE, limits.connect)
+    yield Open(Port.STATE, limits.connect)
     asked = core.clock()
     if not core.plain:
         yield Send(Port.STATE, core.hello(), limits.send)
-    tracker = core.tracker
-    came = yield Wait(lambda: tracker.is_complete or not core.state_open, limits.state)
+    state_port = core.state_port
+    came = yield Wait(lambda: state_port.is_complete or not core.state_open, limits.state)
     if not core.state_open:
         raise core.disconnected()
     if not came:
@@ -41,12 +41,12 @@ def connect(core: Core) -> Flow[None]:
         )
     if not core.plain:
         left = max(0.0, asked + limits.hello - core.clock())
-        yield Wait(lambda: tracker.hello is not None or not core.state_open, left)
-    _meet(core, tracker.hello)
+        yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
+    _meet(core, state_port.hello)
     if core.watch:
         return
-    yield Connect(Port.MOTION, limits.connect)
-    if Feature.CONTROL in tracker.driver.features:
+    yield Open(Port.MOTION, limits.connect)
+    if Feature.CONTROL in state_port.driver.features:
         yield from _meet_control(core)
 
 
@@ -54,12 +54,12 @@ def _meet_control(core: Core) -> Flow[None]:
     """Open the control connection, if it is one of this very driver; else do without."""
     trouble = "another driver answers on the control port"
     try:
-        yield Connect(Port.CONTROL, core.timeouts.connect)
-        talk = core.talks[Port.CONTROL]
+        yield Open(Port.CONTROL, core.timeouts.connect)
+        talk = core.ports[Port.CONTROL]
         pending = talk.request(HELLO.number)
         yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
         yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.hello)
-        known, told = core.tracker.hello, pending.reply
+        known, told = core.state_port.hello, pending.reply
         assert isinstance(known, messages.HelloReply)
         if isinstance(told, messages.HelloReply) and told.same_driver(known):
             return
@@ -100,7 +100,7 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
 
 def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
     """Connect again if a connection was lost and reconnecting was told; nothing is re-sent."""
-    if core.state_open and (core.talks[Port.MOTION].is_open or not to_move):
+    if core.state_open and (core.ports[Port.MOTION].is_open or not to_move):
         return
     if core.fault is None or core.reconnect <= 0:
         raise core.disconnected()
@@ -112,5 +112,5 @@ def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
         except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
             if core.clock() + _RETRY >= deadline:
                 raise
-            core.tracker.note(str(error))
+            core.state_port.note(str(error))
         yield Wait(lambda: False, _RETRY)

@@ -10,27 +10,25 @@ from typing import Self, TypeVar
 
 import numpy.typing as npt
 
-from rapidgen.client import (
-    connect_flows,
-    control_flows,
-    flows,
-    state_flows,
-    stop_flows,
-    stream_flows,
-)
 from rapidgen.client.address import Address
 from rapidgen.client.channels import Channel, Reader
-from rapidgen.client.core import STOP_FRAME, Core, Timeouts
-from rapidgen.client.effects import Close, Connect, Effect, Flow, Wait
+from rapidgen.client.core.feed import Feed, batches
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import CommandedMotion, Result, Way
+from rapidgen.client.core.robot import STOP_FRAME, Core, Timeouts
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.core.view import StreamView, View
 from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
-from rapidgen.client.feed import Feed, batches
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Result, Way
-from rapidgen.client.recording import Recording
-from rapidgen.client.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.flows import connect as connect_flows
+from rapidgen.client.flows import control as control_flows
+from rapidgen.client.flows import download as flows
+from rapidgen.client.flows import state as state_flows
+from rapidgen.client.flows import stop as stop_flows
+from rapidgen.client.flows import stream as stream_flows
+from rapidgen.client.flows.effects import Close, Effect, Flow, Open, Wait
+from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message.spec import Port
@@ -97,7 +95,7 @@ class Robot:
 
     def close(self) -> None:
         """Close all connections. A motion under way is stopped first."""
-        run = self._core.run
+        run = self._core.motion
         try:
             if run is not None and not run.is_over and Port.MOTION in self._channels:
                 self.stop()
@@ -133,7 +131,7 @@ class Robot:
     @property
     def driver(self) -> Driver:
         """Who answered, and what it cannot do."""
-        return self._core.tracker.driver
+        return self._core.state_port.driver
 
     @property
     def group(self) -> Group:
@@ -146,7 +144,7 @@ class Robot:
     def messages(self) -> tuple[tuple[float, str], ...]:
         """The last messages received, as (time, text)."""
         with self._changed:
-            return self._core.tracker.messages
+            return self._core.state_port.messages
 
     # State
 
@@ -154,7 +152,7 @@ class Robot:
     def state(self) -> State:
         """The newest state. Raises ConnectionLost before the first."""
         with self._changed:
-            state = self._core.tracker.state
+            state = self._core.state_port.state
             if state is None:
                 raise self._core.disconnected()
             return state
@@ -174,22 +172,22 @@ class Robot:
         return self._run(flow)
 
     @contextmanager
-    def recording(self) -> Iterator[Recording]:
+    def recording(self) -> Iterator[JointRecording]:
         """Keep every joint message while the block runs."""
         with self._changed:
-            recording = Recording(self.group)
-            self._core.tracker.listeners.append(recording.add)
+            recording = JointRecording(self.group)
+            self._core.state_port.listeners.append(recording.add)
         try:
             yield recording
         finally:
             with self._changed:
-                self._core.tracker.listeners.remove(recording.add)
+                self._core.state_port.listeners.remove(recording.add)
 
     @property
     def events(self) -> tuple[Event, ...]:
         """The last entries of the controller's event log, where the driver tells them."""
         with self._changed:
-            return tuple(self._core.tracker.events)
+            return tuple(self._core.state_port.events)
 
     def next_event(self, timeout: float | None = None, *, after: Event | None = None) -> Event:
         """The next event, or the one behind `after`. Raises RobotTimeout, ConnectionLost."""
@@ -291,7 +289,7 @@ class Robot:
                 channel.offer(lambda port=port: core.due(port))  # type: ignore[misc]
             except RobotError as error:
                 # The reader hears of it too.
-                core.tracker.note(str(error))
+                core.state_port.note(str(error))
 
     def _tick(self) -> None:
         with self._changed:
@@ -305,7 +303,7 @@ class Robot:
         if isinstance(effect, Close):
             self._close(effect.port)
             return True
-        if isinstance(effect, Connect):
+        if isinstance(effect, Open):
             self._connect(effect)
             return True
         channel = self._channels.get(effect.port)
@@ -339,11 +337,11 @@ class Robot:
     def _close(self, port: Port) -> None:
         with self._changed:
             channel = self._channels.pop(port, None)
-            self._core.talks[port].is_open = False
+            self._core.ports[port].is_open = False
             if channel is not None and self._reader is not None:
                 self._reader.remove(channel)
 
-    def _connect(self, effect: Connect) -> None:
+    def _connect(self, effect: Open) -> None:
         channel = Channel(self.address, effect.port, effect.timeout)
         with self._changed:
             if self._reader is None:
@@ -383,7 +381,7 @@ class Robot:
 class Execution(View):
     """A trajectory that the controller has taken."""
 
-    def __init__(self, robot: Robot, run: Motion) -> None:
+    def __init__(self, robot: Robot, run: CommandedMotion) -> None:
         super().__init__(run)
         self._robot = robot
 

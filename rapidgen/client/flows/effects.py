@@ -1,7 +1,7 @@
 """What a flow may ask of the client that runs it: the steps between the client's decisions.
 
 A flow is a generator: it yields what it needs (a connection, bytes sent, a wait) and is resumed
-with the outcome: `Wait` gives whether the condition came true in time; a failed `Connect` or
+with the outcome: `Wait` gives whether the condition came true in time; a failed `Open` or
 `Send` is thrown in as RobotError. When the caller is interrupted (Ctrl-C, cancellation) the
 interruption is thrown in; flows that wait for a motion answer it with a STOP.
 """
@@ -11,7 +11,7 @@ from collections.abc import Callable, Generator
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
-from rapidgen.client.motion import Motion
+from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.wire.simple_message.spec import Port
 
 T = TypeVar("T")
@@ -19,7 +19,7 @@ INTERRUPTIONS = (KeyboardInterrupt, CancelledError)
 
 
 @dataclass(frozen=True, slots=True)
-class Connect:
+class Open:
     """Open a connection."""
 
     port: Port
@@ -37,7 +37,7 @@ class Send:
     data: bytes
     timeout: float
     urgent: bool = False
-    run: Motion | None = None
+    run: CommandedMotion | None = None
 
     @property
     def is_stopped(self) -> bool:
@@ -60,5 +60,5 @@ class Close:
     port: Port
 
 
-Effect = Connect | Send | Wait | Close
+Effect = Open | Send | Wait | Close
 Flow = Generator[Effect, Any, T]

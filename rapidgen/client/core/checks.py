@@ -1,7 +1,7 @@
 """A trajectory against a robot: every fault at once, before a byte is sent.
 
-The result is a Plan, for a trajectory that is there as a whole, or a Piece of one that comes in
-pieces: the axis values and durations that go onto the wire.
+The result is a CheckedTrajectory, for one that is there as a whole, or CheckedPoints of one that
+comes in pieces: the axis values and durations that go onto the wire.
 """
 
 from collections.abc import Sequence
@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.limits import ROUNDING
+from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory
-from rapidgen.client.group import Group
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, suggest
 from rapidgen.wire.simple_message.spec import PAIR_LIMIT, PAIR_SCALE
@@ -23,7 +23,7 @@ _TIME_ROUNDING = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Plan:
+class CheckedTrajectory:
     """What is sent: `wire` (m, k) axis values and `durations` (m,) s, m >= 2.
 
     A single point is there twice, as simple_message wants it.
@@ -41,7 +41,7 @@ class Plan:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Before:
+class LastPoint:
     """What a piece goes on from: points there were, time s and axis values (k,) of the last."""
 
     points: int
@@ -50,13 +50,13 @@ class Before:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Piece:
+class CheckedPoints:
     """Points of a stream: `wire` (n, k) axis values and `durations` (n,) s, on the steps of 1e-6
     that the wire has, inside the limits."""
 
     wire: Array
     durations: Array
-    last: Before
+    last: LastPoint
     warnings: tuple[Diagnostic, ...]
 
 
@@ -67,7 +67,7 @@ def plan(
     start: Sequence[float] | None = None,
     capacity: int | None = None,
     goes_to_single: bool = False,
-) -> Plan:
+) -> CheckedTrajectory:
     """Check everything; `start` are the ten axis values of where the robot stands.
 
     A single point without a time of its own is taken only where the driver goes to such a
@@ -89,12 +89,12 @@ def plan(
         # A rapidgen driver goes by the second frame's duration, abb_driver takes both.
         durations = np.array([first, first if goes_to_single else group.policy.min_segment])
     _raise_errors(found)
-    return Plan(ordered, wire, durations, tuple(found))
+    return CheckedTrajectory(ordered, wire, durations, tuple(found))
 
 
 def piece(
-    trajectory: Trajectory, group: Group, *, before: Before | None, start: Sequence[float] | None
-) -> Piece:
+    trajectory: Trajectory, group: Group, *, before: LastPoint | None, start: Sequence[float] | None
+) -> CheckedPoints:
     """Check points that go on from `before`; without one they are the first of a stream, and
     the robot stands at `start` (ten axis values). Times count from the stream's beginning.
 
@@ -117,11 +117,11 @@ def piece(
     least = np.rint(np.minimum(durations, group.policy.min_segment) * PAIR_SCALE)
     wire = on_the_grid(wire, group)
     points = len(ordered) + (before.points if before else 0)
-    last = Before(points, float(times[-1]), wire[-1])
-    return Piece(wire, np.maximum(steps, least) / PAIR_SCALE, last, tuple(found))
+    last = LastPoint(points, float(times[-1]), wire[-1])
+    return CheckedPoints(wire, np.maximum(steps, least) / PAIR_SCALE, last, tuple(found))
 
 
-def fits_a_stream(plan: Plan) -> bool:
+def fits_a_stream(plan: CheckedTrajectory) -> bool:
     """Whether the wire's pairs can hold every value of it."""
     largest: float = max(np.abs(plan.wire).max(), plan.durations.max())
     return bool(largest <= PAIR_LIMIT)
@@ -152,7 +152,7 @@ def _content(
     wire: Array,
     durations: Array,
     start: Sequence[float] | None,
-    before: Before | None,
+    before: LastPoint | None,
 ) -> list[Diagnostic]:
     """What is the same of a whole trajectory and of a piece."""
     origin = before.points if before else 0
@@ -248,7 +248,7 @@ def _finite(trajectory: Trajectory, group: Group, origin: int) -> list[Diagnosti
     return found
 
 
-def _times(trajectory: Trajectory, before: Before | None) -> list[Diagnostic]:
+def _times(trajectory: Trajectory, before: LastPoint | None) -> list[Diagnostic]:
     times = trajectory.times
     origin = before.points if before else 0
     if not np.isfinite(times).all():
@@ -317,7 +317,7 @@ def _speeds(
     wire: Array,
     durations: Array,
     start: Sequence[float] | None,
-    before: Before | None,
+    before: LastPoint | None,
 ) -> list[Diagnostic]:
     """Segment speeds; the approach to a first point with a time of its own counts as one."""
     if before is not None:
@@ -397,7 +397,7 @@ def _short(trajectory: Trajectory, group: Group, durations: Array, origin: int) 
 
 
 def _fits(
-    trajectory: Trajectory, wire: Array, durations: Array, before: Before | None
+    trajectory: Trajectory, wire: Array, durations: Array, before: LastPoint | None
 ) -> list[Diagnostic]:
     values = np.concatenate([wire, durations[:, None]], axis=1)
     points = np.flatnonzero((np.abs(values) > PAIR_LIMIT).any(axis=1))

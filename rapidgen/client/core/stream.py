@@ -9,7 +9,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rapidgen.client.checks import Before, Piece
+from rapidgen.client.core.checks import CheckedPoints, LastPoint
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import CommandedMotion, Way, place_of, reason_of, reason_text
+from rapidgen.client.core.request_port import PendingReply
+from rapidgen.client.core.state import Progress, trajectory_state
+from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import (
     MotionStopped,
     ProtocolError,
@@ -17,11 +22,6 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
     fault,
 )
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Way, place_of, reason_of, reason_text
-from rapidgen.client.state import Progress, trajectory_state
-from rapidgen.client.talk import Pending
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
@@ -33,12 +33,12 @@ from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, Trajectory
 class _Flight:
     """A batch on its way: `end` is the number of points that it completes."""
 
-    pending: Pending
+    pending: PendingReply
     end: int
     sent: float
 
 
-class StreamRun(Motion):
+class PointStream(CommandedMotion):
     """A stream from its first point to its end."""
 
     way: Way = "stream"
@@ -48,13 +48,13 @@ class StreamRun(Motion):
         number: int,
         hello: messages.HelloReply,
         group: Group,
-        tracker: Tracker,
+        state_port: StatePort,
         *,
         silence: float,
         reply: float,
     ) -> None:
         """`number` is the client's of this stream; `reply` s that a batch may stay unanswered."""
-        super().__init__(group, tracker, silence)
+        super().__init__(group, state_port, silence)
         self.stream = number
         self.is_ended = False
         """The caller said that nothing follows."""
@@ -84,7 +84,7 @@ class StreamRun(Motion):
         self._state = TrajectoryState.RECEIVING
         self._seconds = 0.0
         self._longest = 0.0
-        self._last: Before | None = None
+        self._last: LastPoint | None = None
 
     @property
     def total(self) -> int:
@@ -108,7 +108,7 @@ class StreamRun(Motion):
         return self._longest
 
     @property
-    def last(self) -> Before | None:
+    def last(self) -> LastPoint | None:
         """What the next points go on from."""
         return self._last
 
@@ -124,7 +124,7 @@ class StreamRun(Motion):
 
     # What the caller gives
 
-    def put(self, piece: Piece) -> None:
+    def put(self, piece: CheckedPoints) -> None:
         """Points to be sent, checked before."""
         self._queue.append(pack_points(piece.durations, piece.wire))
         self._last = piece.last
@@ -157,10 +157,10 @@ class StreamRun(Motion):
     def _is_stuck(self) -> bool:
         """Whether the robot stands with a ring as full as it gets: it shall start with that,
         though the driver likes to have more seconds."""
-        moves = self._tracker.status.in_motion is TriState.TRUE
+        moves = self._state_port.status.in_motion is TriState.TRUE
         return not (self._flights or moves or self._is_filled or self.is_paused)
 
-    def next_frame(self, pending: Pending) -> bytes:
+    def next_frame(self, pending: PendingReply) -> bytes:
         """The batch that is due, whose reply is `pending`."""
         size = min(self.backlog, self.batch, self._room_until - self._sent)
         words = self._take(size)
@@ -177,7 +177,7 @@ class StreamRun(Motion):
             self._is_filled = True
         frame = points_frame(self.stream, self._sent, words, flags=flags)
         self._sent += size
-        self._flights.append(_Flight(pending, self._sent, self._tracker.clock()))
+        self._flights.append(_Flight(pending, self._sent, self._state_port.clock()))
         return frame
 
     def _take(self, size: int) -> Words:
@@ -201,7 +201,7 @@ class StreamRun(Motion):
             self._answered(flight.end, flight.pending.reply)
         if self.is_over:
             return
-        waited = self._tracker.clock() - self._flights[0].sent if self._flights else 0.0
+        waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
         if waited > self._patience:
             self.failed(
                 RobotTimeout(
@@ -210,8 +210,8 @@ class StreamRun(Motion):
                         f"the controller did not answer a batch of points within {waited:.1f} s",
                         "a STOP was sent; look at the robot",
                     ),
-                    messages=self._tracker.messages,
-                    states=self._tracker.states,
+                    messages=self._state_port.messages,
+                    states=self._state_port.states,
                 )
             )
             return
@@ -238,8 +238,8 @@ class StreamRun(Motion):
                             f"a batch of points was answered with {reply}",
                             "a STOP was sent; look at the robot",
                         ),
-                        messages=self._tracker.messages,
-                        states=self._tracker.states,
+                        messages=self._state_port.messages,
+                        states=self._state_port.states,
                     )
                 )
 
@@ -266,14 +266,14 @@ class StreamRun(Motion):
                 reason=reason_of(reason),
                 point=point,
                 joint=joint,
-                messages=self._tracker.messages,
-                states=self._tracker.states,
+                messages=self._state_port.messages,
+                states=self._state_port.states,
             )
         )
 
     def _by_progress(self, told: messages.Progress) -> None:
-        if self._tracker.progresses != self._looked_at:
-            self._looked_at = self._tracker.progresses
+        if self._state_port.progresses != self._looked_at:
+            self._looked_at = self._state_port.progresses
             self._counts(told.planned, told.reached)
             # A point that was given to the planner has made room for another one.
             self._has_room(self._planned + self._ring)
@@ -301,7 +301,7 @@ class StreamRun(Motion):
         self._state = now
         if now is TrajectoryState.STARVED:
             self.starved += 1
-            self._tracker.note(f"the stream ran out of points at point {self._reached_points}")
+            self._state_port.note(f"the stream ran out of points at point {self._reached_points}")
 
     def _index(self, point: int) -> int:
         return unwrapped(point, self._accepted) if point >= 0 else point

@@ -5,11 +5,11 @@ from itertools import islice
 
 import numpy as np
 
-from rapidgen.client.checks import Before
-from rapidgen.client.motion import Way
-from rapidgen.client.run import Run
-from rapidgen.client.state import Progress
-from rapidgen.client.stream import StreamRun
+from rapidgen.client.core.checks import LastPoint
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.motion import Way
+from rapidgen.client.core.state import Progress
+from rapidgen.client.core.stream import PointStream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import TrajectoryState
 
@@ -22,9 +22,9 @@ class Feed:
         self.names = tuple(names)
         self.may_download = may_download
         self.way: Way | None = None
-        self.run: StreamRun | Run | None = None
+        self.run: PointStream | Download | None = None
         self.is_ended = False
-        self.last: Before | None = None
+        self.last: LastPoint | None = None
         """What the next points go on from."""
         self._kept: list[Trajectory] = []
 

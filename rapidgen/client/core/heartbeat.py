@@ -1,6 +1,6 @@
 """When the controller must hear from this client, while something moves. Sans-IO."""
 
-from rapidgen.client.talk import Pending
+from rapidgen.client.core.request_port import PendingReply
 from rapidgen.wire.simple_message import messages
 
 _OFTEN = 4
@@ -9,7 +9,7 @@ _PERIOD = 0.5
 """... and s between two, at most: a simulation's clock may run faster than this one."""
 
 
-class Heartbeat:
+class HeartbeatSchedule:
     """Begins with a motion and ends with it; the controller stops the robot when one is late.
 
     At most one is unanswered, so that a controller that does not read is not written to.
@@ -20,7 +20,7 @@ class Heartbeat:
         self.timeout = timeout
         self._sent = 0.0
         self._in_force = False
-        self._pending: Pending | None = None
+        self._pending: PendingReply | None = None
 
     def forget(self) -> None:
         """Nothing more is awaited on this connection, or it is a new one.
@@ -45,7 +45,7 @@ class Heartbeat:
             return None
         return self.timeout
 
-    def sent(self, now: float, timeout: float, pending: Pending) -> None:
+    def sent(self, now: float, timeout: float, pending: PendingReply) -> None:
         """It was."""
         self._sent = now
         self._in_force = timeout > 0

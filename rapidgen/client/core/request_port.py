@@ -8,7 +8,7 @@ from rapidgen.wire.simple_message.declaration import Content
 
 
 @dataclass(slots=True, eq=False)
-class Pending:
+class PendingReply:
     """A request that waits for its reply."""
 
     number: int
@@ -16,16 +16,16 @@ class Pending:
 
 
 @dataclass(slots=True)
-class Conversation:
+class RequestPort:
     """What is under way on one connection."""
 
     splitter: FrameSplitter = field(default_factory=FrameSplitter)
-    pending: deque[Pending] = field(default_factory=deque)
+    pending: deque[PendingReply] = field(default_factory=deque)
     is_open: bool = False
 
-    def request(self, number: int) -> Pending:
+    def request(self, number: int) -> PendingReply:
         """Expect a reply of this message type."""
-        waiting = Pending(number)
+        waiting = PendingReply(number)
         self.pending.append(waiting)
         return waiting
 

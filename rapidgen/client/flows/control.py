@@ -1,10 +1,10 @@
 """What goes over the control port, as generators run by both clients (see `effects`)."""
 
-from rapidgen.client.connect_flows import alive
-from rapidgen.client.core import Core
-from rapidgen.client.effects import Flow, Wait
+from rapidgen.client.core.motion import reason_of, reason_text
+from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout, fault
-from rapidgen.client.motion import reason_of, reason_text
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.declaration import Content
@@ -65,10 +65,10 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
 def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
-    talk = core.talks[Port.CONTROL]
+    talk = core.ports[Port.CONTROL]
     if not talk.is_open:
-        has_port = Feature.CONTROL in core.tracker.driver.features
-        why = core.tracker.driver.control_fault or "it was lost"
+        has_port = Feature.CONTROL in core.state_port.driver.features
+        why = core.state_port.driver.control_fault or "it was lost"
         raise NotSupported(
             fault(
                 "RG624",

@@ -9,7 +9,15 @@ from dataclasses import dataclass, replace
 from typing import TypedDict
 
 from rapidgen import __version__
-from rapidgen.client.checks import Plan, fits_a_stream, plan
+from rapidgen.client.core.checks import CheckedTrajectory, fits_a_stream, plan
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.group import PLAIN_CAPACITY, Group
+from rapidgen.client.core.heartbeat import HeartbeatSchedule
+from rapidgen.client.core.motion import Way, place_of, reason_of, reason_text
+from rapidgen.client.core.request_port import PendingReply, RequestPort
+from rapidgen.client.core.state import State
+from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.core.stream import PointStream
 from rapidgen.client.errors import (
     ConnectionLost,
     NotReady,
@@ -19,14 +27,6 @@ from rapidgen.client.errors import (
     TrajectoryRefused,
     fault,
 )
-from rapidgen.client.group import PLAIN_CAPACITY, Group
-from rapidgen.client.heartbeat import Heartbeat
-from rapidgen.client.motion import Way, place_of, reason_of, reason_text
-from rapidgen.client.run import Run
-from rapidgen.client.state import State
-from rapidgen.client.stream import StreamRun
-from rapidgen.client.talk import Conversation, Pending
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
 from rapidgen.wire.simple_message.codec import number_of
@@ -113,18 +113,18 @@ class Core:
         self.clock = clock
         self.plain = plain
         self.configured = group
-        self.tracker = Tracker(clock)
+        self.state_port = StatePort(clock)
         self.state_open = False
-        self.talks = {Port.MOTION: Conversation(), Port.CONTROL: Conversation()}
+        self.ports = {Port.MOTION: RequestPort(), Port.CONTROL: RequestPort()}
         self.fault: RobotError | None = None
         """Why the last connection was lost."""
-        self.run: Run | StreamRun | None = None
+        self.motion: Download | PointStream | None = None
         self.override = 1.0
         """Share of the programmed speed that was asked for."""
-        self.heartbeat = Heartbeat(timeouts.heartbeat)
-        self._stopped_blindly: Run | StreamRun | None = None
+        self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
+        self._stopped_blindly: Download | PointStream | None = None
         self._streams = 0
-        self._outbox: deque[tuple[Pending, bytes]] = deque()
+        self._outbox: deque[tuple[PendingReply, bytes]] = deque()
         self._group: Group | None = None
         if group is not None:
             self.use(group)
@@ -134,16 +134,16 @@ class Core:
     @property
     def is_connected(self) -> bool:
         """Whether all connections stand that this client wants."""
-        return self.state_open and (self.watch or self.talks[Port.MOTION].is_open)
+        return self.state_open and (self.watch or self.ports[Port.MOTION].is_open)
 
     def opened(self, port: Port) -> None:
         """A connection stands."""
         self.fault = None
         if port is Port.STATE:
-            self.tracker.restart()
+            self.state_port.restart()
             self.state_open = True
         else:
-            self.talks[port] = Conversation(is_open=True)
+            self.ports[port] = RequestPort(is_open=True)
         if port is Port.CONTROL:
             self.heartbeat.forget()
             self._outbox.clear()
@@ -152,7 +152,7 @@ class Core:
         """Take bytes; False when the connection must be closed (it cannot be followed)."""
         try:
             if port is Port.STATE:
-                self.tracker.feed(data)
+                self.state_port.feed(data)
             else:
                 self._replies(port, data)
         except FramingError as error:
@@ -167,25 +167,25 @@ class Core:
         return True
 
     def _replies(self, port: Port, data: bytes) -> None:
-        talk = self.talks[port]
+        talk = self.ports[port]
         talk.splitter.feed(data)
         while (frame := talk.splitter.next()) is not None:
-            self.tracker.keep(frame)
+            self.state_port.keep(frame)
             try:
                 content = decode(frame)
             except ContentError as error:
-                self.tracker.note(str(error))
+                self.state_port.note(str(error))
                 continue
             if isinstance(content, messages.Stopped):
                 self._stood(content)
                 continue
             if frame.comm != Comm.REPLY or not talk.answered(frame.number, content):
-                self.tracker.note("nobody asked for this message")
+                self.state_port.note("nobody asked for this message")
 
     def _stood(self, told: messages.Stopped) -> None:
         """The controller says where the robot stands after a halt."""
-        if self.run is not None and self._group is not None:
-            self.run.stood = self._group.from_wire(told.joints)
+        if self.motion is not None and self._group is not None:
+            self.motion.stood = self._group.from_wire(told.joints)
 
     def lost(self, port: Port, why: str) -> None:
         """A connection broke."""
@@ -200,20 +200,20 @@ class Core:
         if port is Port.STATE:
             self.state_open = False
         else:
-            self.talks[port].is_open = False
+            self.ports[port].is_open = False
         self.fault = error
         if port is Port.CONTROL:
             # Takes nothing from a motion under way; the controller stops it by itself where it
             # awaited a heartbeat there.
             self.heartbeat.forget()
-        elif self.run is not None:
-            self.run.failed(error)
+        elif self.motion is not None:
+            self.motion.failed(error)
 
     def closed(self) -> None:
         """The caller closed all connections."""
         self.fault = None
         self.state_open = False
-        for talk in self.talks.values():
+        for talk in self.ports.values():
             talk.is_open = False
 
     def disconnected(self) -> RobotError:
@@ -222,7 +222,7 @@ class Core:
 
     def poll(self) -> None:
         """Let what is under way look at the newest state and at the clock."""
-        run = self.run
+        run = self.motion
         if run is None:
             return
         if not run.is_over and self.heartbeat.is_late(self.clock()):
@@ -243,46 +243,46 @@ class Core:
     @property
     def is_busy(self) -> bool:
         """Whether `due` must be asked now and then, though nothing comes in."""
-        run = self.run
+        run = self.motion
         return (run is not None and not run.is_over) or self.heartbeat.is_awaited
 
     def due(self, port: Port) -> bytes | None:
         """The next frame for this connection, None: nothing. It is taken for sent."""
-        if port not in self.talks or not self.talks[port].is_open:
+        if port not in self.ports or not self.ports[port].is_open:
             return None
         if port is Port.CONTROL:
             if self._outbox:
                 pending, frame = self._outbox.popleft()
-                self.talks[port].pending.append(pending)
+                self.ports[port].pending.append(pending)
                 return frame
             return self._beat()
-        run = self.run
-        if isinstance(run, StreamRun) and run.has_due:
-            return run.next_frame(self.talks[port].request(POINTS.number))
+        run = self.motion
+        if isinstance(run, PointStream) and run.has_due:
+            return run.next_frame(self.ports[port].request(POINTS.number))
         return None
 
     def _beat(self) -> bytes | None:
         if self.heartbeat.is_refused:
-            self.tracker.note("the controller takes no heartbeat")
+            self.state_port.note("the controller takes no heartbeat")
             self.heartbeat.timeout = 0.0
             self.heartbeat.forget()
         now = self.clock()
-        moves = self.run is not None and not self.run.is_over
+        moves = self.motion is not None and not self.motion.is_over
         timeout = self.heartbeat.due(now, moves=moves)
         if timeout is None:
             return None
-        pace = self.tracker.pace if self.simulated else 1.0
+        pace = self.state_port.pace if self.simulated else 1.0
         if pace is None:
             return None
         if pace > _SIMULATION:
             # A stall of this machine shortens the time by so much more; no robot is in danger.
             pace *= _SLACK
-        self.heartbeat.sent(now, timeout, self.talks[Port.CONTROL].request(HEARTBEAT.number))
+        self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
         return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
 
-    def post(self, content: Content) -> Pending:
+    def post(self, content: Content) -> PendingReply:
         """A request for the control port; it goes out next."""
-        pending = Pending(number_of(content))
+        pending = PendingReply(number_of(content))
         self._outbox.append((pending, encode(content, Comm.REQUEST)))
         return pending
 
@@ -291,14 +291,14 @@ class Core:
 
         Told once for each motion; the requests are taken for made.
         """
-        run = self.run
+        run = self.motion
         blind = ConnectionLost | RobotTimeout | ProtocolError
         if run is None or run is self._stopped_blindly or not isinstance(run.error, blind):
             return []
         self._stopped_blindly = run
         # Should no STOP get through, the controller misses the heartbeat.
         self.heartbeat.forget()
-        ports = [port for port, talk in self.talks.items() if talk.is_open]
+        ports = [port for port, talk in self.ports.items() if talk.is_open]
         for port in ports:
             self.request_stop(port)
         return ports
@@ -313,16 +313,16 @@ class Core:
     def use(self, group: Group) -> None:
         """Take these names, units and limits."""
         self._group = group
-        self.tracker.use(group)
+        self.state_port.use(group)
 
     def evidence(self) -> Evidence:
         """The last messages and states, for an exception."""
-        return {"messages": self.tracker.messages, "states": self.tracker.states}
+        return {"messages": self.state_port.messages, "states": self.state_port.states}
 
     def without_control(self, why: str) -> None:
         """There is no control connection, though the driver has the port."""
-        self.tracker.note(why)
-        self.tracker.driver = replace(self.tracker.driver, control_fault=why)
+        self.state_port.note(why)
+        self.state_port.driver = replace(self.state_port.driver, control_fault=why)
 
     def hello(self, *, subscribe: bool = True) -> bytes:
         """The request that asks who is there."""
@@ -334,7 +334,7 @@ class Core:
     @property
     def capacity(self) -> int:
         """Points of one trajectory: what the driver told, else abb_driver's."""
-        hello = self.tracker.driver.hello
+        hello = self.state_port.driver.hello
         if hello is not None:
             return hello.capacity
         # Who does not say how many it holds may be abb_driver, which drops the others.
@@ -343,7 +343,7 @@ class Core:
     @property
     def can_stream(self) -> bool:
         """Whether the driver takes points while it executes those before."""
-        hello = self.tracker.driver.hello
+        hello = self.state_port.driver.hello
         return (
             hello is not None and Feature.STREAMING in Feature(hello.features) and hello.batch > 0
         )
@@ -351,12 +351,12 @@ class Core:
     def way_for(self, trajectory: Trajectory) -> Way:
         """How a trajectory goes to the controller when nobody says: one that the ring does not
         hold is streamed, so that motion need not wait for the last point."""
-        hello = self.tracker.driver.hello
+        hello = self.state_port.driver.hello
         if not self.can_stream or hello is None or len(trajectory) <= hello.ring:
             return "download"
         return "stream" if fits_a_stream(self.plan(trajectory)) else "download"
 
-    def plan(self, trajectory: Trajectory, way: Way | None = None) -> Plan:
+    def plan(self, trajectory: Trajectory, way: Way | None = None) -> CheckedTrajectory:
         """Check a trajectory: for `download` it must be no longer than the driver holds.
 
         Raises InvalidTrajectory, NotReady (no state yet).
@@ -367,13 +367,13 @@ class Core:
             self.known_group,
             start=self.start,
             capacity=self.capacity if ends else len(trajectory),
-            goes_to_single=self.tracker.driver.is_rapidgen,
+            goes_to_single=self.state_port.driver.is_rapidgen,
         )
 
     @property
     def start(self) -> tuple[float, ...]:
         """The ten axis values where the robot stands. Raises NotReady before they came."""
-        start = self.tracker.wire_joints
+        start = self.state_port.wire_joints
         if start is None:
             raise _unknown()
         return start
@@ -387,7 +387,7 @@ class Core:
 
     def hindrances(self) -> list[str]:
         """Why the robot cannot move now, by its own word."""
-        status = self.tracker.status
+        status = self.state_port.status
         pairs = (
             (status.e_stopped is TriState.TRUE, "an emergency stop is active"),
             (status.drives is TriState.FALSE, "the motors are off"),
@@ -400,7 +400,7 @@ class Core:
 
     def ready(self) -> None:
         """Raise NotReady when the robot says that it cannot move, or moves already."""
-        if self.run is not None and not self.run.is_over:
+        if self.motion is not None and not self.motion.is_over:
             raise NotReady(
                 fault("RG622", "a trajectory is under way", "wait for its result, or stop()")
             )
@@ -412,29 +412,31 @@ class Core:
                 **self.evidence(),
             )
 
-    def begin(self, plan: Plan) -> Run:
+    def begin(self, plan: CheckedTrajectory) -> Download:
         """A run of this plan, from now on the one under way."""
-        self.run = Run(plan, self.known_group, self.tracker, silence=self.timeouts.silence)
+        self.motion = Download(
+            plan, self.known_group, self.state_port, silence=self.timeouts.silence
+        )
         self.override = 1.0
-        return self.run
+        return self.motion
 
-    def begin_stream(self) -> StreamRun:
+    def begin_stream(self) -> PointStream:
         """A stream, from now on the motion under way."""
-        hello = self.tracker.driver.hello
+        hello = self.state_port.driver.hello
         assert hello is not None
         self._streams = self._streams % (INDEX_WRAP - 1) + 1
-        self.run = StreamRun(
+        self.motion = PointStream(
             self._streams,
             hello,
             self.known_group,
-            self.tracker,
+            self.state_port,
             silence=self.timeouts.silence,
             reply=self.timeouts.reply,
         )
         self.override = 1.0
-        return self.run
+        return self.motion
 
-    def answered(self, run: Run, reply: Content) -> None:
+    def answered(self, run: Download, reply: Content) -> None:
         """The reply to the end frame has come: accepted, or TrajectoryRefused is raised."""
         if isinstance(reply, messages.Accepted):
             run.accepted(reply.trajectory)
@@ -461,11 +463,11 @@ class Core:
             **self.evidence(),
         )
 
-    def request_stop(self, port: Port) -> Pending:
+    def request_stop(self, port: Port) -> PendingReply:
         """A STOP is about to be sent on this connection."""
-        if self.run is not None:
-            self.run.stopping = True
-        return self.talks[port].request(JOINT_TRAJ_PT.number)
+        if self.motion is not None:
+            self.motion.stopping = True
+        return self.ports[port].request(JOINT_TRAJ_PT.number)
 
 
 def _unknown() -> NotReady:

@@ -2,21 +2,21 @@
 
 from collections.abc import Callable
 
-from rapidgen.client.connect_flows import alive
-from rapidgen.client.core import Core
-from rapidgen.client.effects import INTERRUPTIONS, Flow, Send, Wait
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.motion import CommandedMotion, Result
+from rapidgen.client.core.request_port import PendingReply
+from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import RobotError, RobotTimeout, fault
-from rapidgen.client.motion import Motion, Result
-from rapidgen.client.run import Run
-from rapidgen.client.stop_flows import PER_POINT, stop_and_leave
-from rapidgen.client.talk import Pending
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
+from rapidgen.client.flows.stop import PER_POINT, stop_and_leave
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
 from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
 from rapidgen.wire.simple_message.spec import Port, TrajectoryState
 
 
-def execute(core: Core, trajectory: Trajectory) -> Flow[Run]:
+def execute(core: Core, trajectory: Trajectory) -> Flow[Download]:
     """Check, send, and wait until the controller took it; only then it moves."""
     yield from ready(core)
     run, data = prepare(core, trajectory)
@@ -38,9 +38,9 @@ def ready(core: Core) -> Flow[None]:
     yield Wait(lambda: not core.hindrances() or not core.state_open, core.timeouts.ready)
 
 
-def prepare(core: Core, trajectory: Trajectory) -> tuple[Run, bytes]:
+def prepare(core: Core, trajectory: Trajectory) -> tuple[Download, bytes]:
     """Everything before the first byte. Raises InvalidTrajectory, NotReady, ConnectionLost."""
-    if not core.talks[Port.MOTION].is_open:
+    if not core.ports[Port.MOTION].is_open:
         raise core.disconnected()
     core.ready()
     plan = core.plan(trajectory, "download")
@@ -48,25 +48,25 @@ def prepare(core: Core, trajectory: Trajectory) -> tuple[Run, bytes]:
     return core.begin(plan), data
 
 
-def send_points(core: Core, run: Run, data: bytes) -> Flow[None]:
+def send_points(core: Core, run: Download, data: bytes) -> Flow[None]:
     """Send all but the end frame: nothing moves yet."""
     yield Send(Port.MOTION, data[:-FRAME_BYTES], core.timeouts.send, run=run)
 
 
-def finish(core: Core, run: Run, data: bytes) -> Flow[None]:
+def finish(core: Core, run: Download, data: bytes) -> Flow[None]:
     """Send the end frame and wait for the controller's word."""
     pending = yield from send_end(core, run, data)
     yield from accepted(core, run, pending)
 
 
-def send_end(core: Core, run: Run, data: bytes) -> Flow[Pending]:
+def send_end(core: Core, run: Download, data: bytes) -> Flow[PendingReply]:
     """Send the end frame: the controller may begin to move."""
-    pending = core.talks[Port.MOTION].request(JOINT_TRAJ_PT.number)
+    pending = core.ports[Port.MOTION].request(JOINT_TRAJ_PT.number)
     yield Send(Port.MOTION, data[-FRAME_BYTES:], core.timeouts.send, run=run)
     return pending
 
 
-def accepted(core: Core, run: Run, pending: Pending) -> Flow[None]:
+def accepted(core: Core, run: Download, pending: PendingReply) -> Flow[None]:
     """Wait for the controller's word on the whole trajectory."""
     patience = core.timeouts.reply + PER_POINT * len(run.plan.wire)
     yield Wait(lambda: pending.reply is not None or run.is_over, patience)
@@ -86,7 +86,7 @@ def accepted(core: Core, run: Run, pending: Pending) -> Flow[None]:
         )
 
 
-def result(core: Core, run: Motion, timeout: float | None) -> Flow[Result]:
+def result(core: Core, run: CommandedMotion, timeout: float | None) -> Flow[Result]:
     """Wait for the end of a motion; without a time-out for as long as it gets on."""
     try:
         yield from patiently(core, run, lambda: run.is_over, timeout)
@@ -108,13 +108,13 @@ def result(core: Core, run: Motion, timeout: float | None) -> Flow[Result]:
     return run.result
 
 
-def patience(core: Core, run: Motion) -> float:
+def patience(core: Core, run: CommandedMotion) -> float:
     """Seconds without a sign of getting on after which nobody waits any longer."""
     return 4 * run.longest / core.override + 30
 
 
 def patiently(
-    core: Core, run: Motion, condition: Callable[[], bool], timeout: float | None = None
+    core: Core, run: CommandedMotion, condition: Callable[[], bool], timeout: float | None = None
 ) -> Flow[None]:
     """Wait until the condition holds, or `timeout` s; without, for as long as the motion gets on
     or is paused."""

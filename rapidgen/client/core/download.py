@@ -7,12 +7,12 @@ arrived.
 
 import numpy as np
 
-from rapidgen.client.checks import Plan
+from rapidgen.client.core.checks import CheckedTrajectory
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import CommandedMotion, Phase
+from rapidgen.client.core.state import Progress, State, trajectory_state
+from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, fault
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Phase
-from rapidgen.client.state import Progress, State, trajectory_state
-from rapidgen.client.tracker import Tracker
 from rapidgen.client.trajectory import Array
 from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
@@ -26,16 +26,18 @@ _EARLY = 0.25
 """s by which a robot may be early: it skips a first point that it stands on."""
 
 
-class Run(Motion):
+class Download(CommandedMotion):
     """A trajectory from its first byte to its end."""
 
-    def __init__(self, plan: Plan, group: Group, tracker: Tracker, *, silence: float) -> None:
-        super().__init__(group, tracker, silence)
+    def __init__(
+        self, plan: CheckedTrajectory, group: Group, state_port: StatePort, *, silence: float
+    ) -> None:
+        super().__init__(group, state_port, silence)
         self.plan = plan
         self.trajectory = plan.trajectory
         self.warnings = plan.warnings
-        self._was_in_error = tracker.status.in_error is TriState.TRUE
-        self._start = tracker.state
+        self._was_in_error = state_port.status.in_error is TriState.TRUE
+        self._start = state_port.state
         self._seen_moving = False
         self._stood_since: float | None = None
         self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
@@ -64,16 +66,16 @@ class Run(Motion):
     def step(self) -> None:
         """Look at the newest state; without PROGRESS at where the robot is."""
         super().step()
-        tracker = self._tracker
+        state_port = self._state_port
         if (
             self.phase is Phase.MOVING
-            and tracker.progress is None
-            and tracker.samples > self._first_sample
+            and state_port.progress is None
+            and state_port.samples > self._first_sample
         ):
             self._by_position()
 
     def _by_position(self) -> None:
-        state = self._tracker.state
+        state = self._state_port.state
         assert state is not None
         now, status = state.time, state.status
         moving = status.in_motion is TriState.TRUE
@@ -113,7 +115,7 @@ class Run(Motion):
             self._end(MotionFailed, found, status.error)
 
     def _trouble(self) -> str:
-        status = self._tracker.status
+        status = self._state_port.status
         if status.e_stopped is TriState.TRUE:
             return "emergency stop"
         if status.drives is TriState.FALSE:
@@ -152,5 +154,5 @@ class Run(Motion):
         if self.error is not None:
             stopped = isinstance(self.error, MotionStopped)
             state = TrajectoryState.STOPPED if stopped else TrajectoryState.FAILED
-        elapsed = self._tracker.clock() - self._began
+        elapsed = self._state_port.clock() - self._began
         return Progress(state, total, fraction=min(0.99, elapsed / max(self.plan.total, 1e-9)))

@@ -4,7 +4,7 @@ from collections import deque
 
 import numpy as np
 
-from rapidgen.client.state import Event, State, Status
+from rapidgen.client.core.state import Event, State, Status
 from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
 _WINDOW = 500

@@ -4,16 +4,16 @@ from collections.abc import Callable
 
 import numpy.typing as npt
 
-from rapidgen.client import flows
-from rapidgen.client.checks import Piece, piece
-from rapidgen.client.core import Core
-from rapidgen.client.effects import INTERRUPTIONS, Flow
+from rapidgen.client.core.checks import CheckedPoints, piece
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.feed import Feed
+from rapidgen.client.core.motion import Result, Way
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.stream import PointStream
 from rapidgen.client.errors import InvalidTrajectory, NotSupported, RobotTimeout, fault
-from rapidgen.client.feed import Feed
-from rapidgen.client.motion import Result, Way
-from rapidgen.client.run import Run
-from rapidgen.client.stop_flows import stop_and_leave
-from rapidgen.client.stream import StreamRun
+from rapidgen.client.flows import download as flows
+from rapidgen.client.flows.effects import INTERRUPTIONS, Flow
+from rapidgen.client.flows.stop import stop_and_leave
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.messages import batch_points
 from rapidgen.wire.simple_message.spec import MAX_JOINTS, Port
@@ -22,7 +22,7 @@ _AHEAD = 2
 """Batches that wait in the client for room at the controller before an append waits."""
 
 
-def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Run | StreamRun]:
+def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Download | PointStream]:
     """A trajectory by stream or by download; None: the way that fits."""
     yield from flows.ready(core)
     if (way or core.way_for(trajectory)) == "download":
@@ -56,7 +56,7 @@ def append(core: Core, feed: Feed, times: npt.ArrayLike, positions: npt.ArrayLik
         yield from _taken(core, feed.run)
         yield from _going_on(core, feed.run)
         return
-    assert isinstance(run, StreamRun)
+    assert isinstance(run, PointStream)
     yield from _going_on(core, run)
     checked = piece(points, core.known_group, before=run.last, start=None)
     run.put(checked)
@@ -66,7 +66,7 @@ def append(core: Core, feed: Feed, times: npt.ArrayLike, positions: npt.ArrayLik
 
 def batch_size(core: Core) -> int:
     """Points that go well together."""
-    hello = core.tracker.driver.hello
+    hello = core.state_port.driver.hello
     return hello.batch if hello is not None and hello.batch > 0 else batch_points(MAX_JOINTS)
 
 
@@ -81,9 +81,9 @@ def _can_stream(core: Core) -> None:
         )
 
 
-def _begin(core: Core, points: Trajectory) -> tuple[StreamRun, Piece]:
+def _begin(core: Core, points: Trajectory) -> tuple[PointStream, CheckedPoints]:
     """The first points of a stream. Raises InvalidTrajectory, NotReady, ConnectionLost."""
-    if not core.talks[Port.MOTION].is_open:
+    if not core.ports[Port.MOTION].is_open:
         raise core.disconnected()
     core.ready()
     checked = piece(points, core.known_group, before=None, start=core.start)
@@ -105,19 +105,19 @@ def _keep(core: Core, feed: Feed, points: Trajectory) -> None:
             )
         )
     if feed.last is None:
-        core.tracker.note("the driver does not stream: points are kept until the end")
+        core.state_port.note("the driver does not stream: points are kept until the end")
     start = core.start if feed.last is None else None
     feed.last = piece(points, core.known_group, before=feed.last, start=start).last
     feed.way = "download"
     feed.keep(points)
 
 
-def _taken(core: Core, run: StreamRun) -> Flow[None]:
+def _taken(core: Core, run: PointStream) -> Flow[None]:
     """Until the controller took the first points, or refused them."""
     yield from _until(core, run, lambda: run.number is not None)
 
 
-def _going_on(core: Core, run: StreamRun) -> Flow[None]:
+def _going_on(core: Core, run: PointStream) -> Flow[None]:
     """Until there is not too much that waits; after a refusal until the motion has ended."""
 
     def goes_on() -> bool:
@@ -126,7 +126,7 @@ def _going_on(core: Core, run: StreamRun) -> Flow[None]:
     yield from _until(core, run, goes_on)
 
 
-def _until(core: Core, run: StreamRun, condition: Callable[[], bool]) -> Flow[None]:
+def _until(core: Core, run: PointStream, condition: Callable[[], bool]) -> Flow[None]:
     """Until the condition holds; the error of a stream that is over is raised."""
     try:
         yield from flows.patiently(core, run, lambda: run.is_over or condition())
@@ -151,7 +151,7 @@ def _until(core: Core, run: StreamRun, condition: Callable[[], bool]) -> Flow[No
 
 def flush(core: Core, feed: Feed) -> Flow[None]:
     """The robot shall start with what there is. Nothing to do where all goes at the end."""
-    if isinstance(feed.run, StreamRun):
+    if isinstance(feed.run, PointStream):
         feed.run.flush()
         yield from _going_on(core, feed.run)
 
@@ -164,7 +164,7 @@ def end(core: Core, feed: Feed) -> Flow[None]:
         )
     if feed.is_ended:
         return
-    if isinstance(feed.run, StreamRun):
+    if isinstance(feed.run, PointStream):
         feed.run.end()
     else:
         feed.run = yield from flows.execute(core, feed.whole())
