@@ -28,7 +28,7 @@ from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid import Dialect as TextDialect
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.base import Options
+from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.predefined import find_type
 from rapidgen.runtime.compiler.program import Shared
 from rapidgen.runtime.compiler.symbols import Data, Routine
