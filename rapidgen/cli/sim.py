@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -52,13 +54,8 @@ def sim(
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
-    check: Annotated[
-        bool, typer.Option(help="Refuse programs that a controller would not load.")
-    ] = True,
+    overrides: options.Overrides = None,
+    check: options.LoadCheck = True,
 ) -> int:
     """Run a virtual controller in real time.
 
@@ -241,19 +238,16 @@ def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[
 
 
 def _not_up(controller: "VirtualController", target: "Target") -> Exception:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     missing = [p for p in _wanted(target) if p not in controller.network.listeners]
     states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
-    return DiagnosticError(
-        Diagnostic(
-            code="RG430",
-            severity=Severity.ERROR,
-            message=f"nothing listens on port {', '.join(map(str, missing)) or '-'}"
-            f" after {PATIENCE:g} s",
-            help="the event log above tells why the tasks do not get there",
-            notes=(*states, *controller.where()),
-        ),
+    return refusal(
+        "RG430",
+        None,
+        f"nothing listens on port {', '.join(map(str, missing)) or '-'} after {PATIENCE:g} s",
+        "the event log above tells why the tasks do not get there",
+        notes=(*states, *controller.where()),
         exit_code=1,
     )
 
@@ -263,15 +257,15 @@ def _check_host(host: str) -> None:
 
     try:
         ipaddress.IPv4Address(host)
-    except ValueError as error:
-        raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from error
+    except ValueError as fault:
+        raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from fault
 
 
 def _check_ports(target: "Target", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     for port in _wanted(target):
         if not 0 < port + offset < 65_536:
@@ -280,16 +274,14 @@ def _check_ports(target: "Target", host: str, offset: int) -> None:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 probe.bind((host, port + offset))
-            except OSError as error:
-                raise DiagnosticError(
-                    Diagnostic(
-                        code="RG431",
-                        severity=Severity.ERROR,
-                        message=f"port {port + offset} of {host} cannot be had: {error.strerror}",
-                        help="move all ports with `--port-offset N`, or let `--ports auto` choose",
-                    ),
+            except OSError as fault:
+                raise refusal(
+                    "RG431",
+                    None,
+                    f"port {port + offset} of {host} cannot be had: {fault.strerror}",
+                    "move all ports with `--port-offset N`, or let `--ports auto` choose",
                     exit_code=1,
-                ) from error
+                ) from fault
 
 
 def _tell(found: "Iterable[object]") -> None:

@@ -63,29 +63,28 @@ def _mechanics(
     """A robot of the given model for each motion task."""
     from rapidgen.config import load_config
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
-    from rapidgen.diagnostics import Diagnostic, Severity
+    from rapidgen.diagnostics import Severity, error
 
     groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
     if robot or not groups:
         return groups, ()
-    note = Diagnostic(
-        code="RG432",
+    note = error(
+        "RG432",
+        None,
+        f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
+        "name the robot with `--robot NAME`; `rapidgen robots` lists the models",
         severity=Severity.WARNING,
-        message=f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
-        help="name the robot with `--robot NAME`; `rapidgen robots` lists the models",
     )
     return groups, (note,)
 
 
 def _no_target(target: str) -> Exception:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
-    return DiagnosticError(
-        Diagnostic(
-            code="RG433",
-            severity=Severity.ERROR,
-            message=f"'{target}' is no controller",
-            help="name a configuration, a shipped model, a generated folder or a backup;"
-            " `rapidgen run` executes single RAPID files",
-        )
+    return refusal(
+        "RG433",
+        None,
+        f"'{target}' is no controller",
+        "name a configuration, a shipped model, a generated folder or a backup;"
+        " `rapidgen run` executes single RAPID files",
     )

@@ -13,17 +13,8 @@ from rapidgen.config.layers import (
     override_tree,
 )
 from rapidgen.config.registry import find_shipped, is_path
-from rapidgen.config.tree import (
-    Mapping,
-    Node,
-    Scalar,
-    decode,
-    error,
-    parse,
-    read_bytes,
-    to_python,
-)
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.config.tree import Mapping, Node, Scalar, decode, parse, read_bytes, to_python
+from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 Figures = dict[tuple[str, str], float]
 _IDENTITY = ("task", "mechanical_unit", "ports")
@@ -110,8 +101,8 @@ def _read(path: Path, made: Assembly) -> Mapping:
     if isinstance(root, Scalar) and root.value is None:
         return Mapping({}, root.span)
     if not isinstance(root, Mapping):
-        raise DiagnosticError(
-            error("RG006", "a configuration is a mapping of keys", root.span, "not a mapping")
+        raise refusal(
+            "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
         )
     return root
 
@@ -150,10 +141,10 @@ def _group_models(made: Assembly) -> None:
                 made.found.append(
                     error(
                         "RG010",
-                        f"model '{model}' has the groups {', '.join(choices)}, none is '{name}'",
                         place,
-                        "which of them?",
+                        f"model '{model}' has the groups {', '.join(choices)}, none is '{name}'",
                         f"name the group {' or '.join(choices)}, or put `model:` at the top",
+                        label="which of them?",
                     )
                 )
         groups[name] = (place, group)

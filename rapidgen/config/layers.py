@@ -10,8 +10,8 @@ from collections.abc import Sequence as SequenceType
 from dataclasses import dataclass, field
 
 from rapidgen.config.schema import GROUP_KEYS
-from rapidgen.config.tree import Mapping, Node, Scalar, Sequence, error, from_python, parse
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.config.tree import Mapping, Node, Scalar, Sequence, from_python, parse
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 Entries = dict[str, tuple[Span, Node]]
 Overrides = MappingType[str, object] | SequenceType[str]
@@ -56,8 +56,8 @@ def canonical(root: Node, known: tuple[str, ...]) -> Layer:
     if isinstance(root, Scalar) and root.value is None:
         root = Mapping({}, root.span)
     if not isinstance(root, Mapping):
-        raise DiagnosticError(
-            error("RG006", "a configuration is a mapping of keys", root.span, "not a mapping")
+        raise refusal(
+            "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
         )
     pruned = prune(root)
     assert isinstance(pruned, Mapping)
@@ -72,10 +72,10 @@ def canonical(root: Node, known: tuple[str, ...]) -> Layer:
         found = [
             error(
                 "RG010",
-                f"'{key}' belongs to a group",
                 place,
-                f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
+                f"'{key}' belongs to a group",
                 f"write it as groups.{shown}.{key}",
+                label=f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
             )
             for key, (place, _) in own.items()
         ]
@@ -228,7 +228,7 @@ def _split(key: str) -> list[str]:
 def _bad_override(text: str) -> Diagnostic:
     return error(
         "RG008",
-        f"'{text}' is not an override",
         None,
-        help="write key.path=value, such as --set ports.motion=12000",
+        f"'{text}' is not an override",
+        "write key.path=value, such as --set ports.motion=12000",
     )

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 MAX_BYTES = 1_000_000
 MAX_DEPTH = 40
@@ -67,13 +67,6 @@ class Mapping:
 Node = Scalar | Sequence | Mapping
 
 
-def error(
-    code: str, message: str, span: Span | None, label: str = "", help: str = ""
-) -> Diagnostic:
-    """A finding of severity error; most of this room's are."""
-    return Diagnostic(code, Severity.ERROR, message, span, label, help)
-
-
 def read_bytes(path: Path, shown: str) -> bytes:
     """The file's bytes, or one finding that says why not (RG001, RG002)."""
     try:
@@ -81,17 +74,15 @@ def read_bytes(path: Path, shown: str) -> bytes:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
         reason = getattr(fault, "strerror", None) or str(fault)
-        raise DiagnosticError(
-            error("RG001", f"cannot read {shown}: {reason}", None, help="give the path of a file")
+        raise refusal(
+            "RG001", None, f"cannot read {shown}: {reason}", "give the path of a file"
         ) from None
     if len(data) > MAX_BYTES:
-        raise DiagnosticError(
-            error(
-                "RG002",
-                f"{shown} is larger than {MAX_BYTES:,} bytes",
-                None,
-                help="a configuration is a few kilobytes: is this the right file?",
-            )
+        raise refusal(
+            "RG002",
+            None,
+            f"{shown} is larger than {MAX_BYTES:,} bytes",
+            "a configuration is a few kilobytes: is this the right file?",
         )
     return data
 
@@ -103,14 +94,12 @@ def decode(data: bytes, shown: str) -> str:
     except UnicodeDecodeError as fault:
         line = data.count(b"\n", 0, fault.start) + 1
         column = fault.start - data.rfind(b"\n", 0, fault.start)
-        raise DiagnosticError(
-            error(
-                "RG002",
-                f"{shown} is not UTF-8 text",
-                Span(shown, line, column),
-                f"byte 0x{data[fault.start]:02x}",
-                "save the file as UTF-8",
-            )
+        raise refusal(
+            "RG002",
+            Span(shown, line, column),
+            f"{shown} is not UTF-8 text",
+            "save the file as UTF-8",
+            label=f"byte 0x{data[fault.start]:02x}",
         ) from None
 
 
@@ -128,9 +117,7 @@ def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[
     except YAMLError as fault:
         raise DiagnosticError(_syntax(fault, shown, at)) from None
     except (ValueError, OverflowError) as fault:  # an escape that ruamel does not check
-        raise DiagnosticError(
-            error("RG003", f"not YAML: {fault}", at or Span(shown, 1, 1))
-        ) from None
+        raise refusal("RG003", at or Span(shown, 1, 1), f"not YAML: {fault}") from None
 
 
 def _syntax(fault: Any, shown: str, at: Span | None) -> Diagnostic:
@@ -140,9 +127,9 @@ def _syntax(fault: Any, shown: str, at: Span | None) -> Diagnostic:
     span = at or (Span(shown, mark.line + 1, mark.column + 1) if mark else Span(shown, 1, 1))
     return error(
         "RG003",
-        f"not YAML: {problem}" + (f" ({context})" if context else ""),
         span,
-        help="quote a text that holds ': ', '#', '[' or '{'; indent with blanks, never with tabs",
+        f"not YAML: {problem}" + (f" ({context})" if context else ""),
+        "quote a text that holds ': ', '#', '[' or '{'; indent with blanks, never with tabs",
     )
 
 
@@ -180,7 +167,7 @@ class _Builder:
         return Span(self._shown, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
     def _refuse(self, what: str, span: Span) -> DiagnosticError:
-        return DiagnosticError(error("RG002", what, span, help="see `rapidgen explain RG002`"))
+        return refusal("RG002", span, what, "see `rapidgen explain RG002`")
 
     def _node(self, event: Any, depth: int) -> Node:
         span = self._span(event)
@@ -257,13 +244,12 @@ class _Builder:
 def _duplicate(key: str, place: Span, first: Span) -> Diagnostic:
     from rapidgen.diagnostics import Label
 
-    return Diagnostic(
+    return error(
         "RG004",
-        Severity.ERROR,
-        f"duplicate key '{key}'",
         place,
-        "second time",
+        f"duplicate key '{key}'",
         "keep one of the two",
+        label="second time",
         related=(Label(first, "first time"),),
     )
 
@@ -277,7 +263,7 @@ def from_python(value: object, span: Span) -> Node:
         return Sequence(tuple(from_python(v, span) for v in value), span)
     if value is None or isinstance(value, bool | int | float | str):
         return Scalar(value, span)
-    raise DiagnosticError(error("RG008", f"an override cannot be a {type(value).__name__}", span))
+    raise refusal("RG008", span, f"an override cannot be a {type(value).__name__}")
 
 
 def to_python(node: Node) -> Any:
