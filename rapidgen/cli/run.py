@@ -82,7 +82,7 @@ def run(
     stopped with an error, on a deadlock, and at the limits of time and statements.
     """
     from rapidgen._writing import write_whole
-    from rapidgen.cli.loadable import refuse_unloadable
+    from rapidgen.cli.bootable import refuse_unloadable
     from rapidgen.config import load_config
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for

@@ -11,7 +11,7 @@ from rapidgen.cli import options
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from rapidgen.cli.targets import Target
+    from rapidgen.cli.bootable import Bootable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.faces.control_socket import ControlSocket
 
@@ -64,8 +64,7 @@ def sim(
     each group, of the control socket, and of the file servers with their login. What the
     operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
-    from rapidgen.cli.loadable import refuse_unloadable
-    from rapidgen.cli.targets import load_target
+    from rapidgen.cli.bootable import load_target, refuse_unloadable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.faults import read_plan
     from rapidgen.faces.control_commands import commands, subscribe
@@ -112,7 +111,7 @@ def sim(
 
 def _serve(
     controller: "VirtualController",
-    target: "Target",
+    target: "Bootable",
     control: "ControlSocket",
     host: str,
     speed: float,
@@ -203,7 +202,7 @@ def _start_cold(controller: "VirtualController") -> None:
 # -- servers ------------------------------------------------------------------------------------
 
 
-def _wanted(target: "Target") -> list[int]:
+def _wanted(target: "Bootable") -> list[int]:
     """Ports that a driver must listen on before it may be called ready."""
     if not target.driver:
         return []
@@ -211,7 +210,7 @@ def _wanted(target: "Target") -> list[int]:
     return [n for p in ports for n in (p.motion, p.control, p.state) if n]
 
 
-def _is_up(controller: "VirtualController", target: "Target") -> bool:
+def _is_up(controller: "VirtualController", target: "Bootable") -> bool:
     wanted = _wanted(target)
     if wanted:
         return all(port in controller.network.listeners for port in wanted)
@@ -219,7 +218,7 @@ def _is_up(controller: "VirtualController", target: "Target") -> bool:
     return not controller.scheduler.ready and controller.now > 0.2
 
 
-def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[str, int]]:
+def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dict[str, int]]:
     listeners = controller.network.listeners
     if not target.driver:
         return {}
@@ -237,7 +236,7 @@ def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[
     }
 
 
-def _not_up(controller: "VirtualController", target: "Target") -> Exception:
+def _not_up(controller: "VirtualController", target: "Bootable") -> Exception:
     from rapidgen.diagnostics import refusal
 
     missing = [p for p in _wanted(target) if p not in controller.network.listeners]
@@ -261,7 +260,7 @@ def _check_host(host: str) -> None:
         raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from fault
 
 
-def _check_ports(target: "Target", host: str, offset: int) -> None:
+def _check_ports(target: "Bootable", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from rapidgen.config.model import ChainLink
-from rapidgen.config.tree import Mapping, place_of
+from rapidgen.config.tree import MappingNode, place_of
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 Path = tuple[str | int, ...]
@@ -44,10 +44,10 @@ class GroupDraft:
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
 
 
-class Report:
+class Findings:
     """Collects findings with places; what lies in a part already found faulty is not repeated."""
 
-    def __init__(self, root: Mapping, removed: Iterable[Path]) -> None:
+    def __init__(self, root: MappingNode, removed: Iterable[Path]) -> None:
         self.root = root
         self.found: list[Diagnostic] = []
         self._removed = set(removed)

@@ -41,7 +41,7 @@ class Number(float):
 
 
 @dataclass(frozen=True, slots=True)
-class Scalar:
+class ScalarNode:
     """A leaf: None, bool, int, float or str."""
 
     value: object
@@ -49,7 +49,7 @@ class Scalar:
 
 
 @dataclass(frozen=True, slots=True)
-class Sequence:
+class SequenceNode:
     """A list."""
 
     items: tuple["Node", ...]
@@ -57,14 +57,14 @@ class Sequence:
 
 
 @dataclass(frozen=True, slots=True)
-class Mapping:
+class MappingNode:
     """A dictionary in the order of the text; `entries[key]` = (place of the key, value)."""
 
     entries: dict[str, tuple[Span, "Node"]]
     span: Span
 
 
-Node = Scalar | Sequence | Mapping
+Node = ScalarNode | SequenceNode | MappingNode
 
 
 def read_bytes(path: Path, shown: str) -> bytes:
@@ -157,7 +157,7 @@ class _Builder:
             elif kind in ("ScalarEvent", "AliasEvent", "SequenceStartEvent", "MappingStartEvent"):
                 root = self._node(event, 0)
         if root is None:
-            root = Scalar(None, self._at or Span(self._shown, 1, 1))
+            root = ScalarNode(None, self._at or Span(self._shown, 1, 1))
         return root, self._found
 
     def _span(self, event: Any) -> Span:
@@ -188,7 +188,7 @@ class _Builder:
         if kind == "ScalarEvent":
             plain = event.style in (None, "")
             value = self._resolve(event.value, span) if plain else event.value
-            node = Scalar(value, span)
+            node = ScalarNode(value, span)
         elif kind == "SequenceStartEvent":
             node = self._sequence(span, depth)
         else:
@@ -216,19 +216,19 @@ class _Builder:
             return float(text.replace(".", ""))
         return text
 
-    def _sequence(self, start: Span, depth: int) -> Sequence:
+    def _sequence(self, start: Span, depth: int) -> SequenceNode:
         items: list[Node] = []
         for event in self._events:
             if type(event).__name__ == "SequenceEndEvent":
-                return Sequence(tuple(items), start)
+                return SequenceNode(tuple(items), start)
             items.append(self._node(event, depth + 1))
         raise self._refuse("the text ends inside a list", start)
 
-    def _mapping(self, start: Span, depth: int) -> Mapping:
+    def _mapping(self, start: Span, depth: int) -> MappingNode:
         entries: dict[str, tuple[Span, Node]] = {}
         for event in self._events:
             if type(event).__name__ == "MappingEndEvent":
-                return Mapping(entries, start)
+                return MappingNode(entries, start)
             place = self._span(event)
             if type(event).__name__ != "ScalarEvent" or event.tag is not None:
                 raise self._refuse("a key that is not a plain text", place)
@@ -258,19 +258,19 @@ def from_python(value: object, span: Span) -> Node:
     """A tree for a value given from Python; every part has the one place `span`."""
     if isinstance(value, dict):
         entries = {str(k): (span, from_python(v, span)) for k, v in value.items()}
-        return Mapping(entries, span)
+        return MappingNode(entries, span)
     if isinstance(value, list | tuple):
-        return Sequence(tuple(from_python(v, span) for v in value), span)
+        return SequenceNode(tuple(from_python(v, span) for v in value), span)
     if value is None or isinstance(value, bool | int | float | str):
-        return Scalar(value, span)
+        return ScalarNode(value, span)
     raise refusal("RG008", span, f"an override cannot be a {type(value).__name__}")
 
 
 def to_python(node: Node) -> Any:
     """Plain dicts, lists and scalars."""
-    if isinstance(node, Mapping):
+    if isinstance(node, MappingNode):
         return {key: to_python(value) for key, (_, value) in node.entries.items()}
-    if isinstance(node, Sequence):
+    if isinstance(node, SequenceNode):
         return [to_python(item) for item in node.items]
     return node.value
 
@@ -279,11 +279,11 @@ def place_of(root: Node, path: tuple[str | int, ...]) -> tuple[Span, Span]:
     """Places (key or item, value) of what `path` leads to, or of the nearest that exists."""
     node, key = root, root.span
     for part in path:
-        if isinstance(node, Mapping) and part in node.entries:
+        if isinstance(node, MappingNode) and part in node.entries:
             key, node = node.entries[str(part)]
-        elif isinstance(node, Sequence) and isinstance(part, int) and part < len(node.items):
+        elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.items):
             node = node.items[part]
             key = node.span
         else:
             break
-    return key, node.span if isinstance(node, Scalar) else key
+    return key, node.span if isinstance(node, ScalarNode) else key

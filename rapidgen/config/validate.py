@@ -15,7 +15,7 @@ from pydantic_core import SchemaValidator, ValidationError
 from rapidgen.config.layers import group_names
 from rapidgen.config.rules import core
 from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
-from rapidgen.config.tree import Mapping, place_of, to_python
+from rapidgen.config.tree import MappingNode, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
@@ -30,7 +30,7 @@ class Validated:
     removed: set[Path] = field(default_factory=set)
 
 
-def validate(root: Mapping) -> Validated:
+def validate(root: MappingNode) -> Validated:
     """Validate a canonical tree."""
     data = to_python(root)
     schema: Any = core(ConfigurationKeys)
@@ -83,14 +83,14 @@ def _remove(data: Any, path: Path) -> None:
         data.clear()
 
 
-def shown(root: Mapping, path: Path) -> str:
+def shown(root: MappingNode, path: Path) -> str:
     """A path as a user may write it: the only group's keys stand at the top."""
     if len(path) > 2 and path[0] == "groups" and len(group_names(root)) == 1:
         path = path[2:]
     return ".".join(str(part) for part in path)
 
 
-def _missing(root: Mapping, loc: Path) -> Diagnostic:
+def _missing(root: MappingNode, loc: Path) -> Diagnostic:
     key, _ = place_of(root, loc[:-1])
     return error(
         "RG007",
@@ -101,7 +101,7 @@ def _missing(root: Mapping, loc: Path) -> Diagnostic:
     )
 
 
-def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
+def _translate(root: MappingNode, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
     key, value = place_of(root, path)
     if item["type"] == "unexpected_keyword_argument":
         known = keys_at(path[:-1])
