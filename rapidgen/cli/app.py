@@ -6,6 +6,7 @@ Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage
 import errno
 import gc
 import os
+import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -89,9 +90,12 @@ def main(words: list[str]) -> int:
         sys.stderr.write("\nstopped\n")
         return 130
     except BrokenPipeError:
-        # The reader has gone (`| head`): nothing is left to say, and nobody to say it to.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
+        return _unheard()
+    except SystemExit as left:
+        # typer's own answer to a broken pipe; it leaves so for nothing else but completion.
+        if isinstance(left.__context__, BrokenPipeError):
+            return _unheard()
+        raise
     except OSError as fault:
         if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise
@@ -154,6 +158,12 @@ def _root(
     ] = False,
 ) -> None:
     pass
+
+
+def _unheard() -> int:
+    """The reader has gone (`| head`): nothing is left to say, and nobody to say it to."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 128 + signal.SIGPIPE
 
 
 def _refused(fault: OSError) -> int:
