@@ -3,8 +3,8 @@
 from os import PathLike
 
 from rapidgen.client.address import LOOPBACK, Address, parse_address
+from rapidgen.client.core.group import Group
 from rapidgen.client.errors import fault
-from rapidgen.client.group import Group
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError, suggest

@@ -1,4 +1,4 @@
-"""The schema for people and editors: JSON schema, and the tables of docs/configuration.md."""
+"""The schema for people and editors: JSON schema, and the tables of docs/start/configuration.md."""
 
 import dataclasses
 import json

@@ -19,7 +19,7 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
 
 _OPTIONS = """
 # What follows is optional; the values shown are the defaults. `rapidgen schema` and
-# docs/configuration.md have the rest.
+# docs/start/configuration.md have the rest.
 #
 # trajectory:
 #   capacity: 1000         # points; a longer trajectory is refused whole

@@ -142,7 +142,7 @@ def test_stop_from_another_thread(fake, client):
         # the controller's own word, by the control port
         assert stream.stopped_position == pytest.approx(controller.script.stream.position)
         assert state.joints == pytest.approx(controller.script.stream.position, abs=1e-6)
-        assert robot._core.run.stood is not None
+        assert robot._core.motion.stood is not None
 
 
 def test_closing_stops_a_stream(fake, client):
@@ -263,7 +263,7 @@ def test_signals_have_names_and_rights(fake, client):
 
 
 def _mapping(config):
-    from rapidgen.client.group import Group
+    from rapidgen.client.core.group import Group
 
     return Group.of(config, config.groups[0]).mapping
 
@@ -353,7 +353,7 @@ def test_feedback(fake, client):
 
     with client(controller.address, feedback=True) as robot:
         controller.extra = told(999.5)
-        assert comes(lambda: robot._core.tracker.feedbacks == 1)
+        assert comes(lambda: robot._core.state_port.feedbacks == 1)
         controller.extra = told(0.5)
         feedback = robot.next_feedback()
         # where the wire's clock began again, this one goes on

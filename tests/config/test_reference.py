@@ -20,7 +20,7 @@ EXAMPLES = sorted((ROOT / "robots" / "examples").glob("*.yaml"))
 
 
 def test_the_reference_page_is_the_schemas():
-    page = (ROOT / "docs" / "configuration.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "start" / "configuration.md").read_text(encoding="utf-8")
     assert page.endswith(reference()), "append rapidgen.config.reference.reference() again"
 
 
@@ -41,7 +41,7 @@ def test_the_json_schema_refuses_a_misspelt_key_in_every_part():
 def test_yaml_in_the_documentation_loads(tmp_path):
     (tmp_path / "urdf").mkdir()
     (tmp_path / "cell").mkdir()
-    for page in ("configuration.md", "robots.md"):
+    for page in ("start/configuration.md", "start/robots.md"):
         text = (ROOT / "docs" / page).read_text(encoding="utf-8")
         for block in re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
             block = block.replace("../urdf/", str(ROOT / "robots" / "urdf") + "/")

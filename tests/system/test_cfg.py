@@ -111,3 +111,11 @@ def test_what_is_written_is_read_back(sections):
         if len(line) > 81:
             (alone,) = parse_cfg(f"SYS:CFG_1.0:7:0::\nX:\n{line}").instances("X")
             assert len(alone.attributes) == 1
+
+
+def test_an_attribute_longer_than_a_line_stands_alone():
+    attributes = (Attribute("A", (1,)), Attribute("B" * 31, (-1.5e-300, 10**40)), Attribute("C"))
+    cfg = CfgText("SYS", (7, 0), (Section("S", (Instance(attributes),)),))
+    lines = write_cfg(cfg).splitlines()[4:]
+    assert [line[:9] for line in lines] == ["      -A ", "      -BB", "      -C"]
+    assert len(lines[1]) > 81

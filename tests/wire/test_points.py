@@ -24,7 +24,7 @@ HAND = bytes.fromhex("34000000 16050000 02000000 00000000") + struct.pack("<4Q",
 
 
 def horner(words):
-    """The checksum as docs/protocol.md has it."""
+    """The checksum as docs/develop/protocol.md has it."""
     check = 0
     for word in words:
         check = (2 * check + word) % (2**51 - 129)

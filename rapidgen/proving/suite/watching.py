@@ -18,7 +18,7 @@ from rapidgen.wire.simple_message import decode, encode, messages, spec
 from rapidgen.wire.simple_message.spec import Feature
 
 _CLIENTS = 3
-"""Clients that the state port serves at a time, as docs/driver.md promises."""
+"""Clients that the state port serves at a time, as docs/use/driver.md promises."""
 _WAITING = 16
 """Events that may wait to be told."""
 

@@ -1,7 +1,7 @@
 """How a message is declared: its fields are those of a NamedTuple, annotated with their types.
 
 `name: Annotated[int, int32("what it says")]` is a field to Python's type checkers and to the
-wire alike. What else knows a message (codec, RAPID constants, docs/protocol.md) asks here.
+wire alike. What else knows a message (codec, RAPID constants, docs/develop/protocol.md) asks here.
 """
 
 from dataclasses import dataclass, replace

@@ -1,6 +1,6 @@
-"""docs/protocol.md, written from the declarations.
+"""docs/develop/protocol.md, written from the declarations.
 
-`python -m rapidgen.wire.simple_message.document > docs/protocol.md`; a test compares.
+`python -m rapidgen.wire.simple_message.document > docs/develop/protocol.md`; a test compares.
 """
 
 import sys

@@ -1,7 +1,7 @@
 """The numbers of simple_message and of ABB's range 1300-1399; its messages are in messages.py.
 
 The only place that knows a number of the wire. The codec, the constants of the generated
-RAPID modules and docs/protocol.md are derived from it. Sources: the headers of industrial_core
+RAPID modules and docs/develop/protocol.md derive from it. Sources: the headers of industrial_core
 for the standard part (little endian, int32 and float32, rad, m, s), recordings of the
 ROS-Industrial nodes for what they really send.
 """
