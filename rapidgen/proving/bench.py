@@ -12,13 +12,13 @@ from itertools import pairwise
 from typing import TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import Span
 from rapidgen.machine.log import Domain
 from rapidgen.machine.network.interface import NetworkFault
-from rapidgen.motion.group import MotionGroup as MovingGroup
+from rapidgen.motion.group import MotionGroup
 from rapidgen.proving.link import RawLink, point_frame
 from rapidgen.proving.messages import (
     PROTOCOL_VERSION,
@@ -63,7 +63,7 @@ class Bench:
         config: RobotConfig,
         system: System,
         setting: Setting | None = None,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         controller: VirtualController | None = None,
     ) -> None:
         """Boot. `robots`: the controller's, where they are not the configuration's."""
@@ -75,7 +75,7 @@ class Bench:
         self.controller = controller if controller is not None else self._boot()
         tracked = self.setting.coverage and controller is None
         self._coverage = Coverage(self.controller) if tracked else None
-        self.group: MotionGroup = config.groups[self.setting.group]
+        self.group: GroupConfig = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
         self.commanded: list[tuple[float, list[Point]]] = []
         """Downloads that were sent to their end, and when."""
@@ -105,7 +105,7 @@ class Bench:
     def beside(
         self,
         system: System,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         setting: Setting | None = None,
     ) -> "Bench":
         """Another controller with another system, other robots or another setting.
@@ -127,7 +127,7 @@ class Bench:
         )
 
     @property
-    def motion_group(self) -> MovingGroup:
+    def motion_group(self) -> MotionGroup:
         """This group on the controller."""
         return self.controller.motion.group(self.group.name)
 

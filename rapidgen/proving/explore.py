@@ -18,8 +18,9 @@ from functools import lru_cache
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.controller.faults import Direction, FaultPlan, NetworkRule
+from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
+from rapidgen.machine.network.rules import Direction, NetworkRule
 from rapidgen.proving.bench import FAILURES, Bench
 from rapidgen.proving.history import STEPS, History, Place
 from rapidgen.proving.link import STOP

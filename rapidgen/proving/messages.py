@@ -12,7 +12,7 @@ from typing import NamedTuple, TypeAlias
 
 from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
-from rapidgen.wire.simple_message.spec import REASON_TEXTS
+from rapidgen.wire.simple_message import spec
 
 PROTOCOL_VERSION = 2
 MAX_JOINTS = 10
@@ -138,12 +138,9 @@ class Reason(IntEnum):
     INTERNAL = 49
 
 
-_TEXTS = {int(reason): text for reason, text in REASON_TEXTS.items()}
-
-
 def text_of(reason: Reason) -> str:
     """What the operator reads of it."""
-    return _TEXTS[reason]
+    return spec.Reason(reason).text
 
 
 def split_error_code(code: int) -> tuple[int, int]:

@@ -10,7 +10,7 @@ from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import TrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point, distance
-from rapidgen.runtime.values import Cell
+from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile, System
 
 case = Theme("faults")
@@ -200,7 +200,7 @@ def _stale_data(bench: Bench) -> None:
             other.close()
 
 
-def _fill(cell: Cell, bench: Bench, chance: random.Random) -> None:
+def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
     if "ring" in cell.name.lower() and cell.dims:
         for point in cell.v.values():
             point.session, point.index = chance.randrange(0, 300), chance.randrange(1, 9)

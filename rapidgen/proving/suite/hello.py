@@ -5,7 +5,7 @@ from functools import partial
 from itertools import pairwise
 
 from rapidgen import __version__
-from rapidgen.client.group import Group
+from rapidgen.client.core.group import Group
 from rapidgen.generate.hello import features
 from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench

@@ -31,7 +31,7 @@ from rapidgen.proving.track import Point
 case = Theme("watching")
 
 _CLIENTS = 3
-"""Clients that the state port serves at a time, as docs/driver.md promises."""
+"""Clients that the state port serves at a time, as docs/use/driver.md promises."""
 _WAITING = 16
 """Events that may wait to be told."""
 

@@ -190,7 +190,7 @@ def _each_round(bench: Bench) -> None:
 
 
 _WRAP = 1000
-"""s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/driver.md promises."""
+"""s: where the time stamp of JOINT_FEEDBACK begins anew, as docs/use/driver.md promises."""
 
 
 def _stamps(told: Sequence[Round]) -> list[float]:
