@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from rapidgen.config.model import MotionGroup
+    from rapidgen.config.model import GroupConfig
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.system import System
 
@@ -17,7 +17,7 @@ class Target:
 
     name: str
     system: "System"
-    groups: tuple["MotionGroup", ...]
+    groups: tuple["GroupConfig", ...]
     driver: bool
     notes: tuple["Diagnostic", ...] = ()
 
@@ -59,7 +59,7 @@ def _folder(path: Path, robot: str) -> Target:
 
 def _mechanics(
     system: "System", robot: str
-) -> tuple[tuple["MotionGroup", ...], tuple["Diagnostic", ...]]:
+) -> tuple[tuple["GroupConfig", ...], tuple["Diagnostic", ...]]:
     """A robot of the given model for each motion task."""
     from rapidgen.config import load_config
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for

@@ -22,7 +22,7 @@ _PLAIN_PORTS_END = 4999
 
 
 def build(
-    configuration: schema.Configuration,
+    configuration: schema.ConfigurationKeys,
     drafts: list[GroupDraft],
     path: Path,
     report: Report,
@@ -71,7 +71,7 @@ def build(
         commissioning=configuration.commissioning,
         call_main=configuration.main == "driver",
         signals=tuple(
-            model.Signal(name, signal.kind, signal.access)
+            model.ExposedSignal(name, signal.kind, signal.access)
             for name, signal in configuration.signals.items()
         ),
         generations=tuple(configuration.generations),
@@ -83,7 +83,7 @@ def _name_of(path: Path) -> str:
     return (kept if kept[:1].isalpha() else f"robot_{kept}")[:40]
 
 
-def _check_controller(configuration: schema.Configuration, report: Report) -> None:
+def _check_controller(configuration: schema.ConfigurationKeys, report: Report) -> None:
     controller = configuration.controller
     main = controller.robotware[0]
     path: KeyPath = ("controller", "robotware")
@@ -109,7 +109,7 @@ def _check_controller(configuration: schema.Configuration, report: Report) -> No
         )
 
 
-def _check_network(configuration: schema.Configuration, report: Report) -> None:
+def _check_network(configuration: schema.ConfigurationKeys, report: Report) -> None:
     addresses: list[tuple[KeyPath, str]] = [
         (("network", "allowed_clients", index), address)
         for index, address in enumerate(configuration.network.allowed_clients)
@@ -135,7 +135,7 @@ def _check_network(configuration: schema.Configuration, report: Report) -> None:
 
 def _group(
     index: int, keys: schema.GroupKeys, draft: GroupDraft, report: Report
-) -> model.MotionGroup:
+) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = _joints(keys, draft, path, report)
     names = {joint.name for joint in draft.joints}
@@ -155,7 +155,7 @@ def _group(
             report.error("RG014", f"no joint moves '{unit}'", where)
         _chain(chain, where, external, "the external axes of `joints`", report)
     ports = keys.ports
-    return model.MotionGroup(
+    return model.GroupConfig(
         name=draft.name,
         task=keys.task or f"T_ROB{index + 1}",
         mechanical_unit=keys.mechanical_unit or f"ROB_{index + 1}",
@@ -189,7 +189,7 @@ def _is_shipped(path: KeyPath, name: str, report: Report) -> bool:
 
 
 def _chain(
-    chain: list[model.Link], path: KeyPath, names: set[str], among: str, report: Report
+    chain: list[model.ChainLink], path: KeyPath, names: set[str], among: str, report: Report
 ) -> None:
     for number, step in enumerate(chain):
         if step.axis == (0.0, 0.0, 0.0):
@@ -339,16 +339,16 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def _frame(frame: schema.Frame, path: KeyPath, report: Report) -> model.Frame:
+def _frame(frame: schema.FrameKeys, path: KeyPath, report: Report) -> model.Frame:
     return model.Frame(
         _metres(frame.position),
         _unit_quaternion(frame.orientation, (*path, "orientation"), report),
     )
 
 
-def _tool(tool: schema.Tool, path: KeyPath, report: Report) -> model.Tool:
+def _tool(tool: schema.ToolKeys, path: KeyPath, report: Report) -> model.Tool:
     load = tool.load
-    if tool.name == "tool0" and tool != schema.Tool():
+    if tool.name == "tool0" and tool != schema.ToolKeys():
         report.error(
             "RG014",
             "tool0 is the controller's own and cannot be described",
@@ -377,8 +377,8 @@ def _tool(tool: schema.Tool, path: KeyPath, report: Report) -> model.Tool:
     )
 
 
-def _work_object(given: schema.WorkObject, path: KeyPath, report: Report) -> model.WorkObject:
-    if given.name == "wobj0" and given != schema.WorkObject():
+def _work_object(given: schema.WorkObjectKeys, path: KeyPath, report: Report) -> model.WorkObject:
+    if given.name == "wobj0" and given != schema.WorkObjectKeys():
         report.error(
             "RG014",
             "wobj0 is the controller's own and cannot be described",
@@ -395,7 +395,7 @@ def _work_object(given: schema.WorkObject, path: KeyPath, report: Report) -> mod
 
 
 def _check_ports(
-    configuration: schema.Configuration, groups: list[model.MotionGroup], report: Report
+    configuration: schema.ConfigurationKeys, groups: list[model.GroupConfig], report: Report
 ) -> None:
     users: dict[int, str] = {}
     for group in groups:
@@ -424,7 +424,7 @@ def _check_ports(
                 )
 
 
-def _check_tasks(groups: list[model.MotionGroup], report: Report) -> None:
+def _check_tasks(groups: list[model.GroupConfig], report: Report) -> None:
     for name in ("task", "mechanical_unit"):
         users: dict[str, str] = {}
         for group in groups:

@@ -6,7 +6,7 @@ Figures are in the units of the controller: deg, mm, deg/s, mm/s (and /s²).
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from rapidgen.config.model import Link
+from rapidgen.config.model import ChainLink
 from rapidgen.config.tree import Mapping, error, place_of
 from rapidgen.diagnostics import Diagnostic, Severity, Span
 
@@ -37,8 +37,8 @@ class GroupDraft:
     name: str
     model: str = ""
     joints: list[JointDraft] = field(default_factory=list)
-    chain: list[Link] = field(default_factory=list)
-    positioners: dict[str, list[Link]] = field(default_factory=dict)
+    chain: list[ChainLink] = field(default_factory=list)
+    positioners: dict[str, list[ChainLink]] = field(default_factory=dict)
     coupling: float | None = None
     known: dict[tuple[str, str], float] = field(default_factory=dict)
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""

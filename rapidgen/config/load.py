@@ -10,7 +10,7 @@ from rapidgen.config.assemble import Assembly, Basis, assemble
 from rapidgen.config.build import build
 from rapidgen.config.draft import GroupDraft, JointDraft, Report
 from rapidgen.config.layers import Overrides
-from rapidgen.config.model import Link, RobotConfig
+from rapidgen.config.model import ChainLink, RobotConfig
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
 
@@ -60,7 +60,7 @@ def in_order(found: list[Diagnostic]) -> list[Diagnostic]:
 
 def _read_urdf(
     draft: GroupDraft,
-    given: schema.Urdf,
+    given: schema.UrdfKeys,
     elsewhere: set[str],
     package_paths: list[Path],
     assembly: Assembly,
@@ -102,12 +102,14 @@ def _draft(name: str, keys: schema.GroupKeys, basis: Basis | None) -> GroupDraft
     return GroupDraft(name, model, joints, chain, carriers, keys.coupling, known)
 
 
-def _link(step: schema.ChainStep) -> Link:
+def _link(step: schema.ChainStepKeys) -> ChainLink:
     x, y, z = (v / 1000 for v in step.xyz)
     roll, pitch, yaw = (math.radians(v) for v in step.rpy)
     norm = math.sqrt(sum(v * v for v in step.axis)) or 1.0
     a, b, c = (v / norm for v in step.axis)
-    return Link(step.joint, (x, y, z), (roll, pitch, yaw), (a, b, c), tuple(step.follows.items()))
+    return ChainLink(
+        step.joint, (x, y, z), (roll, pitch, yaw), (a, b, c), tuple(step.follows.items())
+    )
 
 
 def _report_unknown(

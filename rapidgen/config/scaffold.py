@@ -19,7 +19,7 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 _OPTIONS = """
 # What follows is optional; the values shown are the defaults. `rapidgen schema` and
-# docs/configuration.md have the rest.
+# docs/start/configuration.md have the rest.
 #
 # trajectory:
 #   capacity: 1000         # points; a longer trajectory is refused whole
@@ -90,7 +90,7 @@ def from_urdf(
     A file with one macro is called through it, and a robot of a coupled family gets its
     coupling; whatever else cannot be known raises DiagnosticError with the lines to paste.
     """
-    given = schema.Urdf(
+    given = schema.UrdfKeys(
         file=_relative(urdf, folder),
         macro=macro,
         macro_args=dict(macro_arguments or {}),
@@ -125,7 +125,7 @@ def _relative(path: Path, folder: Path) -> str:
     return os.path.relpath(path.resolve(), folder.resolve())
 
 
-def _urdf_text(given: schema.Urdf, draft: GroupDraft, packages: Mapping[str, str]) -> str:
+def _urdf_text(given: schema.UrdfKeys, draft: GroupDraft, packages: Mapping[str, str]) -> str:
     quoted = json.dumps  # a JSON text is a YAML text
     lines = [
         f"# Made from {Path(given.file).name}. Check every axis against the robot before it moves.",

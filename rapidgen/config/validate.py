@@ -14,7 +14,7 @@ from pydantic_core import SchemaValidator, ValidationError
 
 from rapidgen.config.layers import group_names
 from rapidgen.config.rules import core
-from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
+from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
 from rapidgen.config.tree import Mapping, error, place_of, to_python
 from rapidgen.diagnostics import Diagnostic, suggest
 
@@ -25,7 +25,7 @@ Path = tuple[str | int, ...]
 class Validated:
     """The configuration as far as it is sound; `removed` are the paths taken out as faulty."""
 
-    configuration: Configuration
+    configuration: ConfigurationKeys
     found: list[Diagnostic] = field(default_factory=list)
     removed: set[Path] = field(default_factory=set)
 
@@ -33,7 +33,7 @@ class Validated:
 def validate(root: Mapping) -> Validated:
     """Validate a canonical tree."""
     data = to_python(root)
-    schema: Any = core(Configuration)
+    schema: Any = core(ConfigurationKeys)
     validator = SchemaValidator(schema)
     found: list[Diagnostic] = []
     removed: set[Path] = set()
@@ -182,7 +182,7 @@ def keys_at(path: Path) -> tuple[str, ...]:
     """Keys that the schema knows at a path of the canonical tree."""
     if not path:
         return tuple(dict.fromkeys((*TOP_KEYS, *GROUP_KEYS)))
-    hint: Any = Configuration
+    hint: Any = ConfigurationKeys
     for part in path:
         hint = _step(hint, part)
     model = _model(hint)

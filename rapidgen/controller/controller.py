@@ -6,8 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rapidgen.config.model import MotionGroup as GroupConfig
-from rapidgen.config.model import RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
@@ -29,7 +28,7 @@ from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid import Dialect as TextDialect
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.base import Options
+from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.predefined import find_type
 from rapidgen.runtime.compiler.program import Shared
 from rapidgen.runtime.compiler.symbols import Data, Routine

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from rapidgen.deploy.transport import TransportFault, safe
+from rapidgen.deploy.transports.transport import TransportFault, safe
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.system import CfgText, parse_cfg, read_manifest
 

@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeVar
 
-from rapidgen.deploy.target import Access, Target, connect, parse_target
-from rapidgen.deploy.transport import Transport
+from rapidgen.deploy.target import Access, connect, parse_target
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import Transport
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 T = TypeVar("T")
@@ -18,7 +19,7 @@ Word = Literal["done", "same", "failed", "not begun"]
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class TargetOutcome:
     """What became of one controller."""
 
     target: Target

@@ -10,12 +10,14 @@ from typing import Any
 from rapidgen._writing import write_whole
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
-from rapidgen.deploy.fleet import Outcome, connected, on_all
+from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
 from rapidgen.deploy.keep import backup_set
-from rapidgen.deploy.plan import Plan, Verb, find_layout, make_plan, plan_json
+from rapidgen.deploy.plan import Plan, Verb, plan_json
+from rapidgen.deploy.planning import find_layout, make_plan
 from rapidgen.deploy.state import Past, read_state
-from rapidgen.deploy.target import Access, Target
-from rapidgen.deploy.transport import Transport
+from rapidgen.deploy.target import Access
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import Transport
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 Say = Callable[[str], None]
@@ -70,14 +72,14 @@ def plan_all(job: Job) -> list[Plan]:
     return [r for r in results if isinstance(r, Plan)]
 
 
-def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
+def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     """Carry the plans out; a controller that has changed since refuses (RG522)."""
     by_target = dict(zip(job.targets, plans, strict=True))
 
-    def work(target: Target) -> Outcome:
+    def work(target: Target) -> TargetOutcome:
         plan = by_target[target]
         if plan.is_empty:
-            return Outcome(target, "same", "nothing to do")
+            return TargetOutcome(target, "same", "nothing to do")
         prefix = f"{target.shown}: " if len(job.targets) > 1 else ""
         with connected(target, job.access) as transport:
             apply(
@@ -87,7 +89,7 @@ def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
                 say=lambda line: say(prefix + line),
             )
         count = sum(1 for c in plan.changes if c.action != "same")
-        return Outcome(target, "done", f"{count} files, build {plan.build_id or '-'}")
+        return TargetOutcome(target, "done", f"{count} files, build {plan.build_id or '-'}")
 
     outcomes = []
     for target, result in zip(
@@ -95,9 +97,11 @@ def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
     ):
         if isinstance(result, DiagnosticError):
             first = result.diagnostics[0]
-            outcomes.append(Outcome(target, "failed", f"{first.code}: {first.message}", result))
+            outcomes.append(
+                TargetOutcome(target, "failed", f"{first.code}: {first.message}", result)
+            )
         else:
-            outcomes.append(result or Outcome(target, "not begun"))
+            outcomes.append(result or TargetOutcome(target, "not begun"))
     return outcomes
 
 

@@ -9,7 +9,7 @@ from math import inf
 
 from rapidgen.axes.kinematics import Kinematics, MovingFrame
 from rapidgen.axes.mapping import JointMap
-from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.config.model import GroupConfig
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler, WaitSet

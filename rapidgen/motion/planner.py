@@ -9,7 +9,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose, Vector, compose
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.axes.limits import outside
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import GroupConfig
 from rapidgen.motion.cartesian import CartesianWay
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.legs import Geometry, joint_measure, joint_way, lever_measure
@@ -25,7 +25,7 @@ class Planner:
 
     __slots__ = ("config", "kinematics", "modal", "settings", "speed_limited", "tool")
 
-    def __init__(self, config: MotionGroup, settings: MotionSettings) -> None:
+    def __init__(self, config: GroupConfig, settings: MotionSettings) -> None:
         self.config = config
         self.settings = settings
         self.kinematics = Kinematics.of(config)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.config.model import GroupConfig
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler
@@ -33,7 +33,7 @@ class MotionSystem:
 
     @property
     def settings(self) -> MotionSettings:
-        """The switches of docs/motion-model.md; set them before anything moves."""
+        """The switches of docs/rapid/motion-model.md; set them before anything moves."""
         return self._settings
 
     @settings.setter

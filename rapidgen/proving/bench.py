@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Coverage
@@ -90,7 +90,7 @@ class Bench:
         config: RobotConfig,
         system: System,
         setting: Setting | None = None,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         controller: VirtualController | None = None,
     ) -> None:
         """Boot. `robots`: the controller's, where they are not the configuration's."""
@@ -102,7 +102,7 @@ class Bench:
         self.controller = controller if controller is not None else self._boot()
         tracked = self.setting.coverage and controller is None
         self._coverage = Coverage(self.controller) if tracked else None
-        self.group: MotionGroup = config.groups[self.setting.group]
+        self.group: GroupConfig = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
         self.orders: list[Order] = []
         self.commanded: list[tuple[float, list[Point]]] = []
@@ -132,7 +132,7 @@ class Bench:
     def beside(
         self,
         system: System,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         setting: Setting | None = None,
     ) -> "Bench":
         """Another controller with another system, other robots or another setting.

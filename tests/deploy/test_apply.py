@@ -6,7 +6,7 @@ import os
 import pytest
 
 from rapidgen.deploy import apply, backup_set, make_plan
-from rapidgen.deploy.folder import FolderTransport
+from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from rapidgen.config import schema
 from rapidgen.config.draft import GroupDraft, JointDraft
-from rapidgen.config.model import Link
+from rapidgen.config.model import ChainLink
 from rapidgen.config.tree import error
 from rapidgen.config.urdf import crosscheck, limits
 from rapidgen.config.urdf.expand import Request, expand
@@ -21,7 +21,7 @@ Found = list[Diagnostic]
 
 def complete(
     draft: GroupDraft,
-    given: schema.Urdf,
+    given: schema.UrdfKeys,
     folder: Path,
     package_paths: Sequence[Path],
     elsewhere: frozenset[str],
@@ -36,7 +36,7 @@ def complete(
 
 
 def complete_from(
-    draft: GroupDraft, given: schema.Urdf, wanted: Request, elsewhere: frozenset[str]
+    draft: GroupDraft, given: schema.UrdfKeys, wanted: Request, elsewhere: frozenset[str]
 ) -> tuple[Found, list[tuple[str, bytes]]]:
     """`complete` for a request that is made already."""
     place = wanted.place
@@ -62,7 +62,7 @@ def complete_from(
 
 
 def request(
-    given: schema.Urdf, folder: Path, package_paths: Sequence[Path], place: Span | None
+    given: schema.UrdfKeys, folder: Path, package_paths: Sequence[Path], place: Span | None
 ) -> Request:
     """What to read, with paths relative to the configuration's folder."""
     path = folder / given.file
@@ -85,7 +85,7 @@ def _texts(values: Mapping[str, object]) -> dict[str, str]:
 
 
 def _candidates(
-    graph: Graph, given: schema.Urdf, elsewhere: frozenset[str], place: Span | None
+    graph: Graph, given: schema.UrdfKeys, elsewhere: frozenset[str], place: Span | None
 ) -> tuple[list[UrdfJoint], Found]:
     """Joints that move by themselves and concern this group."""
     robot = graph.robot
@@ -179,7 +179,7 @@ def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> F
         joint.name = names[joint.name]
     for chain in (draft.chain, *draft.positioners.values()):
         chain[:] = [
-            Link(
+            ChainLink(
                 names.get(link.joint, link.joint),
                 link.xyz,
                 link.rpy,
@@ -271,7 +271,7 @@ def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
     return [*found, *crosscheck.differences(phrases, place)]
 
 
-def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[Link]:
+def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:
     """The kinematic chain from the root to the flange, in the URDF's sense.
 
     A turning joint that mimics a mapped one follows it; a sliding one stands still.
@@ -290,10 +290,10 @@ def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[Link]:
     made = []
     for joint in graph.path_to(tip_link):
         if joint.name in mapped:
-            made.append(Link(joint.name, joint.xyz, joint.rpy, joint.axis))
+            made.append(ChainLink(joint.name, joint.xyz, joint.rpy, joint.axis))
         elif joint.mimic in mapped and joint.kind != "prismatic":
             follows = ((joint.mimic, joint.multiplier),)
-            made.append(Link("", joint.xyz, joint.rpy, joint.axis, follows))
+            made.append(ChainLink("", joint.xyz, joint.rpy, joint.axis, follows))
         elif any(joint.xyz) or any(joint.rpy):
-            made.append(Link("", joint.xyz, joint.rpy))
+            made.append(ChainLink("", joint.xyz, joint.rpy))
     return made

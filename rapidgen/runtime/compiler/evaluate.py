@@ -4,19 +4,18 @@ Initial values are evaluated here and not compiled: backups hold a hundred thous
 """
 
 from collections.abc import Callable
-from typing import Any
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
-from rapidgen.runtime.compiler.base import CannotCompile
+from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import NUM, Type, attribute, copy_value, single
+from rapidgen.runtime.values import NUM, Type, Value, attribute, copy_value, single
 
-Lookup = Callable[[n.Name], tuple[Type, tuple[int, ...], Any]]
+Lookup = Callable[[n.Name], tuple[Type, tuple[int, ...], Value]]
 """Type, sizes and value of a constant; raises CannotCompile for anything else."""
 
 
-def evaluate(node: n.Expression, kind: Type | None, dims: tuple[int, ...], lookup: Lookup) -> Any:  # noqa: ANN401 - a RAPID value
+def evaluate(node: n.Expression, kind: Type | None, dims: tuple[int, ...], lookup: Lookup) -> Value:
     """The value of a constant expression of a known type."""
     if node.__class__ is n.NumberLiteral:
         value = node.value
@@ -31,7 +30,9 @@ def evaluate(node: n.Expression, kind: Type | None, dims: tuple[int, ...], looku
     return value
 
 
-def _aggregate(node: n.Aggregate, kind: Type | None, dims: tuple[int, ...], lookup: Lookup) -> Any:  # noqa: ANN401
+def _aggregate(
+    node: n.Aggregate, kind: Type | None, dims: tuple[int, ...], lookup: Lookup
+) -> Value:
     members = node.members
     if kind is None:
         raise CannotCompile("an aggregate has no type here", node)
@@ -53,7 +54,7 @@ def _aggregate(node: n.Aggregate, kind: Type | None, dims: tuple[int, ...], look
     )
 
 
-def _value(node: n.Expression, kind: Type | None, lookup: Lookup) -> tuple[Any, Type | None]:
+def _value(node: n.Expression, kind: Type | None, lookup: Lookup) -> tuple[Value, Type | None]:
     """A value and its type, where it is known (a literal number has none of its own)."""
     match node:
         case n.NumberLiteral():
@@ -91,7 +92,7 @@ def _value(node: n.Expression, kind: Type | None, lookup: Lookup) -> tuple[Any, 
     raise CannotCompile("this is no constant expression", node)
 
 
-def _binary(node: n.Binary, kind: Type | None, lookup: Lookup) -> tuple[Any, Type | None]:
+def _binary(node: n.Binary, kind: Type | None, lookup: Lookup) -> tuple[Value, Type | None]:
     left, left_type = _value(node.left, kind, lookup)
     right, right_type = _value(node.right, kind, lookup)
     found = left_type or right_type

@@ -1,12 +1,11 @@
 """Predefined types, data and routines as symbols, from the signature data."""
 
 from functools import cache
-from typing import Any
 
 from rapidgen.rapid.builtins import signatures
 from rapidgen.runtime.compiler.symbols import Data, Parameter, Routine
 from rapidgen.runtime.registry import bound
-from rapidgen.runtime.values import TYPES, Type, make_record, register_type
+from rapidgen.runtime.values import TYPES, Type, Value, make_record, register_type, single
 
 COMPILED = frozenset(
     {
@@ -32,7 +31,7 @@ class Opaque:
 
     def __init__(self, type: str) -> None:
         self.type = type
-        self.value: Any = None
+        self.value: Value = None
 
 
 @cache
@@ -66,7 +65,7 @@ def _needed(name: str) -> Type:
     return found
 
 
-def build(kind: Type, value: Any) -> Any:  # noqa: ANN401 - a RAPID value
+def build(kind: Type, value: Value) -> Value:
     """A value of the signature data (nested tuples) as a RAPID value."""
     if value is None:
         return kind.default()
@@ -74,8 +73,6 @@ def build(kind: Type, value: Any) -> Any:  # noqa: ANN401 - a RAPID value
         assert kind.make is not None
         return kind.make(*[build(t, v) for (_, t), v in zip(kind.components, value, strict=True)])
     if kind.kind == "num":
-        from rapidgen.runtime.values import single
-
         return single(value)
     return value
 

@@ -2,20 +2,29 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import predefined, runtime
 from rapidgen.runtime.compiler.argname import arg_name
-from rapidgen.runtime.compiler.base import CannotCompile, Options
+from rapidgen.runtime.compiler.compiled import Compiled
+from rapidgen.runtime.compiler.context import CannotCompile, Options
 from rapidgen.runtime.compiler.evaluate import evaluate
 from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, compile_rest
-from rapidgen.runtime.compiler.routine import Compiled, compile_routine
+from rapidgen.runtime.compiler.routine import compile_routine
 from rapidgen.runtime.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
 from rapidgen.runtime.errors import RECOVERABLE, FatalError
-from rapidgen.runtime.values import NUM, Cell, SharedVariable, Type, make_array, make_record
+from rapidgen.runtime.values import (
+    NUM,
+    PersistentCell,
+    SharedVariable,
+    Type,
+    Value,
+    make_array,
+    make_record,
+)
 from rapidgen.system.model import ModuleFile
 
 if TYPE_CHECKING:
@@ -58,11 +67,11 @@ class LoadedModule:
 class Shared:
     """What the programs of all tasks share: persistents, record classes, configured objects."""
 
-    def __init__(self, configured: dict[str, tuple[Type, Any]] | None = None) -> None:
-        self.cells: dict[str, Cell] = {}
+    def __init__(self, configured: dict[str, tuple[Type, Value]] | None = None) -> None:
+        self.cells: dict[str, PersistentCell] = {}
         self.bare: set[str] = set()
         """Cells whose declarations so far had no initial value."""
-        self.common: dict[tuple[str, str], Any] = {}
+        self.common: dict[tuple[str, str], Value] = {}
         """Data of shared modules by module and name: cells of atoms, else the object itself."""
         self.records: dict[tuple[object, ...], Type] = {}
         self.configured = configured if configured is not None else {}
@@ -81,6 +90,8 @@ class Program:
         self.installed: dict[str, Symbol] = {}
         """Global names of built-in modules: the outermost scope [K §13.1]."""
         self.codes: dict[str, Compiled] = {}
+        self._linked: set[Routine] = set()
+        """What is compiled as the modules are now."""
         self.missing: set[str] = set()
         self.faults: list[Diagnostic] = []
         self.trace_points: list[tuple[Routine, n.Statement]] = []
@@ -91,7 +102,7 @@ class Program:
         self._evaluating: set[int] = set()
         self._global_types: dict[str, tuple[LoadedModule, TypeDeclaration]] = {}
         self._installed_types: dict[str, tuple[LoadedModule, TypeDeclaration]] = {}
-        self.space: dict[str, Any] = {
+        self.space: dict[str, Value] = {
             **runtime.NAMESPACE,
             "R": task,
             "ERRS": RECOVERABLE,
@@ -150,6 +161,7 @@ class Program:
         self._reset_code()
 
     def _reset_code(self) -> None:
+        self._linked.clear()
         for module in self.modules.values():
             for symbol in module.symbols.values():
                 if isinstance(symbol, Routine):
@@ -261,7 +273,7 @@ class Program:
         d: n.DataDeclaration,
         kind: Type,
         dims: tuple[int, ...],
-        value: Any,  # noqa: ANN401
+        value: Value,
     ) -> Data:
         code = f"m{module.index}_{d.name.lower()}"
         if d.kind == "CONST" and not dims and kind.kind in _ATOMIC:
@@ -285,22 +297,24 @@ class Program:
         d: n.DataDeclaration,
         kind: Type,
         dims: tuple[int, ...],
-        value: Any,  # noqa: ANN401
-    ) -> Cell:
+        value: Value,
+    ) -> PersistentCell:
         """The cell of a PERS: one for the whole system by name, unless LOCAL or TASK.
 
         The first declaration with an initial value gives the value [K §14.4].
         """
         if module.file.shared and d.scope != "TASK":
             place = (module.name.lower(), d.name.lower())
-            own: Cell = self.shared.common.setdefault(place, Cell(d.name, kind, dims, value))
+            own: PersistentCell = self.shared.common.setdefault(
+                place, PersistentCell(d.name, kind, dims, value)
+            )
             return own
         if d.scope:
-            return Cell(d.name, kind, dims, value)
+            return PersistentCell(d.name, kind, dims, value)
         key = d.name.lower()
         cell = self.shared.cells.get(key)
         if cell is None:
-            cell = self.shared.cells[key] = Cell(d.name, kind, dims, value)
+            cell = self.shared.cells[key] = PersistentCell(d.name, kind, dims, value)
             if d.initial is None:
                 self.shared.bare.add(key)
             return cell
@@ -308,7 +322,7 @@ class Program:
             self._fault(
                 module, f"{d.name} is shared with another task that declares another type", d
             )
-            return Cell(d.name, kind, dims, value)
+            return PersistentCell(d.name, kind, dims, value)
         if d.initial is not None and key in self.shared.bare:
             self.shared.bare.discard(key)
             cell.set(value)
@@ -316,18 +330,18 @@ class Program:
 
     def evaluate_local(
         self, module: LoadedModule, local: dict[str, Data], d: n.DataDeclaration
-    ) -> tuple[Type, tuple[int, ...], Any]:
+    ) -> tuple[Type, tuple[int, ...], Value]:
         """Type, sizes and initial value of a routine's variable."""
         return self._evaluate(module, local, d)
 
     def _evaluate(
         self, module: LoadedModule, local: dict[str, Data], d: n.DataDeclaration
-    ) -> tuple[Type, tuple[int, ...], Any]:
+    ) -> tuple[Type, tuple[int, ...], Value]:
         kind = self.find_type(module, d.type.lower())
         if kind is None:
             raise CannotCompile(f"type {d.type} is not known", d)
 
-        def lookup(node: n.Name) -> tuple[Type, tuple[int, ...], Any]:
+        def lookup(node: n.Name) -> tuple[Type, tuple[int, ...], Value]:
             data = local.get(node.name.lower()) or self.find_data(module, node.name.lower())
             if data is None:
                 raise CannotCompile(f"{node.name} is not known", node)
@@ -343,7 +357,7 @@ class Program:
             return kind, dims, make_array(dims, kind.default)
         return kind, dims, kind.default()
 
-    def _dimension(self, node: n.Expression, lookup: Any) -> int:  # noqa: ANN401
+    def _dimension(self, node: n.Expression, lookup: Value) -> int:
         size = evaluate(node, NUM, (), lookup)
         if not isinstance(size, int) or size < 1:
             raise CannotCompile("a dimension is a whole number from 1", node)
@@ -435,7 +449,7 @@ class Program:
         if datum.kind == "PERS":
             cell = self.shared.cells.get(f" {key}")
             if cell is None:
-                cell = self.shared.cells[f" {key}"] = Cell(datum.name, kind, (), value)
+                cell = self.shared.cells[f" {key}"] = PersistentCell(datum.name, kind, (), value)
             self.space[code] = cell
             return Data(datum.name, "PERS", kind, (), "cell", code)
         self.space[code] = value
@@ -459,7 +473,7 @@ class Program:
 
     # -- what generated code names ---------------------------------------------------------------
 
-    def keep(self, value: Any) -> str:  # noqa: ANN401
+    def keep(self, value: Value) -> str:
         """A name in the namespace for any object."""
         known = self._kept.get(id(value))
         if known is None:
@@ -517,21 +531,19 @@ class Program:
 
     # -- code ------------------------------------------------------------------------------------
 
-    def _stub(self, routine: Routine) -> Callable[..., Any]:
-        def stub(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401
+    def _stub(self, routine: Routine) -> Callable[..., Value]:
+        def stub(*arguments: Value, **named: Value) -> Value:
             return self.function(routine)(*arguments, **named)
 
         return stub
 
-    def function(self, routine: Routine) -> Callable[..., Any]:
+    def function(self, routine: Routine) -> Callable[..., Value]:
         """The compiled function of a routine; FatalError when it breaks the language's rules."""
         assert routine.module is not None
         name = self.code_name(routine)
-        known = self.codes.get(name)
-        if known is not None and known.routine is routine:
-            function: Callable[..., Any] = self.space[routine.code]
-            if getattr(function, "__name__", "") != "stub":
-                return function
+        if routine in self._linked:
+            linked: Callable[..., Value] = self.space[routine.code]
+            return linked
         try:
             function, compiled = compile_routine(self, routine.module, routine, self.options)
         except CannotCompile as fault:
@@ -541,11 +553,12 @@ class Program:
                 40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault
         self.codes[name] = compiled
+        self._linked.add(routine)
         return function
 
     def rest(
         self, standing: Standing, *, calls: bool = False, alone: bool = False
-    ) -> Callable[[dict[str, Any]], Any]:
+    ) -> Callable[[dict[str, Value]], Value]:
         """A function that goes on with a routine where it stands. CannotCompile: it cannot.
 
         `calls`: the statement is a call that is under way. `alone`: only it is executed.
@@ -555,14 +568,14 @@ class Program:
         self.codes[name] = compiled
         return function
 
-    def backward(self, routine: Routine) -> Callable[..., Any]:
+    def backward(self, routine: Routine) -> Callable[..., Value]:
         """The BACKWARD handler of a procedure as a function. CannotCompile."""
         assert routine.module is not None
         function, compiled, name = compile_backward(self, routine, self.options)
         self.codes[name] = compiled
         return function
 
-    def value(self, module: LoadedModule, key: str) -> Any:  # noqa: ANN401
+    def value(self, module: LoadedModule, key: str) -> Value:
         """Current value of a module datum. KeyError: there is none."""
         data = module.symbols[key]
         if not isinstance(data, Data):
@@ -570,4 +583,4 @@ class Program:
         if data.storage == "inline":
             return data.value
         kept = self.space[data.code]
-        return kept.v if isinstance(kept, Cell) else kept
+        return kept.v if isinstance(kept, PersistentCell) else kept

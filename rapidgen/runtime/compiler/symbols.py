@@ -1,11 +1,11 @@
 """What names in RAPID stand for, and how compiled code reaches it."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.registry import Builtin
-from rapidgen.runtime.values import Type
+from rapidgen.runtime.values import Type, Value
 
 if TYPE_CHECKING:
     from rapidgen.runtime.compiler.program import LoadedModule
@@ -15,10 +15,10 @@ Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", 
 
 inline  the value itself stands in the code (atomic CONST, ERR_ numbers)
 global  a global of the task's namespace
-cell    a global `Cell` (PERS)
+cell    a global `PersistentCell` (PERS)
 local   a Python local
 box     a Python local that holds a `Box` (a variable that is passed by reference)
-ref     a Python local that holds a `Ref` or `Cell` (VAR, INOUT and PERS parameters)
+ref     a Python local that holds a `Ref` or `PersistentCell` (VAR, INOUT and PERS parameters)
 object  a Python local that is the record, array or non-value object of a VAR parameter
 """
 
@@ -40,7 +40,7 @@ class Data:
     whole: bool = False
     """Always a whole number, kept as int."""
     range: tuple[int, int] | None = None
-    value: Any = None
+    value: Value = None
     """Of `inline` data."""
     readonly: bool = False
 

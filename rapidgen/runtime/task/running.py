@@ -5,7 +5,7 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from rapidgen.machine.scheduler import Scheduler
-from rapidgen.runtime.compiler.base import CannotCompile
+from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.program import Program, Shared
 from rapidgen.runtime.compiler.resume import Standing
 from rapidgen.runtime.compiler.symbols import Routine
