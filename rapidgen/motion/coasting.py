@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S
-from rapidgen.motion.moves import Posture
 
 _STEP = 1e-6
 """s over which the axes' speeds are measured."""

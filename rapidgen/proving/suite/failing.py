@@ -8,7 +8,7 @@ from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Broken, Case
-from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.runtime.builtins.clocks import StopWatch
 from rapidgen.wire.simple_message import messages, spec
 from rapidgen.wire.simple_message.spec import Reason
 
@@ -216,7 +216,7 @@ def _clocks_at_their_end(bench: Bench) -> None:
     bench.run(2)
     program = bench.controller.rapid_tasks[bench.task("ROS_motionServer")].program
     for value in program.space.values():
-        if isinstance(value, Clock) and value.started is not None:
+        if isinstance(value, StopWatch) and value.started is not None:
             value.started -= 50 * 86_400 * 10**9
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)

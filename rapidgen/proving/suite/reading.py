@@ -9,7 +9,7 @@ from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance, small_unit
-from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.runtime.builtins.clocks import StopWatch
 from rapidgen.wire.simple_message import Frame, decode, encode, messages, spec
 from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
 
@@ -193,15 +193,15 @@ def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
                 raise Broken(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
 
 
-def _clocks(bench: Bench) -> list[Clock]:
+def _clocks(bench: Bench) -> list[StopWatch]:
     program = bench.controller.rapid_tasks[bench.task("ROS_stateServer")].program
     return [clock for value in program.space.values() for clock in _of(value)]
 
 
-def _of(value: object) -> list[Clock]:
+def _of(value: object) -> list[StopWatch]:
     if isinstance(value, dict):
         return [clock for one in value.values() for clock in _of(one)]
-    return [value] if isinstance(value, Clock) and value.started is not None else []
+    return [value] if isinstance(value, StopWatch) and value.started is not None else []
 
 
 def _over_the_ends(bench: Bench) -> None:
