@@ -10,9 +10,10 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import predefined, runtime
 from rapidgen.runtime.compiler.argname import arg_name
 from rapidgen.runtime.compiler.base import CannotCompile, Options
+from rapidgen.runtime.compiler.compiled import Compiled
 from rapidgen.runtime.compiler.evaluate import evaluate
 from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, compile_rest
-from rapidgen.runtime.compiler.routine import Compiled, compile_routine
+from rapidgen.runtime.compiler.routine import compile_routine
 from rapidgen.runtime.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
 from rapidgen.runtime.errors import RECOVERABLE, FatalError
 from rapidgen.runtime.values import NUM, Cell, SharedVariable, Type, make_array, make_record

@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.base import Options
+from rapidgen.runtime.compiler.compiled import Compiled
 from rapidgen.runtime.compiler.loops import loop_variable
-from rapidgen.runtime.compiler.routine import Compiled, RoutineCompiler
+from rapidgen.runtime.compiler.routine import RoutineCompiler
 from rapidgen.runtime.compiler.symbols import Routine
 
 if TYPE_CHECKING:

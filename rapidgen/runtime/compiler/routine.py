@@ -1,13 +1,13 @@
 """One routine: RAPID tree to Python function."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from types import CodeType
 from typing import TYPE_CHECKING, Any
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts, Whole
 from rapidgen.runtime.compiler.base import UNBOUNDED, Options
+from rapidgen.runtime.compiler.compiled import Compiled
 from rapidgen.runtime.compiler.inline import NEVER_BOXES
 from rapidgen.runtime.compiler.loops import Loops
 from rapidgen.runtime.compiler.symbols import Data, Parameter, Routine
@@ -19,25 +19,6 @@ if TYPE_CHECKING:
 
 _ATOMIC = ("num", "dnum", "bool", "string")
 _IMMUTABLE = ("num", "dnum", "bool", "string")
-
-
-@dataclass(slots=True, eq=False)
-class Compiled:
-    """What is known about compiled code when something goes wrong in it."""
-
-    routine: Routine
-    module: "LoadedModule"
-    text: str
-    tokens: list[int]
-    """RAPID token by Python line."""
-    refunds: dict[int, int]
-    synced: set[int]
-
-    @property
-    def handled(self) -> bool:
-        """Whether the routine has an ERROR clause."""
-        node = self.routine.node
-        return node is not None and node.error is not None
 
 
 class RoutineCompiler(Loops):

@@ -10,11 +10,11 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from types import FrameType, TracebackType
 from typing import Any
 
+from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RECOVERABLE, FatalError
-from rapidgen.runtime.task.recovery import is_part
 from rapidgen.runtime.task.task import Task
 
 LARGEST_STACK = 100
@@ -39,16 +39,19 @@ def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[
     for frame, line in frames:
         compiled = program.codes.get(frame.f_code.co_filename)
         name = frame.f_code.co_name
-        if name in _OTHER_LEVELS or (compiled is not None and name in ("_h", "_u")):
+        if name in _OTHER_LEVELS:
             return None
         if compiled is None or not 0 <= line < len(compiled.tokens):
             continue
+        role = compiled.role(frame.f_code)
+        if role.is_handler:
+            return None
         assert compiled.routine.node is not None
         path = find(compiled.routine.node.body, compiled.tokens[line])
         if path is None:
             return None
         key, values = id(frame), dict(frame.f_locals)
-        if is_part(frame):
+        if role is Role.PART:
             key = list(found)[-1]
             values = {**found[key].values, **values}
         found[key] = Standing(compiled.routine, path, values)

@@ -74,6 +74,6 @@ def _frame_of(task: "Task", frames: list[FrameType], owner: tuple[str, str]) -> 
     for frame in frames:
         compiled = task.program.codes[frame.f_code.co_filename]
         inside = inside or (compiled.module.name, compiled.routine.name) == owner
-        if inside and compiled.handled and frame.f_code.co_name not in ("_h", "_u"):
+        if inside and compiled.handled and not compiled.role(frame.f_code).is_handler:
             return frame
     return None

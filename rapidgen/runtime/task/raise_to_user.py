@@ -3,8 +3,9 @@
 import sys
 from types import FrameType
 
+from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.errors import RapidError, ResumeInside
-from rapidgen.runtime.task.recovery import RETRIES, RETRY, TRYNEXT, Recovery, is_part, lists
+from rapidgen.runtime.task.recovery import RETRIES, RETRY, TRYNEXT, Recovery, lists
 
 
 def give_to_user(task: Recovery, error: RapidError, *, resume: bool) -> None:
@@ -20,7 +21,8 @@ def give_to_user(task: Recovery, error: RapidError, *, resume: bool) -> None:
     error.target = user
     if not resume:
         raise error
-    handler = user.f_locals["_h"]
+    handler = task.program.codes[user.f_code.co_filename].handler(user)
+    assert handler is not None
     for retries in range(RETRIES + 1):
         error.way = task.run_handler(handler, error, retries, user)
         if error.way not in (RETRY, TRYNEXT):
@@ -42,15 +44,16 @@ def _user(task: Recovery, number: int) -> tuple[FrameType | None, bool]:
         compiled = codes.get(at.f_code.co_filename)
         if compiled is not None:
             hidden = "NOSTEPIN" in compiled.module.tree.attributes
-            if at.f_code.co_name in ("_h", "_u"):
+            role = compiled.role(at.f_code)
+            if role.is_handler:
                 if not (hidden or first):
                     break  # errors inside a handler go to the system error handler [K §7.1]
                 inside = True
-            elif not (first or hidden) and compiled.handled:
-                listed = at.f_locals.get("_l")
-                if "_h" in at.f_locals and (listed is None or lists(listed(), number)):
+            elif not (first or hidden) and compiled.handler(at) is not None:
+                listed = compiled.listed(at)
+                if listed is None or lists(listed, number):
                     return at, inside
-            elif not is_part(at):
+            elif role is Role.ROUTINE:
                 first = False
         at = at.f_back
     return None, inside

@@ -10,6 +10,7 @@ from greenlet import GreenletExit
 
 from rapidgen.diagnostics import Span
 from rapidgen.machine.scheduler import Process, Scheduler
+from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,
@@ -220,10 +221,9 @@ class Recovery(Process):
                 self.b = budget
             return known
         compiled = codes[inner.tb_frame.f_code.co_filename]
-        if inner.tb_lineno not in compiled.synced:
-            left = inner.tb_frame.f_locals.get("b")
-            if left is not None:
-                self.b = left + compiled.refunds.get(inner.tb_lineno, 0)
+        left = compiled.budget(inner.tb_frame, inner.tb_lineno)
+        if left is not None:
+            self.b = left
         return known
 
     def throw(self, number: float) -> NoReturn:
@@ -256,13 +256,14 @@ class Recovery(Process):
         while at is not None:
             compiled = codes.get(at.f_code.co_filename)
             if compiled is not None:
-                if at.f_code.co_name in ("_h", "_u"):
+                role = compiled.role(at.f_code)
+                if role.is_handler:
                     in_handler = True
                 else:
-                    own = at.f_locals.get("_l")
-                    if not in_handler and own is not None and lists(own(), number):
+                    own = None if in_handler else compiled.listed(at)
+                    if own is not None and lists(own, number):
                         return at
-                    in_handler = in_handler and is_part(at)
+                    in_handler = in_handler and role is Role.PART
             at = at.f_back
         return None
 
@@ -272,7 +273,7 @@ class Recovery(Process):
         while at is not None:
             compiled = codes.get(at.f_code.co_filename)
             if compiled is not None:
-                if at.f_code.co_name in ("_h", "_u"):
+                if compiled.role(at.f_code).is_handler:
                     return False
                 if compiled.handled:
                     return True
@@ -353,7 +354,7 @@ class Recovery(Process):
             frame = traceback.tb_frame
             place = self.place_of(frame.f_code.co_filename, traceback.tb_lineno)
             if place is not None:
-                if is_part(frame):
+                if self.is_part(frame):
                     found.pop()
                 found.append(place)
             traceback = traceback.tb_next
@@ -369,9 +370,14 @@ class Recovery(Process):
             if place is not None:
                 if not inside:
                     found.append(place)
-                inside = is_part(frame)
+                inside = self.is_part(frame)
             frame = frame.f_back
         return tuple(reversed(found))
+
+    def is_part(self, frame: FrameType) -> bool:
+        """Whether it is a deeply nested part of a routine or handler, whose frame is the next."""
+        compiled = self.program.codes.get(frame.f_code.co_filename)
+        return compiled is not None and compiled.role(frame.f_code) is Role.PART
 
     def poll(self, b: int) -> int:
         """See Process.poll; also looks at the depth of the call stack."""
@@ -381,11 +387,6 @@ class Recovery(Process):
             return super().poll(b)
         self.b = b
         raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
-
-
-def is_part(frame: FrameType) -> bool:
-    """Whether it is a deeply nested part of a routine or handler, whose frame is the next."""
-    return frame.f_code.co_name.startswith("_a")
 
 
 def lists(numbers: tuple[float, ...], number: int) -> bool:
