@@ -1,48 +1,44 @@
 """What is known about compiled code when something looks at its frames: errors, steps, stops.
 
-Everything about names and variables that the compiler gives to Python functions is said here;
-who walks a call stack asks for roles.
+A routine becomes one Python function and, inside it, one for each handler and for statements that
+are nested more deeply than CPython takes. The compiler registers the role of each with the code;
+what they and their variables are called is said here alone.
 """
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from enum import Enum, auto
+from enum import Enum
 from types import CodeType, FrameType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from rapidgen.runtime.compiler.symbols import Routine
 
 if TYPE_CHECKING:
     from rapidgen.runtime.compiler.program import LoadedModule
 
-HANDLER = "_h"
+HANDLER: Final = "_h"
 """Function of an ERROR handler, and the variable of its routine that holds it."""
-UNDO = "_u"
+UNDO: Final = "_u"
 """Function of an UNDO handler."""
-LISTED = "_l"
+LISTED: Final = "_l"
 """Function with the numbers of ERROR (list); None: the handler is for all."""
-PART = "_a"
-"""Functions of statements that are nested too deeply begin so."""
-BUDGET = "b"
+BUDGET: Final = "b"
 """What the task has left, while its routine counts down."""
 
 
 class Role(Enum):
     """What a Python function of a compiled routine is."""
 
-    ROUTINE = auto()
-    HANDLER = auto()
-    UNDO = auto()
-    PART = auto()
+    ROUTINE = ""
+    HANDLER = "ERROR"
+    UNDO = "UNDO"
+    PART = "part"
     """Deeply nested statements of a routine or handler, whose frame is the next one out."""
 
     @property
     def is_handler(self) -> bool:
         """Whether it is an ERROR or UNDO handler."""
         return self is Role.HANDLER or self is Role.UNDO
-
-
-_ROLES = {HANDLER: Role.HANDLER, UNDO: Role.UNDO}
 
 
 @dataclass(slots=True, eq=False)
@@ -55,7 +51,11 @@ class Compiled:
     tokens: list[int]
     """RAPID token by Python line."""
     refunds: dict[int, int]
+    """By Python line: what the rest of its block was paid, ns."""
     synced: set[int]
+    """Python lines before which the budget was written back."""
+    roles: dict[str, Role]
+    """Of the functions inside the routine's, by name."""
 
     @property
     def handled(self) -> bool:
@@ -65,8 +65,7 @@ class Compiled:
 
     def role(self, code: CodeType) -> Role:
         """What one of the routine's functions is."""
-        name = code.co_name
-        return _ROLES.get(name) or (Role.PART if name.startswith(PART) else Role.ROUTINE)
+        return self.roles.get(code.co_name, Role.ROUTINE)
 
     def handler(self, frame: FrameType) -> Callable[[], int] | None:
         """The ERROR handler of a routine that is being executed, once it is made."""

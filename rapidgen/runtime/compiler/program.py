@@ -16,7 +16,14 @@ from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, 
 from rapidgen.runtime.compiler.routine import compile_routine
 from rapidgen.runtime.compiler.symbols import Data, Parameter, Pending, Routine, Symbol
 from rapidgen.runtime.errors import RECOVERABLE, FatalError
-from rapidgen.runtime.values import NUM, Cell, SharedVariable, Type, make_array, make_record
+from rapidgen.runtime.values import (
+    NUM,
+    PersistentCell,
+    SharedVariable,
+    Type,
+    make_array,
+    make_record,
+)
 from rapidgen.system.model import ModuleFile
 
 if TYPE_CHECKING:
@@ -60,7 +67,7 @@ class Shared:
     """What the programs of all tasks share: persistents, record classes, configured objects."""
 
     def __init__(self, configured: dict[str, tuple[Type, Any]] | None = None) -> None:
-        self.cells: dict[str, Cell] = {}
+        self.cells: dict[str, PersistentCell] = {}
         self.bare: set[str] = set()
         """Cells whose declarations so far had no initial value."""
         self.common: dict[tuple[str, str], Any] = {}
@@ -287,21 +294,23 @@ class Program:
         kind: Type,
         dims: tuple[int, ...],
         value: Any,  # noqa: ANN401
-    ) -> Cell:
+    ) -> PersistentCell:
         """The cell of a PERS: one for the whole system by name, unless LOCAL or TASK.
 
         The first declaration with an initial value gives the value [K §14.4].
         """
         if module.file.shared and d.scope != "TASK":
             place = (module.name.lower(), d.name.lower())
-            own: Cell = self.shared.common.setdefault(place, Cell(d.name, kind, dims, value))
+            own: PersistentCell = self.shared.common.setdefault(
+                place, PersistentCell(d.name, kind, dims, value)
+            )
             return own
         if d.scope:
-            return Cell(d.name, kind, dims, value)
+            return PersistentCell(d.name, kind, dims, value)
         key = d.name.lower()
         cell = self.shared.cells.get(key)
         if cell is None:
-            cell = self.shared.cells[key] = Cell(d.name, kind, dims, value)
+            cell = self.shared.cells[key] = PersistentCell(d.name, kind, dims, value)
             if d.initial is None:
                 self.shared.bare.add(key)
             return cell
@@ -309,7 +318,7 @@ class Program:
             self._fault(
                 module, f"{d.name} is shared with another task that declares another type", d
             )
-            return Cell(d.name, kind, dims, value)
+            return PersistentCell(d.name, kind, dims, value)
         if d.initial is not None and key in self.shared.bare:
             self.shared.bare.discard(key)
             cell.set(value)
@@ -436,7 +445,7 @@ class Program:
         if datum.kind == "PERS":
             cell = self.shared.cells.get(f" {key}")
             if cell is None:
-                cell = self.shared.cells[f" {key}"] = Cell(datum.name, kind, (), value)
+                cell = self.shared.cells[f" {key}"] = PersistentCell(datum.name, kind, (), value)
             self.space[code] = cell
             return Data(datum.name, "PERS", kind, (), "cell", code)
         self.space[code] = value
@@ -571,4 +580,4 @@ class Program:
         if data.storage == "inline":
             return data.value
         kept = self.space[data.code]
-        return kept.v if isinstance(kept, Cell) else kept
+        return kept.v if isinstance(kept, PersistentCell) else kept

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts, Whole
 from rapidgen.runtime.compiler.base import UNBOUNDED, Options
-from rapidgen.runtime.compiler.compiled import Compiled
+from rapidgen.runtime.compiler.compiled import Compiled, Role
 from rapidgen.runtime.compiler.inline import NEVER_BOXES
 from rapidgen.runtime.compiler.loops import Loops
 from rapidgen.runtime.compiler.symbols import Data, Parameter, Routine
@@ -50,6 +50,7 @@ class RoutineCompiler(Loops):
         self.entry = routine.code
         self.file = program.code_name(routine)
         self.resumed = set()
+        self.roles = {}
         self.facts = Facts(node, self.known_routine, NEVER_BOXES)
         self.goto = self.facts.goto
         self.boxed = self.facts.by_reference
@@ -112,7 +113,7 @@ class RoutineCompiler(Loops):
         except (SyntaxError, RecursionError) as error:
             # CPython nests 20 loops and 100 levels of indentation, not more.
             self.fault(f"statements are nested too deeply ({error.args[0]})", node)
-        return code, Compiled(self.routine, self.module, text, tokens, refunds, synced)
+        return code, Compiled(self.routine, self.module, text, tokens, refunds, synced, self.roles)
 
     def head(self) -> None:
         """The function's header, its parameters and variables."""
@@ -180,6 +181,7 @@ class RoutineCompiler(Loops):
         own = {d.code for d in self.locals.values()}
         nonlocals = ", ".join(sorted(self.stored & own))
         w.emit(f"def {name}():")
+        self.roles[name] = Role(handler)
         w.depth += 1
         if nonlocals:
             w.emit(f"nonlocal {nonlocals}")

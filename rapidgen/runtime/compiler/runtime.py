@@ -9,8 +9,8 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import (
     STRING_LIMIT,
     Box,
-    Cell,
     Orient,
+    PersistentCell,
     Pos,
     Record,
     Ref,
@@ -242,7 +242,7 @@ class ItemRef(Ref):
         index: int,
         type: Type,
         name: str,
-        cell: Cell | None = None,
+        cell: PersistentCell | None = None,
     ) -> None:
         super().__init__(type, (), name, whole=False, cell=cell)
         array[index]
@@ -265,7 +265,12 @@ class MemberRef(Ref):
     __slots__ = ("attribute", "record")
 
     def __init__(
-        self, record: Record, attribute: str, type: Type, name: str, cell: Cell | None = None
+        self,
+        record: Record,
+        attribute: str,
+        type: Type,
+        name: str,
+        cell: PersistentCell | None = None,
     ) -> None:
         super().__init__(type, (), name, whole=False, cell=cell)
         self.record = record
@@ -326,7 +331,7 @@ def part(
     value: Any,  # noqa: ANN401
     type: Type,
     name: str,
-    cell: Cell | None = None,
+    cell: PersistentCell | None = None,
     dims: tuple[int, ...] = (),
 ) -> Box:
     """A reference to a record or array inside a datum."""

@@ -6,6 +6,7 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import walk
 from rapidgen.runtime.compiler.base import E
 from rapidgen.runtime.compiler.calls import Calls
+from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.compiler.writer import Line, Writer
 from rapidgen.runtime.values import NUM
 
@@ -31,6 +32,7 @@ class Structure(Calls):
     goto: set[str]
     """Labels that a GOTO of this routine names."""
     label_states: dict[str, tuple[str, int]]
+    roles: dict[str, Role]
     jumps_out: int
     """How many Python loops a GOTO inside the loop just compiled leaves."""
     uses_jump: bool
@@ -176,6 +178,7 @@ class Structure(Calls):
         w.depth -= 1
         w.token = node.first
         w.emit(f"def {name}():")
+        self.roles[name] = Role.PART
         w.depth += 1
         own = {d.code for d in self.locals.values()}
         if names := sorted(self.stored & own):
