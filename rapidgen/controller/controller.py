@@ -18,7 +18,6 @@ from rapidgen.machine.configuration import Configuration
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.network.device import SocketTable
 from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
@@ -37,6 +36,7 @@ from rapidgen.runtime.compiler.symbols import Data, Routine
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.queues import QueueSystem
+from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Dialect
 from rapidgen.runtime.task.recovery import Place
 from rapidgen.runtime.task.running import RapidTask

@@ -19,8 +19,9 @@ from itertools import pairwise
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.controller.faults import Direction, FaultPlan, NetworkRule
+from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
+from rapidgen.machine.network.rules import Direction, NetworkRule
 from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding

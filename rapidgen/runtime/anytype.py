@@ -2,8 +2,9 @@
 
 from typing import Any
 
-from rapidgen.machine.io import Signal, SignalAlias
+from rapidgen.machine.io import Signal
 from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.signals import SignalAlias
 from rapidgen.runtime.values import NUM, PersistentCell, Ref, Type, single
 
 

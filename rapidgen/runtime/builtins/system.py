@@ -5,7 +5,7 @@ remembered only [mem].
 """
 
 from rapidgen.config.model import MotionGroup
-from rapidgen.machine.files import FileSystem
+from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin
@@ -84,9 +84,8 @@ def _tables(task: Task) -> TextTables:
 @builtin("TextTabInstall", cost="socket")
 def text_tab_install(task: Task, file: str) -> None:
     """Install the tables of a file."""
-    files: FileSystem = task.controller.files
     try:
-        _tables(task).install(files.path(file).read_text(encoding="latin-1"))
+        _tables(task).install(file_path(task, file).read_text(encoding="latin-1"))
     except OSError as error:
         raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
     except ValueError as error:

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from rapidgen.machine.io import AnySignal
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move, Posture
@@ -19,6 +18,7 @@ from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
 

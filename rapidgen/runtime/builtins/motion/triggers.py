@@ -8,7 +8,6 @@ from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
 from typing import Any, TypeAlias
 
-from rapidgen.machine.io import AnySignal
 from rapidgen.motion import events
 from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
@@ -18,6 +17,7 @@ from rapidgen.runtime.builtins.motion.request import Given, bind, cartesian_move
 from rapidgen.runtime.builtins.motion.triggdata import TriggData
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
 

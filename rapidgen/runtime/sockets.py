@@ -1,4 +1,4 @@
-"""The `socketdev` datum and the controller's table of sockets that are in use."""
+"""socketdev, and the controller's table of sockets that are in use."""
 
 from enum import IntEnum
 
@@ -20,7 +20,7 @@ class SocketStatus(IntEnum):
 
 
 class SocketDevice:
-    """A `socketdev` datum: the program's own view of a socket."""
+    """A socketdev: the program's own view of a socket."""
 
     __slots__ = ("endpoint", "status", "udp")
 
