@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.runtime.errors import FatalError
-    from rapidgen.runtime.switches import Dialect
+    from rapidgen.runtime.switches import Switches
     from rapidgen.system.model import System
 
 
@@ -226,16 +226,16 @@ def _writable(path: Path) -> None:
         ) from error
 
 
-def _dialect(text: str) -> "Dialect":
+def _dialect(text: str) -> "Switches":
     from dataclasses import fields
 
     from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-    from rapidgen.runtime.switches import Dialect, parse_dialect
+    from rapidgen.runtime.switches import Switches, parse_switches
 
     try:
-        return parse_dialect(text)
+        return parse_switches(text)
     except ValueError as error:
-        names = ", ".join(switch.name for switch in fields(Dialect))
+        names = ", ".join(switch.name for switch in fields(Switches))
         fault = Diagnostic(
             "RG901", Severity.ERROR, f"--dialect: {error}", help=f"SWITCH=VALUE; there are {names}"
         )

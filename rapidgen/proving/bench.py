@@ -29,7 +29,7 @@ from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.runtime.compiler.program import LoadedModule, Program
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.system.model import System
 from rapidgen.wire.simple_message import WireError, encode, messages, spec
 
@@ -63,7 +63,7 @@ class Setting:
     group: int = 0
     random_schedule: bool = False
     switch_at_pers: bool = False
-    dialect: Dialect = field(default_factory=Dialect)
+    dialect: Switches = field(default_factory=Switches)
     motion: MotionSettings = field(default_factory=MotionSettings)
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False

@@ -17,7 +17,7 @@ from rapidgen.proving.explore import Explored, explore
 from rapidgen.proving.forking import in_a_fork
 from rapidgen.proving.model import Case, Outcome, Report
 from rapidgen.proving.suite import CASES
-from rapidgen.runtime.switches import NOT_THE_DRIVERS, Dialect
+from rapidgen.runtime.switches import NOT_THE_DRIVERS, Switches
 from rapidgen.system.model import System
 
 R = TypeVar("R")
@@ -48,7 +48,7 @@ def settings(config: RobotConfig) -> dict[str, Setting]:
     for number, group in enumerate(config.groups[1:], 1):
         found[group.name] = Setting(group=number, coverage=True)
     for name, value in _inverted():
-        found[f"{name}={value}"] = Setting(dialect=replace(Dialect(), **{name: value}))
+        found[f"{name}={value}"] = Setting(dialect=replace(Switches(), **{name: value}))
     for name, value in _MOTION.items():
         found[f"{name}={value}"] = Setting(motion=replace(MotionSettings(), **{name: value}))
     return found
@@ -76,7 +76,7 @@ _NEEDED = {"unpack_ulint", "alias_by_name"}
 
 
 def _inverted() -> Iterable[tuple[str, Any]]:
-    for field in fields(Dialect):
+    for field in fields(Switches):
         if field.name in _NEEDED | NOT_THE_DRIVERS:
             continue
         if isinstance(field.default, bool):

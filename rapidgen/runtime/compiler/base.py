@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import Data, Routine
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import Type
 
 if TYPE_CHECKING:
@@ -78,7 +78,7 @@ class Options:
     """A switch point at every access to a PERS."""
     tracing: bool = False
     """Report every statement (trace, profile, coverage)."""
-    dialect: Dialect = field(default_factory=Dialect)
+    dialect: Switches = field(default_factory=Switches)
 
 
 class CompilerBase:

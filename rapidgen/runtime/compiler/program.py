@@ -35,7 +35,7 @@ _ATOMIC = ("num", "dnum", "bool", "string")
 
 def _trace(task: "Task", point: int) -> None:
     """A statement is about to be executed."""
-    task.controller.statement(task, point)
+    task.controller.statements.reached(task, point)
 
 
 @dataclass(slots=True, eq=False)

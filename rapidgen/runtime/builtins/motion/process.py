@@ -14,7 +14,7 @@ from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError, errnum
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.process_errors import ProcessError
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
 
 _CHANNELS = range(1, 13)
@@ -25,7 +25,7 @@ _FORCES = range(201, 213)
 
 @builtin("ProcerrRecovery")
 def procerr_recovery(
-    task: RapidTask, origin: bool | None, last: bool | None, _signal: bool | None
+    task: Task, origin: bool | None, last: bool | None, _signal: bool | None
 ) -> None:
     """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
     if not task.in_trap or origin == last:
@@ -57,14 +57,14 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 
 @builtin("MechUnitLoad")
-def mech_unit_load(task: RapidTask, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
+def mech_unit_load(task: Task, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
     """Payload of an external mechanical unit."""
     group = group_of(task)
     group.modal.extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 
 @builtin("GetMotorTorque")
-def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa: ANN401
+def get_motor_torque(task: Task, _unit: Any, axis: float) -> float:  # noqa: ANN401
     """0 Nm. ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
@@ -75,7 +75,7 @@ def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa
 
 @builtin("TestSignDefine")
 def define_test_signal(
-    task: RapidTask,
+    task: Task,
     channel: float,
     signal: float,
     unit: Any,  # noqa: ANN401
@@ -99,7 +99,7 @@ def define_test_signal(
 
 
 @builtin("TestSignRead")
-def read_test_signal(task: RapidTask, channel: float) -> float:
+def read_test_signal(task: Task, channel: float) -> float:
     """The value of a channel. ERR_ARGVALERR: none is defined for it."""
     value: float | None = task.controller.test_signals.get(int(channel))
     if value is None:
@@ -108,6 +108,6 @@ def read_test_signal(task: RapidTask, channel: float) -> float:
 
 
 @builtin("TestSignReset")
-def reset_test_signals(task: RapidTask) -> None:
+def reset_test_signals(task: Task) -> None:
     """All channels are free."""
     task.controller.test_signals.clear()
