@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Literal, Self, TypedDict, TypeVar, Unpack
 
 from rapidgen.config import from_manifest
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
@@ -30,10 +30,12 @@ from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.builtins.motion.meeting import Meeting
-from rapidgen.runtime.compiler.base import Options
-from rapidgen.runtime.compiler.program import Shared
+from rapidgen.runtime.builtins.motion.together import Gathering
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.queues import QueueSystem
+from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.statements import Statements
@@ -55,7 +57,7 @@ class Deadlock(Exception):
 class Choices(TypedDict, total=False):
     """Keywords of `VirtualController`."""
 
-    robots: Sequence[MotionGroup]
+    robots: Sequence[GroupConfig]
     clock: ClockKind
     seed: int
     speed: float
@@ -85,7 +87,7 @@ class VirtualController:
     def __init__(
         self,
         system: System,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         *,
         clock: ClockKind = "virtual",
         seed: int = 0,
@@ -127,6 +129,8 @@ class VirtualController:
             self.scheduler, self.log, system, lowest_first=self.dialect.bit_order == "lowest"
         )
         self.motion = MotionSystem(self.scheduler, robots, self.log, self.io)
+        self.robot_data = {g.name: RobotData.of(g) for g in self.motion.groups.values()}
+        """What programs have set, by motion group."""
         self._connect_background_tasks()
         if network is None:
             network = (
@@ -149,6 +153,7 @@ class VirtualController:
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
         self.meetings: dict[object, Meeting] = {}
+        self.gatherings: dict[object, Gathering] = {}
         """Where tasks wait for each other (WaitSyncTask)."""
         self.configuration = Configuration(system, tuple(robots))
         self.options = Options(

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import GroupConfig
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
 from rapidgen.machine.io import IOSystem
 from rapidgen.rapid import Dialect, parse
@@ -43,7 +43,7 @@ def load(tasks: Iterable[Task], tree_of: Callable[[ModuleFile], n.Module]) -> li
             found += [d for d in tree.diagnostics if d not in found]
         task.program.load([(t, f) for t, f in trees if t.name])
         found += task.program.faults
-        entry = task.program.globals.get(task.spec.entry.lower())
+        entry = task.program.find_routine(None, task.spec.entry.lower())
         if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
             task.state = "ready"
         else:
@@ -65,7 +65,7 @@ def _no_entry(task: Task) -> Diagnostic:
 
 
 def configured(
-    system: System, robots: Sequence[MotionGroup], io: IOSystem
+    system: System, robots: Sequence[GroupConfig], io: IOSystem
 ) -> dict[str, tuple[Type, Value]]:
     """Objects that a configuration predefines, by lower-case name: signals, mechanical units,
     taskids."""

@@ -12,9 +12,10 @@ from rapidgen.machine.network.interface import Network
 from rapidgen.machine.operator import Operator
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.base import Options
+from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.queues import QueueSystem
+from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.texts import TextTables
@@ -22,6 +23,7 @@ from rapidgen.system.model import ModuleFile, System
 
 if TYPE_CHECKING:
     from rapidgen.runtime.builtins.motion.meeting import Meeting
+    from rapidgen.runtime.builtins.motion.together import Gathering
     from rapidgen.runtime.loading import ModuleTable
     from rapidgen.runtime.task.statements import Statements
     from rapidgen.runtime.task.task import Task
@@ -49,6 +51,8 @@ class Devices(Protocol):
     configuration: Configuration
     texts: TextTables
     queues: QueueSystem
+    robot_data: dict[str, RobotData]
+    """What programs have set, by motion group."""
     test_signals: dict[int, float]
     """Values of the servos' test signals by channel."""
 
@@ -88,6 +92,8 @@ class Host(Settings, Devices, Protocol):
     """Error numbers that BookErrNo gave."""
     meetings: "dict[object, Meeting]"
     """Where tasks wait for each other (WaitSyncTask)."""
+    gatherings: "dict[object, Gathering]"
+    """Where they do at moves of one \\ID."""
 
     @property
     def operation(self) -> Operation:

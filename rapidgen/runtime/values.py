@@ -19,6 +19,8 @@ from rapidgen.runtime.errors import RapidError
 Value: TypeAlias = Any
 """A RAPID value: float, int, bool, str, a record, an array, or the object of a non-value type."""
 Kind: TypeAlias = Literal["num", "dnum", "bool", "string", "record", "nonvalue", "semivalue"]
+ATOMIC = frozenset({"num", "dnum", "bool", "string"})
+"""Kinds of values without parts."""
 STRING_LIMIT = 80
 """Characters of a string [K §2.13]."""
 _EXACT = 1 << 24

@@ -8,7 +8,7 @@ import asyncio
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, settings
+from hypothesis import Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
@@ -134,7 +134,7 @@ class ClientAndController(RuleBasedStateMachine):
 
     @property
     def has_control(self):
-        return self.robot._core.talks[Port.CONTROL].is_open
+        return self.robot._core.ports[Port.CONTROL].is_open
 
     @rule(column=st.integers(0, 5), value=st.sampled_from([9.0, -9.0, float("nan")]))
     def execute_what_is_wrong(self, column, value):
@@ -215,9 +215,6 @@ TestClientAndController = ClientAndController.TestCase
 TestClientAndController.settings = settings(
     max_examples=12,
     stateful_step_count=14,
-    deadline=None,
-    derandomize=True,
     # Booting takes most of the time; the explanation would trace all of it.
     phases=(Phase.explicit, Phase.generate),
-    suppress_health_check=list(HealthCheck),
 )

@@ -4,7 +4,7 @@ Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the for
 remembered only [mem].
 """
 
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import GroupConfig
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import whole
@@ -44,7 +44,7 @@ def get_sys_info(
         return f"{major}.{minor:02d}.00.00"
     if robot_type:
         groups = task.controller.motion.groups.values()
-        configs: list[MotionGroup] = [group.config for group in groups]
+        configs: list[GroupConfig] = [group.config for group in groups]
         return limited(configs[0].model if configs else "")
     if controller_id or system_name:
         return limited(system.name)

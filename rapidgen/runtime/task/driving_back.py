@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, Posture
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.task.call_stack import Location
 
 if TYPE_CHECKING:
@@ -64,6 +65,7 @@ class StepHistory:
     def _note(self, move: Move) -> None:
         self._begun.append((move, self._group.path_target))
 
+    @planned
     def drive(self, task: "Task", statement: Location, start: Callable[[], None]) -> bool:
         """Drive back over the move of a statement; False: not known, the robot stays.
 

@@ -3,9 +3,10 @@
 
 from collections.abc import Sequence
 
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import Parameter, Routine
+from rapidgen.runtime.compiler.symbols import FormalParameter, Routine
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import Value
 
@@ -18,9 +19,9 @@ def find(program: Program, name: str, module: LoadedModule | None) -> Routine:
     key = proper.lower()
     if colon and where:
         inside = program.modules.get(where.lower())
-        found = inside.symbols.get(key) if inside is not None else None
+        found = inside.routines.get(key) if inside is not None else None
     elif colon:
-        found = program.globals.get(key)
+        found = program.routine(program.names.globals.get(key))
     else:
         found = program.find_routine(module, key)
     if found is None:
@@ -60,7 +61,7 @@ def match(routine: Routine, given: Sequence[LateArgument]) -> tuple[list[Value],
     return positional, named
 
 
-def _value(parameter: Parameter, argument: LateArgument, *, builtin: bool) -> Value:
+def _value(parameter: FormalParameter, argument: LateArgument, *, builtin: bool) -> Value:
     if argument.read is None:
         return True
     kind = parameter.type

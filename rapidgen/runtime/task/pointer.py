@@ -12,8 +12,8 @@ from types import FrameType
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.base import CannotCompile
 from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.compiler.symbols import Routine

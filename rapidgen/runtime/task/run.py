@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from rapidgen.runtime.compiler.base import CannotCompile
+from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.resume import Standing
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, ExitCycle, FatalError, PointerMoved
@@ -81,7 +81,7 @@ class Run:
         task.attend()
         task.charge(task.controller.costs.statement)
         task.events.run()
-        entry = self.routine or task.program.globals.get(task.spec.entry.lower())
+        entry = self.routine or task.program.find_routine(None, task.spec.entry.lower())
         assert isinstance(entry, Routine)
         task.program.function(entry)()
         return self._next_cycle()

@@ -12,7 +12,8 @@ from typing import Literal, TypeAlias
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.program import LoadedModule, Program, Shared
+from rapidgen.runtime.compiler.linking import LoadedModule, Shared
+from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, PointerMoved

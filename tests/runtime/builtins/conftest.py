@@ -13,8 +13,8 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.rapid.builtins import signatures
-from rapidgen.runtime.compiler.base import Options
-from rapidgen.runtime.compiler.program import Shared
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.registry import bound
 from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Switches
