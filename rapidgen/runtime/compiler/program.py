@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import error
 from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
@@ -38,7 +38,6 @@ class Program:
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
         """What is compiled as the modules are now."""
-        self.missing: set[str] = set()
         self.trace_points: list[tuple[Routine, n.Statement]] = []
         self.switch_type = Type("switch", "bool")
         self._serial = 0
@@ -126,15 +125,6 @@ class Program:
             self.space[known] = value
         return known
 
-    def type_code(self, kind: Type) -> str:
-        """Name of a Type."""
-        return self.keep(kind)
-
-    def record_code(self, kind: Type) -> str:
-        """Name of what makes a datum of a type."""
-        assert kind.make is not None
-        return self.keep(kind.make)
-
     def global_ref(self, data: Data) -> str:
         """Name of a reference to module data."""
         name = f"r_{data.code}"
@@ -143,14 +133,6 @@ class Program:
                 self.space, data.code, data.type, data.dims, data.name
             )
         return name
-
-    def module_code(self, module: LoadedModule) -> str:
-        """Name of a module."""
-        return self.keep(module)
-
-    def trap_code(self, trap: Routine) -> str:
-        """Name of a trap."""
-        return self.keep(trap)
 
     def code_name(self, routine: Routine) -> str:
         """Python file name of a routine's code."""
@@ -168,10 +150,6 @@ class Program:
             self.options = replace(self.options, tracing=True, accounting="statement")
             self.codes.clear()
             self._reset_code()
-
-    def said_missing(self, name: str) -> None:
-        """Remember a routine that is called and does not exist."""
-        self.missing.add(name)
 
     # -- code ------------------------------------------------------------------------------------
 
@@ -192,7 +170,7 @@ class Program:
             function, compiled = compile_routine(self, routine.module, routine, self.options)
         except CannotCompile as fault:
             span = routine.module.span(fault.node)
-            self.faults.append(Diagnostic("RG401", Severity.ERROR, str(fault), span))
+            self.faults.append(error("RG401", span, str(fault)))
             raise FatalError(
                 40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault
