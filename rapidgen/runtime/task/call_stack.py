@@ -6,7 +6,7 @@ from types import FrameType, TracebackType
 from typing import TypeAlias
 
 from rapidgen.diagnostics import Span
-from rapidgen.runtime.compiler.compiled import Compiled, Role
+from rapidgen.runtime.compiler.compiled import CodeRole, Compiled
 
 Codes: TypeAlias = Mapping[str, Compiled]
 """Code of a program by Python file name."""
@@ -83,4 +83,4 @@ def stack_at(codes: Codes, frame: FrameType | None) -> tuple[Location, ...]:
 
 
 def _is_part(codes: Codes, frame: FrameType) -> bool:
-    return codes[frame.f_code.co_filename].role(frame.f_code) is Role.PART
+    return codes[frame.f_code.co_filename].role(frame.f_code) is CodeRole.PART
