@@ -5,10 +5,14 @@ the task. Numbers of the ERR_ constants are in no public source; they are opaque
 """
 
 from functools import cache
-from typing import Any
+from types import FrameType
+from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Span
 from rapidgen.rapid.builtins import signatures
+
+if TYPE_CHECKING:
+    from rapidgen.runtime.task.call_stack import Location
 
 LARGEST_USER_ERROR = 90
 """RAISE takes 1 to 90 [K §4.8]."""
@@ -53,7 +57,7 @@ class RapidError(Exception):
         """Whether the task's budget was put right for it."""
         self.raised = False
         """Whether RAISE with a number made it."""
-        self.target: Any = None
+        self.target: FrameType | None = None
         """Python frame of the routine whose handler it jumps to [K §7.2, 7.3]."""
         self.way: int | None = None
         """How that handler has ended, when it has run already."""
@@ -88,7 +92,7 @@ class FatalError(Exception):
         """The error that nobody handled."""
         self.restartable = restartable
         """Whether a start may try the statement again."""
-        self.stack: tuple[Any, ...] = ()
+        self.stack: tuple[Location, ...] = ()
         """Call stack at the error, outermost first."""
 
 

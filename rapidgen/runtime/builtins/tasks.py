@@ -1,11 +1,9 @@
 """What a task may ask about itself, the others and the controller."""
 
-from typing import Any
-
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 OP_AUTO, OP_MAN_PROG, OP_MAN_TEST = 1, 2, 3
 RUN_CONT_CYCLE = 1
@@ -70,12 +68,12 @@ def motion_planner_no(task: Task) -> int:
 
 
 @builtin("GetMecUnitName")
-def get_mec_unit_name(task: Task, unit: Any) -> str:  # noqa: ANN401 - an opaque mecunit
+def get_mec_unit_name(task: Task, unit: Value) -> str:
     """GetMecUnitName: name of a mechanical unit."""
     return str(unit.value or "")
 
 
-def _task(task: Task, reference: Any, name: str | None) -> Task:  # noqa: ANN401
+def _task(task: Task, reference: Value, name: str | None) -> Task:
     wanted = name if name is not None else str(reference.value or "")
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() == wanted.lower():
@@ -84,12 +82,12 @@ def _task(task: Task, reference: Any, name: str | None) -> Task:  # noqa: ANN401
 
 
 @builtin("TaskIsActive")
-def task_is_active(task: Task, reference: Any, name: str | None) -> bool:  # noqa: ANN401
+def task_is_active(task: Task, reference: Value, name: str | None) -> bool:
     """TaskIsActive: no task is switched off here."""
     return _task(task, reference, name).state != "empty"
 
 
 @builtin("TaskIsExecuting")
-def task_is_executing(task: Task, reference: Any, name: str | None) -> bool:  # noqa: ANN401
+def task_is_executing(task: Task, reference: Value, name: str | None) -> bool:
     """TaskIsExecuting: whether its program runs."""
     return _task(task, reference, name).state == "running"
