@@ -31,7 +31,7 @@ from rapidgen.deploy.plan import FileChange, Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, refusal
 
 
 def apply(
@@ -71,13 +71,11 @@ def conflicts_of(plan: Plan) -> list[Diagnostic]:
 
 def moved_on(target: str) -> DiagnosticError:
     """RG522."""
-    return DiagnosticError(
-        Diagnostic(
-            "RG522",
-            Severity.ERROR,
-            f"{target} has changed since it was planned",
-            help="plan again, and look at what has changed",
-        ),
+    return refusal(
+        "RG522",
+        None,
+        f"{target} has changed since it was planned",
+        "plan again, and look at what has changed",
         exit_code=1,
     )
 
@@ -263,11 +261,11 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
     return DiagnosticError(
         [
             *fault.diagnostics,
-            Diagnostic(
+            error(
                 "RG527",
-                Severity.ERROR,
+                None,
                 f"{plan.verb} of {plan.target} was cut while it switched files",
-                help=f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
+                f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
                 notes=("what lies there now is the old set, the new set, or refuses to move",),
             ),
         ],
@@ -277,18 +275,17 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
 
 def _conflict(change: FileChange) -> Diagnostic:
     if change.conflict == "stranger":
-        return Diagnostic(
+        return error(
             "RG521",
-            Severity.ERROR,
+            None,
             f"{change.shown} is there already, and rapidgen did not put it there",
-            help="rename or remove it, or --overwrite: a copy stays on the controller, and "
+            "rename or remove it, or --overwrite: a copy stays on the controller, and "
             "`rapidgen uninstall` puts it back",
         )
-    return Diagnostic(
+    return error(
         "RG520",
-        Severity.ERROR,
+        None,
         f"{change.shown} was edited by hand since the last deployment",
-        help="take the edit over into the configuration, or --overwrite: a copy stays in the "
-        "backup",
+        "take the edit over into the configuration, or --overwrite: a copy stays in the backup",
         notes=(change.note,) if change.note else (),
     )

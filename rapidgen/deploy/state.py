@@ -13,7 +13,7 @@ from typing import Any
 
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, digest
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 FORMAT = 1
 KEPT = 5
@@ -122,8 +122,8 @@ def read_state(transport: Transport, home: str) -> StateFolder:
     if raw is not None:
         try:
             manifest = manifest_from(json.loads(raw))
-        except DAMAGE as error:
-            damaged = f"manifest.json on the controller is damaged ({type(error).__name__})"
+        except DAMAGE as cause:
+            damaged = f"manifest.json on the controller is damaged ({type(cause).__name__})"
     journals: list[tuple[int, str, Journal, bytes]] = []
     for name in sorted(names & {"journal.a", "journal.b"}):
         text = read_or_none(transport, f"{folder}/{name}") or b""
@@ -233,8 +233,8 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
         raise _no_backup(f"there is no backup {number} on the controller")
     try:
         manifest = manifest_from(json.loads(raw))
-    except DAMAGE as error:
-        raise _no_backup(f"backup {number} is damaged: {error!r}") from None
+    except DAMAGE as fault:
+        raise _no_backup(f"backup {number} is damaged: {fault!r}") from None
     files = {}
     for record in manifest.files:
         data = read_or_none(transport, f"{folder}/{safe(record.stored)}")
@@ -245,14 +245,8 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
 
 
 def _no_backup(message: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG528",
-            Severity.ERROR,
-            message,
-            help="`rapidgen rollback --list` shows which there are",
-        ),
-        exit_code=1,
+    return refusal(
+        "RG528", None, message, "`rapidgen rollback --list` shows which there are", exit_code=1
     )
 
 

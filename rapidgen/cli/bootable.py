@@ -1,4 +1,4 @@
-"""What a verb's TARGET stands for: configuration, shipped name, generated folder or backup."""
+"""What `run` and `sim` boot: configuration, shipped name, generated folder or backup."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, slots=True)
-class Target:
+class Bootable:
     """A controller that can be booted. `driver` tells whether it runs a generated driver."""
 
     name: str
@@ -22,7 +22,7 @@ class Target:
     notes: tuple["Diagnostic", ...] = ()
 
 
-def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Target:
+def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Bootable:
     """Read a TARGET. `robot` names the mechanics of a backup, which does not tell them.
 
     Raises DiagnosticError.
@@ -38,10 +38,10 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
 
     config = load_config(target, overrides=tuple(overrides))
     system = in_its_cell(make_system(config, build(config)), config)
-    return Target(config.name, system, config.groups, True, tuple(config.diagnostics))
+    return Bootable(config.name, system, config.groups, True, tuple(config.diagnostics))
 
 
-def _folder(path: Path, robot: str) -> Target:
+def _folder(path: Path, robot: str) -> Bootable:
     from rapidgen.config import from_manifest
     from rapidgen.controller.cell import in_its_cell
     from rapidgen.diagnostics import Diagnostic
@@ -50,11 +50,11 @@ def _folder(path: Path, robot: str) -> Target:
     if is_generated(path):
         config = from_manifest(read_manifest(path)["configuration"])
         system = in_its_cell(read_system(path), config)
-        return Target(config.name, system, config.groups, True)
+        return Bootable(config.name, system, config.groups, True)
     notes: list[Diagnostic] = []
     system = read_system(path, notes=notes)
     groups, more = _mechanics(system, robot)
-    return Target(system.name, system, groups, False, (*notes, *more))
+    return Bootable(system.name, system, groups, False, (*notes, *more))
 
 
 def _mechanics(
@@ -63,29 +63,41 @@ def _mechanics(
     """A robot of the given model for each motion task."""
     from rapidgen.config import load_config
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
-    from rapidgen.diagnostics import Diagnostic, Severity
+    from rapidgen.diagnostics import Severity, error
 
     groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
     if robot or not groups:
         return groups, ()
-    note = Diagnostic(
-        code="RG432",
+    note = error(
+        "RG432",
+        None,
+        f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
+        "name the robot with `--robot NAME`; `rapidgen robots` lists the models",
         severity=Severity.WARNING,
-        message=f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
-        help="name the robot with `--robot NAME`; `rapidgen robots` lists the models",
     )
     return groups, (note,)
 
 
 def _no_target(target: str) -> Exception:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
-    return DiagnosticError(
-        Diagnostic(
-            code="RG433",
-            severity=Severity.ERROR,
-            message=f"'{target}' is no controller",
-            help="name a configuration, a shipped model, a generated folder or a backup;"
-            " `rapidgen run` executes single RAPID files",
-        )
+    return refusal(
+        "RG433",
+        None,
+        f"'{target}' is no controller",
+        "name a configuration, a shipped model, a generated folder or a backup;"
+        " `rapidgen run` executes single RAPID files",
     )
+
+
+def refuse_unloadable(system: "System") -> None:
+    """Refuse what no controller loads; names that nothing declares are found when reached.
+
+    Warnings are `rapidgen check`'s business. Raises DiagnosticError with all errors.
+    """
+    from rapidgen.diagnostics import DiagnosticError, Severity
+    from rapidgen.rapid import check
+
+    errors = [d for d in check(system, gaps=True) if d.severity is Severity.ERROR]
+    if errors:
+        raise DiagnosticError(errors)
