@@ -17,7 +17,6 @@ from rapidgen.controller.operation import Mode, Operation
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
-from rapidgen.machine.configuration import Configuration
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -27,6 +26,7 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.builtins.motion.meeting import Meeting
@@ -155,7 +155,7 @@ class VirtualController:
         self.meetings: dict[object, Meeting] = {}
         self.gatherings: dict[object, Gathering] = {}
         """Where tasks wait for each other (WaitSyncTask)."""
-        self.configuration = Configuration(system, tuple(robots))
+        self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,

@@ -190,9 +190,10 @@ class Linker:
 
     def routine(self, symbol: Symbol | None) -> Routine | None:
         """The routine that a symbol stands for; None for anything else."""
-        symbol = _meant(symbol)
         if not isinstance(symbol, RoutineSymbol):
-            return None
+            symbol = _meant(symbol)
+            if not isinstance(symbol, RoutineSymbol):
+                return None
         if symbol not in self._routines:
             self._routines[symbol] = self._builtin(symbol.name.lower())
         return self._routines[symbol]
@@ -228,9 +229,10 @@ class Linker:
 
         Module data are evaluated on first need.
         """
-        symbol = _meant(symbol)
         if not isinstance(symbol, DataSymbol):
-            return None
+            symbol = _meant(symbol)
+            if not isinstance(symbol, DataSymbol):
+                return None
         if symbol not in self._data:
             self._data[symbol] = None  # data that need each other come to an end
             if symbol.module is None:

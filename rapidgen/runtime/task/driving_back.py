@@ -9,8 +9,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, Posture
+from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move
 from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.task.call_stack import Location
 
