@@ -29,11 +29,10 @@ from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
-from rapidgen.runtime.builtins.motion.meeting import Meeting
-from rapidgen.runtime.builtins.motion.together import Gathering
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.loading import ModuleTable
+from rapidgen.runtime.meetings import Meetings
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.sockets import SocketTable
@@ -152,9 +151,7 @@ class VirtualController:
         """Values of the servos' test signals by channel."""
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
-        self.meetings: dict[object, Meeting] = {}
-        self.gatherings: dict[object, Gathering] = {}
-        """Where tasks wait for each other (WaitSyncTask)."""
+        self.meetings = Meetings()
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,

@@ -4,15 +4,12 @@
 the task. Numbers of the ERR_ constants are in no public source; they are opaque and distinct.
 """
 
+from dataclasses import dataclass
 from functools import cache
 from types import FrameType
-from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Span
 from rapidgen.rapid.builtins import signatures
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.call_stack import Location
 
 LARGEST_USER_ERROR = 90
 """RAISE takes 1 to 90 [K §4.8]."""
@@ -42,6 +39,21 @@ def errnum(name: str) -> int:
 def error_name(number: float) -> str:
     """`ERR_DIVZERO` for its number; the number as text when it is a user's own."""
     return _names().get(int(number), f"error {number:g}")
+
+
+@dataclass(frozen=True, slots=True)
+class Location:
+    """Where a routine of the call stack is."""
+
+    module: str
+    routine: str
+    span: Span
+    origin: tuple[str, int] | None = None
+    """Template and line of a generated module."""
+
+    def __str__(self) -> str:
+        made = f" (from {self.origin[0]}:{self.origin[1]})" if self.origin else ""
+        return f"{self.module}/{self.routine}/{self.span.line}{made}"
 
 
 class RapidError(Exception):

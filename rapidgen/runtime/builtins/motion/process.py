@@ -8,10 +8,9 @@ TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
-from rapidgen.runtime.errors import FatalError, RapidError, errnum
+from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.task.call_stack import Location
 from rapidgen.runtime.task.process_errors import ProcessError
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
