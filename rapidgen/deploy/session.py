@@ -5,8 +5,8 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from rapidgen._json import items, members
 from rapidgen._writing import write_whole
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
@@ -182,7 +182,7 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
     """
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
-        by_target: dict[str, dict[str, Any]] = {str(p["target"]): p for p in stored}
+        by_target = {str(p["target"]): p for p in map(members, items(stored))}
     except OSError as fault:
         raise _plan_file(path, fault.strerror or str(fault)) from fault
     except (ValueError, KeyError, TypeError, RecursionError) as fault:
