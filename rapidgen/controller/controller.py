@@ -13,7 +13,6 @@ from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
 from rapidgen.controller.state import ControllerState
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-from rapidgen.machine.configuration import Configuration
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -23,14 +22,15 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid import Dialect as TextDialect
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.predefined import find_type
-from rapidgen.runtime.compiler.program import Shared
 from rapidgen.runtime.compiler.symbols import Data, Routine
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.loading import ModuleTable
@@ -245,7 +245,7 @@ class VirtualController(ControllerState):
         self.queues = QueueSystem(system.tasks)
         self.test_signals: dict[int, float] = {}
         """Values of the servos' test signals by channel."""
-        self.configuration = Configuration(system, tuple(robots))
+        self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,
@@ -382,7 +382,7 @@ class VirtualController(ControllerState):
                 found += [d for d in tree.diagnostics if d not in found]
             task.program.load([(t, f) for t, f in trees if t.name])
             found += task.program.faults
-            entry = task.program.globals.get(task.spec.entry.lower())
+            entry = task.program.find_routine(None, task.spec.entry.lower())
             if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
                 task.state = "ready"
             else:

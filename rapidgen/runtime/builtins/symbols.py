@@ -14,7 +14,7 @@ from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import frame
-from rapidgen.runtime.compiler.program import LoadedModule
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.loading import ModuleTable
@@ -153,7 +153,7 @@ def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterat
     for key, datum in signatures.predefined().items():
         if type_ and datum.type.lower() != type_.lower():
             continue
-        if (kinds and datum.kind not in kinds) or key in task.program.globals:
+        if (kinds and datum.kind not in kinds) or key in task.program.names.globals:
             continue
         if pattern and re.fullmatch(pattern, datum.name, re.IGNORECASE) is None:
             continue

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Final
 from rapidgen.runtime.compiler.symbols import Routine
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import LoadedModule
+    from rapidgen.runtime.compiler.linking import LoadedModule
 
 HANDLER: Final = "_h"
 """Function of an ERROR handler, and the variable of its routine that holds it."""

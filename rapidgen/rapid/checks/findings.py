@@ -3,19 +3,21 @@
 from collections.abc import Iterable
 from typing import Final, Literal
 
-from rapidgen.diagnostics import Diagnostic, Label, Severity
+from rapidgen.diagnostics import Diagnostic, Label, Severity, error
+from rapidgen.rapid.binding import (
+    DATA,
+    ROUTINES,
+    TYPES,
+    DataSymbol,
+    ModuleScope,
+    RoutineScope,
+    RoutineSymbol,
+    Scope,
+    Symbol,
+)
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.checks.given import Given, closest
-from rapidgen.rapid.checks.symbols import DATA, ROUTINES, TYPES, Scope, Symbol
-from rapidgen.rapid.syntax.nodes import (
-    AliasDeclaration,
-    DataDeclaration,
-    Module,
-    Node,
-    Parameter,
-    RecordDeclaration,
-    RoutineDeclaration,
-)
+from rapidgen.rapid.syntax.nodes import Node
 
 _Options = Literal["procedures", "functions", "types", "values", ""]
 _ROLES: Final[dict[str, tuple[str, frozenset[str], _Options]]] = {
@@ -28,14 +30,15 @@ _ROLES: Final[dict[str, tuple[str, frozenset[str], _Options]]] = {
 """Code, kinds of symbols that fit, and the names of options that may be there or not."""
 
 
-class Reporter:
-    """Collects what is found in one module."""
+class Findings:
+    """What is found in one module, and what its names are known to be used for."""
 
-    def __init__(self, scope: Scope, given: Given) -> None:
-        self.scope = scope
+    def __init__(self, module: ModuleScope, given: Given) -> None:
+        self.module = module
         self.given = given
-        self.source = scope.module.source
-        self.locals: dict[str, Symbol] = {}
+        self.here: Scope = module
+        """Where names are looked up: the module, or the routine or loop that is looked at."""
+        self.used: set[Symbol] = set()
         self.found: list[Diagnostic] = []
         self._unknown: set[tuple[str, str]] = set()
 
@@ -53,8 +56,19 @@ class Reporter:
     ) -> None:
         """Add a finding at a node or a token."""
         first, last = (node, node) if isinstance(node, int) else (node.first, node.last)
-        span = self.source.span(first, last)
-        self.found.append(Diagnostic(code, severity, message, span, label, help, notes, related))
+        span = self.module.tree.source.span(first, last)
+        self.found.append(
+            error(
+                code,
+                span,
+                message,
+                help,
+                label=label,
+                notes=notes,
+                related=related,
+                severity=severity,
+            )
+        )
 
     def warn(
         self, code: str, message: str, node: Node | int, *, label: str = "", help: str = ""
@@ -64,25 +78,23 @@ class Reporter:
 
     def find(self, name: str) -> Symbol | None:
         """What a name means here; it counts as used."""
-        symbol = self.locals.get(name.lower()) or self.scope.find(name)
+        symbol = self.here.find(name)
         if symbol is not None:
-            symbol.used = True
+            self.used.add(symbol)
         return symbol
+
+    @property
+    def locals(self) -> dict[str, DataSymbol]:
+        """Parameters, data and loop variables of the routine, by lower-case name."""
+        return self.here.names if isinstance(self.here, RoutineScope) else {}
 
     def declared(self, symbol: Symbol) -> tuple[Label, ...]:
         """A label at the declaration of a symbol, where it has a place."""
-        node = symbol.node
-        if node is None:
+        if symbol.node is None or symbol.module is None or symbol.kind == "LOOP":
             return ()
-        module = node if isinstance(node, Module) else None
-        owner = symbol.module.module if symbol.module else self.scope.module
-        source = module.source if module else owner.source
-        if isinstance(node, DataDeclaration | Parameter | RoutineDeclaration):
-            at = node.name_token
-        elif isinstance(node, RecordDeclaration | AliasDeclaration):
-            at = node.first
-        else:
-            at = 0
+        source = symbol.module.tree.source
+        named = isinstance(symbol, DataSymbol | RoutineSymbol)
+        at = symbol.token if named else symbol.node.first
         if at >= len(source.tokens):
             return ()
         return (Label(source.span(at, at), f"'{symbol.name}' is declared here"),)
@@ -94,7 +106,7 @@ class Reporter:
         """
         code, kinds, options = _ROLES[role]
         key = (role, name.lower())
-        if name == "<ID>" or key in self._unknown or key[1] in self.scope.world.elsewhere:
+        if name == "<ID>" or key in self._unknown or key[1] in self.given.elsewhere:
             return
         if options and key[1] in signatures.option_names(options):
             return
@@ -112,11 +124,13 @@ class Reporter:
             )
 
     def _candidates(self, kinds: frozenset[str]) -> Iterable[str]:
+        task = self.module.task
         for symbols in (
             self.locals,
-            self.scope.own,
-            self.scope.globals,
-            self.scope.world.installed,
+            self.module.own,
+            task.globals,
+            task.installed,
+            task.configured,
         ):
             for symbol in symbols.values():
                 if symbol.kind in kinds:
