@@ -7,7 +7,7 @@ import typer
 
 if TYPE_CHECKING:
     from rapidgen.deploy import Plan
-    from rapidgen.deploy.session import Job
+    from rapidgen.deploy.session import FleetJob
 
 
 def show_plans(plans: "Sequence[Plan]") -> None:
@@ -25,7 +25,7 @@ def make_sure(question: str, *, yes: bool) -> None:
     confirm(question, yes=yes, ask=lambda text: typer.confirm(text, err=True))
 
 
-def carry_out(job: "Job", plans: "Sequence[Plan]") -> int:
+def carry_out(job: "FleetJob", plans: "Sequence[Plan]") -> int:
     """Do what was planned; a table of the controllers. Raises DiagnosticError where one failed."""
     from rapidgen.deploy.session import apply_all
     from rapidgen.deploy.show import table

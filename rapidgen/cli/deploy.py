@@ -33,7 +33,7 @@ def deploy(
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
+        FleetJob,
         check_plans,
         plan_all,
         refuse_conflicts,
@@ -43,7 +43,7 @@ def deploy(
 
     wanted = wanted_set(config, overrides or ())
     access = Access(user, secrets, identity, known_hosts, ask=True)
-    job = Job("deploy", parse_targets(to), access, lambda _: wanted, overwrite, parallel)
+    job = FleetJob("deploy", parse_targets(to), access, lambda _: wanted, overwrite, parallel)
     plans = plan_all(job)
     show_plans(plans)
     if plan is not None:

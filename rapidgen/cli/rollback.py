@@ -34,7 +34,7 @@ def rollback(
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
+        FleetJob,
         config_name,
         earlier_set,
         history,
@@ -51,7 +51,7 @@ def rollback(
             for past in history(target, access, name):
                 typer.echo(f"{target.shown}  {past.id}  {past.time}  build {past.build_id}")
         return 0
-    job = Job(
+    job = FleetJob(
         "rollback",
         targets,
         access,

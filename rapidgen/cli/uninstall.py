@@ -32,7 +32,7 @@ def uninstall(
     from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
+        FleetJob,
         check_names,
         config_name,
         plan_all,
@@ -43,7 +43,7 @@ def uninstall(
 
     name = config_name(config)
     access = Access(user, secrets, identity, known_hosts, ask=True)
-    job = Job("uninstall", parse_targets(to), access, lambda _: None, overwrite, parallel)
+    job = FleetJob("uninstall", parse_targets(to), access, lambda _: None, overwrite, parallel)
     plans = plan_all(job)
     check_names(plans, name)
     show_plans(plans)

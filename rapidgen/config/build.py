@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 from rapidgen.config import model, schema
-from rapidgen.config.draft import Findings, GroupDraft
+from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
@@ -26,7 +26,7 @@ def build(
     configuration: schema.ConfigurationKeys,
     drafts: list[GroupDraft],
     path: Path,
-    report: Findings,
+    report: DraftFindings,
 ) -> model.RobotConfig | None:
     """The model, or None when `report` holds errors; `path` is the file it is named after."""
     _check_controller(configuration, report)
@@ -84,7 +84,7 @@ def _name_of(path: Path) -> str:
     return (kept if kept[:1].isalpha() else f"robot_{kept}")[:40]
 
 
-def _check_controller(configuration: schema.ConfigurationKeys, report: Findings) -> None:
+def _check_controller(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
     controller = configuration.controller
     main = controller.robotware[0]
     path: KeyPath = ("controller", "robotware")
@@ -110,7 +110,7 @@ def _check_controller(configuration: schema.ConfigurationKeys, report: Findings)
         )
 
 
-def _check_network(configuration: schema.ConfigurationKeys, report: Findings) -> None:
+def _check_network(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
     addresses: list[tuple[KeyPath, str]] = [
         (("network", "allowed_clients", index), address)
         for index, address in enumerate(configuration.network.allowed_clients)
@@ -135,7 +135,7 @@ def _check_network(configuration: schema.ConfigurationKeys, report: Findings) ->
 
 
 def _group(
-    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: Findings
+    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: DraftFindings
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = joints_of(keys, draft, path, report)
@@ -182,7 +182,7 @@ def _group(
     )
 
 
-def _is_shipped(path: KeyPath, name: str, report: Findings) -> bool:
+def _is_shipped(path: KeyPath, name: str, report: DraftFindings) -> bool:
     """Whether a part is as the shipped model has it."""
     if not name:
         return False
@@ -190,7 +190,7 @@ def _is_shipped(path: KeyPath, name: str, report: Findings) -> bool:
 
 
 def _chain(
-    chain: list[model.ChainLink], path: KeyPath, names: set[str], among: str, report: Findings
+    chain: list[model.ChainLink], path: KeyPath, names: set[str], among: str, report: DraftFindings
 ) -> None:
     for number, step in enumerate(chain):
         if step.axis == (0.0, 0.0, 0.0):
@@ -206,7 +206,7 @@ def _chain(
 
 
 def _check_ports(
-    configuration: schema.ConfigurationKeys, groups: list[model.GroupConfig], report: Findings
+    configuration: schema.ConfigurationKeys, groups: list[model.GroupConfig], report: DraftFindings
 ) -> None:
     users: dict[int, str] = {}
     for group in groups:
@@ -235,7 +235,7 @@ def _check_ports(
                 )
 
 
-def _check_tasks(groups: list[model.GroupConfig], report: Findings) -> None:
+def _check_tasks(groups: list[model.GroupConfig], report: DraftFindings) -> None:
     for name in ("task", "mechanical_unit"):
         users: dict[str, str] = {}
         for group in groups:

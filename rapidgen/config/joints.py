@@ -3,7 +3,7 @@
 import math
 
 from rapidgen.config import model, schema
-from rapidgen.config.draft import Findings, GroupDraft, JointDraft
+from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.diagnostics import Severity
 
@@ -12,9 +12,9 @@ MAX_JOINTS = 10
 
 
 def joints_of(
-    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: Findings
+    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: DraftFindings
 ) -> tuple[model.Joint, ...]:
-    """The joints that are complete and sound; RG007, RG013, RG014, RG037 say what the others lack."""
+    """The sound joints; RG007, RG013, RG014 and RG037 say what the others lack."""
     where: KeyPath = (*path, "joints")
     if not draft.joints:
         report.error(
@@ -50,7 +50,7 @@ def joints_of(
     return tuple(joints)
 
 
-def _check_radians(draft: GroupDraft, path: KeyPath, report: Findings) -> None:
+def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
     """Four and more turning axes that all stay within 7: radians, not degrees."""
     turning = [joint for joint in draft.joints if joint.unit != "mm"]
     ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
@@ -66,7 +66,9 @@ def _check_radians(draft: GroupDraft, path: KeyPath, report: Findings) -> None:
         )
 
 
-def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Findings) -> model.Joint | None:
+def _joint(
+    draft: JointDraft, ramp: float, path: KeyPath, report: DraftFindings
+) -> model.Joint | None:
     missing = [
         name
         for name in ("axis", "lower", "upper", "speed")

@@ -3,12 +3,12 @@
 import math
 
 from rapidgen.config import model, schema
-from rapidgen.config.draft import Findings
+from rapidgen.config.draft import DraftFindings
 from rapidgen.config.draft import Path as KeyPath
 
 
 def _unit_quaternion(
-    values: list[float], path: KeyPath, report: Findings
+    values: list[float], path: KeyPath, report: DraftFindings
 ) -> tuple[float, float, float, float]:
     norm = math.sqrt(sum(v * v for v in values))
     if abs(norm - 1) > 1e-3:
@@ -29,14 +29,14 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def _frame(frame: schema.FrameKeys, path: KeyPath, report: Findings) -> model.Placement:
+def _frame(frame: schema.FrameKeys, path: KeyPath, report: DraftFindings) -> model.Placement:
     return model.Placement(
         _metres(frame.position),
         _unit_quaternion(frame.orientation, (*path, "orientation"), report),
     )
 
 
-def tool_of(tool: schema.ToolKeys, path: KeyPath, report: Findings) -> model.Tool:
+def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> model.Tool:
     """The tool of the moves."""
     load = tool.load
     if tool.name == "tool0" and tool != schema.ToolKeys():
@@ -69,7 +69,7 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: Findings) -> model.Too
 
 
 def work_object_of(
-    given: schema.WorkObjectKeys, path: KeyPath, report: Findings
+    given: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings
 ) -> model.WorkObject:
     """The work object of the moves."""
     if given.name == "wobj0" and given != schema.WorkObjectKeys():
