@@ -46,7 +46,7 @@ class Failure(NamedTuple):
 
 
 class NotDone(NamedTuple):
-    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL: it was not done."""
+    """Reply to what the control port is asked: it was not done."""
 
     reason: Annotated[int, _REASON]
 
