@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import error
 from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
@@ -192,7 +192,7 @@ class Program:
             function, compiled = compile_routine(self, routine.module, routine, self.options)
         except CannotCompile as fault:
             span = routine.module.span(fault.node)
-            self.faults.append(Diagnostic("RG401", Severity.ERROR, str(fault), span))
+            self.faults.append(error("RG401", span, str(fault)))
             raise FatalError(
                 40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault
