@@ -30,9 +30,9 @@ from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid import Dialect as TextDialect
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.base import Options
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.predefined import find_type
-from rapidgen.runtime.compiler.program import Shared
 from rapidgen.runtime.compiler.symbols import Data, Routine
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.loading import ModuleTable
@@ -380,7 +380,7 @@ class VirtualController(ControllerState):
                 found += [d for d in tree.diagnostics if d not in found]
             task.program.load([(t, f) for t, f in trees if t.name])
             found += task.program.faults
-            entry = task.program.globals.get(task.spec.entry.lower())
+            entry = task.program.find_routine(None, task.spec.entry.lower())
             if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
                 task.state = "ready"
             else:

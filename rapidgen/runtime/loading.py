@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Severity
 from rapidgen.machine.calendar import date_time
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.missing import missing_routines
-from rapidgen.runtime.compiler.program import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import literal_text
-from rapidgen.runtime.values import Cell
+from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile
 
 if TYPE_CHECKING:
@@ -166,7 +166,7 @@ def module_text(task: "Task", module: LoadedModule) -> str:
             continue
         data = task.program.find_data(module, key)
         cell = task.program.space.get(data.code) if data is not None else None
-        if isinstance(cell, Cell):
+        if isinstance(cell, PersistentCell):
             start = source.starts[declaration.initial.first]
             last = declaration.initial.last
             end = source.starts[last] + len(source.tokens[last])

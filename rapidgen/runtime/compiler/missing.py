@@ -7,9 +7,10 @@ the tokens, where a call stands are looked for in the tree.
 from rapidgen.diagnostics import Diagnostic, Severity
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.program import Program
 
 _BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
 _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})

@@ -124,7 +124,7 @@ def _setting(task: Task, given: Given) -> tuple[PathEvent]:
 def _calling(task: Task, given: Given) -> tuple[PathEvent]:
     """The procedure runs when the task next attends, as a trap would; not inside a trap."""
     name = given["ProcName"]
-    routine = task.program.globals.get(name.lower())
+    routine = task.program.find_routine(None, name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":
         raise RapidError("ERR_REFUNKPRC", name)
 
