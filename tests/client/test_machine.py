@@ -8,7 +8,7 @@ import asyncio
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, settings
+from hypothesis import Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
@@ -114,7 +114,7 @@ class ClientAndController(RuleBasedStateMachine):
 
     @property
     def is_streaming(self):
-        feed = getattr(self.execution, "_feed", None)
+        feed = getattr(self.execution, "_job", None)
         return feed is not None and self.under_way and not feed.is_ended
 
     @precondition(lambda self: self.under_way and self.has_control)
@@ -134,7 +134,7 @@ class ClientAndController(RuleBasedStateMachine):
 
     @property
     def has_control(self):
-        return self.robot._core.talks[Port.CONTROL].is_open
+        return self.robot._core.ports[Port.CONTROL].is_open
 
     @rule(column=st.integers(0, 5), value=st.sampled_from([9.0, -9.0, float("nan")]))
     def execute_what_is_wrong(self, column, value):
@@ -184,7 +184,7 @@ class ClientAndController(RuleBasedStateMachine):
         if ports == "control" and not self.has_control:
             return
         was = self.under_way
-        for port, link in list(self.robot._links.items()):
+        for port, link in list(self.robot._carrier._links.items()):
             if ports in ("all", port.name.lower()):
                 link.transport.abort()
         self.do(asyncio.sleep(1.5))
@@ -215,9 +215,6 @@ TestClientAndController = ClientAndController.TestCase
 TestClientAndController.settings = settings(
     max_examples=12,
     stateful_step_count=14,
-    deadline=None,
-    derandomize=True,
     # Booting takes most of the time; the explanation would trace all of it.
     phases=(Phase.explicit, Phase.generate),
-    suppress_health_check=list(HealthCheck),
 )

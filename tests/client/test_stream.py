@@ -25,7 +25,7 @@ from rapidgen.client import (
     TrajectoryRefused,
 )
 from rapidgen.config import load_config
-from rapidgen.config.model import Signal
+from rapidgen.config.model import ExposedSignal
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 SPEED = 40
@@ -142,7 +142,7 @@ def test_stop_from_another_thread(fake, client):
         # the controller's own word, by the control port
         assert stream.stopped_position == pytest.approx(controller.script.stream.position)
         assert state.joints == pytest.approx(controller.script.stream.position, abs=1e-6)
-        assert robot._core.run.stood is not None
+        assert robot._core.motion.stood is not None
 
 
 def test_closing_stops_a_stream(fake, client):
@@ -219,7 +219,7 @@ def test_what_no_pair_holds_is_downloaded(fake, client):
     controller = fake(**streams(ring=64), capacity=1000)
     path = Trajectory(np.arange(70) * 40.0, np.zeros((70, 6)))
     with client(controller.address) as robot:
-        assert robot._core.way_for(path) == "download"
+        assert robot.way_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):
             robot.execute(path, way="stream")
 
@@ -250,7 +250,7 @@ def test_pause_speed_and_signals(fake, client):
 
 def test_signals_have_names_and_rights(fake, client):
     config = load_config("irb120")
-    signals = (Signal("gripper", "DO", "write"), Signal("pressure", "AI", "read"))
+    signals = (ExposedSignal("gripper", "DO", "write"), ExposedSignal("pressure", "AI", "read"))
     config = dataclasses.replace(config, signals=signals)
     controller = fake(**streams(), mapping=_mapping(config))
     with client(config, address=controller.address) as robot:
@@ -263,7 +263,7 @@ def test_signals_have_names_and_rights(fake, client):
 
 
 def _mapping(config):
-    from rapidgen.client.group import Group
+    from rapidgen.client.core.group import Group
 
     return Group.of(config, config.groups[0]).mapping
 
@@ -353,7 +353,7 @@ def test_feedback(fake, client):
 
     with client(controller.address, feedback=True) as robot:
         controller.extra = told(999.5)
-        assert comes(lambda: robot._core.tracker.feedbacks == 1)
+        assert comes(lambda: robot._core.state_port.feedbacks == 1)
         controller.extra = told(0.5)
         feedback = robot.next_feedback()
         # where the wire's clock began again, this one goes on
@@ -405,13 +405,13 @@ def test_ctrl_c_in_an_append_stops_the_robot(fake, quick, monkeypatch):
     with Robot(controller.address, timeouts=quick) as robot:
         stream = robot.stream()
         stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
-        wait = robot._changed.wait
+        wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):
-            monkeypatch.setattr(robot._changed, "wait", wait)
+            monkeypatch.setattr(robot._carrier.guard, "wait", wait)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr(robot._changed, "wait", interrupt)
+        monkeypatch.setattr(robot._carrier.guard, "wait", interrupt)
         with pytest.raises(KeyboardInterrupt):
             stream.result()
         assert comes(lambda: controller.script.stream.state == TrajectoryState.STOPPED)

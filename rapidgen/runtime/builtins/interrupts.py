@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-from rapidgen.machine.io import AnySignal
 from rapidgen.machine.log import Event
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.interrupts import Interrupt
 from rapidgen.runtime.task.running import RapidTask
 from rapidgen.runtime.values import PersistentCell, Ref, copy_value, register_type

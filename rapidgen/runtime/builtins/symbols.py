@@ -12,6 +12,8 @@ from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
+from rapidgen.runtime.builtins.motion.access import data_of
+from rapidgen.runtime.builtins.motion.arguments import frame
 from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import RapidError
@@ -237,7 +239,8 @@ def get_sys_data(
     group = task.controller.motion.of_task(owner.name)
     active = None
     if group is not None and kind != "loaddata":
-        active = group.tool if kind == "tooldata" else group.work_object
+        data = data_of(owner, group)
+        active = data.tool if kind == "tooldata" else data.work_object
     _, default = _datum(owner, None, _ACTIVE[kind])
     value = default.get() if active is None else active
     target.set(copy_value(value))
@@ -268,7 +271,9 @@ def set_sys_data(task: Task, source: Ref, name: str | None) -> None:
     group = task.controller.motion.of_task(task.name)
     if group is None:
         return
+    data = data_of(task, group)
     if kind == "tooldata":
-        group.use(chosen.get(), group.work_object)
+        data.use(chosen.get(), data.work_object)
+        group.planner.tool = frame(chosen.get().tframe)
     elif kind == "wobjdata":
-        group.use(group.tool, chosen.get())
+        data.use(data.tool, chosen.get())

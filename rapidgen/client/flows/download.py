@@ -1,0 +1,77 @@
+"""A trajectory that is sent whole: points, end frame, the controller's word."""
+
+from rapidgen.client.core.checks import CheckedTrajectory
+from rapidgen.client.core.job import Job
+from rapidgen.client.core.request_port import PendingReply
+from rapidgen.client.core.robot import Core
+from rapidgen.client.errors import RobotError, RobotTimeout, fault
+from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
+from rapidgen.client.flows.stop import PER_POINT, stop_and_leave
+from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
+from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
+from rapidgen.wire.simple_message.spec import Port
+
+
+def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:
+    """Send, and wait until the controller took it; only then it moves."""
+    sending = Sending(core, checked)
+    try:
+        yield from sending.points()
+        yield from sending.end()
+        yield from sending.accepted()
+    except INTERRUPTIONS:
+        yield from stop_and_leave(core)
+        raise
+    except RobotError as error:
+        sending.motion.failed(error)
+        raise
+    return sending.job()
+
+
+class Sending:
+    """A trajectory on its way, in three steps."""
+
+    def __init__(self, core: Core, checked: CheckedTrajectory) -> None:
+        self._core = core
+        self._data = encode_trajectory(checked.wire, checked.durations)
+        self._pending: PendingReply | None = None
+        self.motion = core.begin(checked)
+
+    def points(self) -> Flow[None]:
+        """Send all but the end frame: nothing moves yet."""
+        yield self._send(self._data[:-FRAME_BYTES])
+
+    def end(self) -> Flow[None]:
+        """Send the end frame: the controller may begin to move."""
+        self._pending = self._core.ports[Port.MOTION].request(JOINT_TRAJ_PT.number)
+        yield self._send(self._data[-FRAME_BYTES:])
+
+    def _send(self, data: bytes) -> Send:
+        return Send(Port.MOTION, data, self._core.timeouts.send, motion=self.motion)
+
+    def accepted(self) -> Flow[None]:
+        """Wait for the controller's word on the whole trajectory."""
+        core, motion, pending = self._core, self.motion, self._pending
+        assert pending is not None
+        patience = core.timeouts.reply + PER_POINT * motion.frames
+        yield Wait(lambda: pending.reply is not None or motion.is_over, patience)
+        if pending.reply is not None:
+            core.answered(motion, pending.reply)
+        if motion.error is not None:
+            raise motion.error
+        if pending.reply is None:
+            raise RobotTimeout(
+                fault(
+                    "RG603",
+                    f"the controller did not answer within {patience:.1f} s whether it took the "
+                    "trajectory",
+                    "a STOP was sent; look at the robot",
+                ),
+                **core.evidence(),
+            )
+
+    def job(self) -> Job:
+        """What is under way."""
+        job = Job(self._core)
+        job.take(self.motion)
+        return job
