@@ -5,7 +5,7 @@ MODULE ROS_probe_motion
     !
     ! Load this module alone into the task of the robot, PP to main, reduced speed in manual mode or
     ! a fenced cell, Start, and read the pendant (or the event log, 80003). Each line is an answer,
-    ! `switch=value`, as rapidgen's motion model takes it (docs/motion-model.md).
+    ! `switch=value`, as rapidgen's motion model takes it (docs/rapid/motion-model.md).
 
     ! deg, and s for that way
     LOCAL CONST num WAY := 5;

@@ -9,7 +9,7 @@ import typer
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
     from rapidgen.client.recording import JointRecording
-    from rapidgen.config.model import MotionGroup
+    from rapidgen.config.model import GroupConfig
 
 _SERVERS = 10.0
 """s within which the driver's servers must listen."""
@@ -99,7 +99,7 @@ def _report(
 
 
 def _draw(
-    output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "MotionGroup"
+    output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
     from rapidgen.view.plot import PlottedCurve, write_plot
 

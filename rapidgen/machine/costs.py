@@ -1,4 +1,4 @@
-"""The reference cost model of the virtual clock (docs/virtual-controller.md)."""
+"""The reference cost model of the virtual clock (docs/rapid/virtual-controller.md)."""
 
 from dataclasses import dataclass, replace
 

@@ -1,4 +1,4 @@
-"""Assumptions of the motion model that are switches. docs/motion-model.md gives their sources."""
+"""Assumptions of the motion model as switches. docs/rapid/motion-model.md gives their sources."""
 
 from dataclasses import dataclass
 from typing import Literal

@@ -2,7 +2,7 @@
 
 Every field is a question that the kernel manual leaves open, or on which sources disagree; the
 default is the answer that a source (named) or, failing that, memory of RobotWare 6 gives.
-docs/virtual-controller.md lists them.
+docs/rapid/virtual-controller.md lists them.
 """
 
 from dataclasses import dataclass, fields

@@ -9,7 +9,7 @@ from rich.table import Table
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Event, State, Status
-from rapidgen.wire.simple_message.spec import REASON_TEXTS, Mode, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
 _WINDOW = 500
 _ACTIVITIES = {TrajectoryState.STARVED: "starved", TrajectoryState.PAUSED: "paused"}
@@ -88,9 +88,9 @@ def error_text(status: Status) -> str:
     """The error in words; empty without one."""
     if status.in_error is not TriState.TRUE:
         return ""
-    if status.error is not None and status.error in REASON_TEXTS and status.error:
+    if status.error:
         joint = f" (joint {status.error_joint})" if status.error_joint else ""
-        return f"error: {REASON_TEXTS[status.error]}{joint}"
+        return f"error: {status.error.text}{joint}"
     return f"error {status.error_code}" if status.error_code else "error"
 
 

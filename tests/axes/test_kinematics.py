@@ -234,7 +234,7 @@ def test_45_degrees_beside_the_quarter_are_accepted(robot, check):
 
 def test_cfx_and_the_turn_make_a_configuration():
     # Public programs for the IRB 140 reach targets whose axes 4 and 6 are up to 100 degrees
-    # outside their quarters; none has another cfx, none is a turn off (docs/motion-model.md).
+    # outside their quarters; none has another cfx, none is a turn off (docs/rapid/motion-model.md).
     own = kinematics("irb120")
     for angle, accepted in ((-134, True), (-136, False), (100, True)):
         assert own.matches(with_axis_4(angle), (0, 0, 0, 0)) is accepted

@@ -15,7 +15,7 @@ waypoints = st.integers(2, 30).flatmap(
 )
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=60)
 @given(waypoints)
 def test_limits_hold_and_times_increase(points):
     times = parametrise(points, SPEED, ACCELERATION)
@@ -44,7 +44,7 @@ def test_slow_down_stretches_as_little_as_needed_and_else_not():
     assert demand(fast, points, SPEED, ACCELERATION).worst == pytest.approx(1.0)
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=40)
 @given(waypoints, st.floats(0.01, 2.0))
 def test_resampling_keeps_the_ends_and_stays_inside(points, period):
     times = parametrise(points, SPEED, ACCELERATION)

@@ -1,6 +1,6 @@
 """The streaming and control side of a scripted driver: bytes in, bytes out, time given.
 
-Written from docs/protocol.md with `struct` and plain integers, not with rapidgen's codec. What it
+Written from docs/develop/protocol.md with `struct` and plain integers, not with our codec. What it
 does wrong is told by its `faults`.
 """
 

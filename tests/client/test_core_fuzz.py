@@ -8,8 +8,8 @@ import struct
 from collections import deque
 
 import numpy as np
-from hypothesis import HealthCheck, settings
 from hypothesis import Phase as Stage
+from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
@@ -255,9 +255,6 @@ TestCore = CoreMachine.TestCase
 TestCore.settings = settings(
     max_examples=80,
     stateful_step_count=50,
-    deadline=None,
-    derandomize=True,
     # Making a failing story short takes minutes.
     phases=(Stage.explicit, Stage.generate),
-    suppress_health_check=list(HealthCheck),
 )

@@ -8,7 +8,7 @@ import asyncio
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, Phase, settings
+from hypothesis import Phase, settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, invariant, precondition, rule
 
@@ -215,9 +215,6 @@ TestClientAndController = ClientAndController.TestCase
 TestClientAndController.settings = settings(
     max_examples=12,
     stateful_step_count=14,
-    deadline=None,
-    derandomize=True,
     # Booting takes most of the time; the explanation would trace all of it.
     phases=(Phase.explicit, Phase.generate),
-    suppress_health_check=list(HealthCheck),
 )

@@ -24,7 +24,7 @@ from rapidgen.client import (
     TrajectoryRefused,
 )
 from rapidgen.config import load_config
-from rapidgen.config.model import Signal
+from rapidgen.config.model import ExposedSignal
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 SPEED = 40
@@ -239,7 +239,7 @@ def test_pause_speed_and_signals(fake, client, comes):
 
 def test_signals_have_names_and_rights(fake, client):
     config = load_config("irb120")
-    signals = (Signal("gripper", "DO", "write"), Signal("pressure", "AI", "read"))
+    signals = (ExposedSignal("gripper", "DO", "write"), ExposedSignal("pressure", "AI", "read"))
     config = dataclasses.replace(config, signals=signals)
     controller = fake(**streams(), mapping=_mapping(config))
     with client(config, address=controller.address) as robot:

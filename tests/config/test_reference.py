@@ -12,7 +12,7 @@ from rapidgen.config import load_config, shipped_names
 from rapidgen.config.reference import json_schema, reference
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.rules import core
-from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
+from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
 from rapidgen.config.tree import parse, to_python
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -20,7 +20,7 @@ EXAMPLES = sorted((ROOT / "robots" / "examples").glob("*.yaml"))
 
 
 def test_the_reference_page_is_the_schemas():
-    page = (ROOT / "docs" / "configuration.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "start" / "configuration.md").read_text(encoding="utf-8")
     assert page.endswith(reference()), "append rapidgen.config.reference.reference() again"
 
 
@@ -41,7 +41,7 @@ def test_the_json_schema_refuses_a_misspelt_key_in_every_part():
 def test_yaml_in_the_documentation_loads(tmp_path):
     (tmp_path / "urdf").mkdir()
     (tmp_path / "cell").mkdir()
-    for page in ("configuration.md", "robots.md"):
+    for page in ("start/configuration.md", "start/robots.md"):
         text = (ROOT / "docs" / page).read_text(encoding="utf-8")
         for block in re.findall(r"^```yaml\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
             block = block.replace("../urdf/", str(ROOT / "robots" / "urdf") + "/")
@@ -87,12 +87,12 @@ VALUES = [
 def test_pydantic_and_the_loader_judge_alike(value):
     """The loader builds its validator without pydantic's own (slow) classes."""
     try:
-        TypeAdapter(Configuration).validate_python(value)
+        TypeAdapter(ConfigurationKeys).validate_python(value)
         by_pydantic = True
     except ValidationError:
         by_pydantic = False
     try:
-        SchemaValidator(core(Configuration)).validate_python(value)
+        SchemaValidator(core(ConfigurationKeys)).validate_python(value)
         by_loader = True
     except CoreError:
         by_loader = False

@@ -22,7 +22,7 @@ from rapidgen.cli.app import VERBS, _app
 from rapidgen.controller.faults import read_plan
 
 ROOT = Path(__file__).resolve().parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*/*.md"))]
 FENCE = re.compile(r"^```(\w+)[^\n]*\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -108,7 +108,11 @@ def test_every_command_that_is_named_exists(path):
 
 @pytest.mark.parametrize(
     ("page", "verb"),
-    [("testing.md", "test"), ("simulation.md", "sim"), ("virtual-controller.md", "run")],
+    [
+        ("develop/testing.md", "test"),
+        ("start/simulation.md", "sim"),
+        ("rapid/virtual-controller.md", "run"),
+    ],
 )
 def test_a_table_of_options_names_all_there_are(page, verb):
     text = (ROOT / "docs" / page).read_text(encoding="utf-8")
@@ -122,7 +126,7 @@ def test_a_table_of_options_names_all_there_are(page, verb):
 def test_plans_of_faults_and_secrets_can_be_read(tmp_path):
     simulation, security = (
         (ROOT / "docs" / name).read_text(encoding="utf-8")
-        for name in ("simulation.md", "security.md")
+        for name in ("start/simulation.md", "use/security.md")
     )
     (tmp_path / "faults.yaml").write_text(
         next(text for kind, text in FENCE.findall(simulation) if kind == "yaml")
@@ -146,4 +150,20 @@ def options_of(verb):
 
 def test_the_readme_names_every_page():
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    assert [p.name for p in PAGES[1:] if f"docs/{p.name}" not in readme] == []
+    pages = [path.relative_to(ROOT).as_posix() for path in PAGES[1:]]
+    assert [page for page in pages if page not in readme] == []
+
+
+def test_every_page_that_is_named_is_there():
+    """By a link of a page, or by its path anywhere."""
+    for page in [*PAGES, ROOT / "CONTRIBUTING.md"]:
+        for link in re.findall(r"\]\(([^)#:]+\.md)(?:#[^)]*)?\)", page.read_text(encoding="utf-8")):
+            assert (page.parent / link).is_file(), (page.name, link)
+    texts = [path for kind in ("*.py", "*.md", "*.mod") for path in ROOT.glob(f"*/**/{kind}")]
+    for path in texts:
+        if path.is_relative_to(ROOT / ".venv") or path.is_relative_to(ROOT / "build"):
+            continue
+        for named in re.findall(
+            r"\bdocs/[a-z/-]+\.md", path.read_text(encoding="utf-8", errors="replace")
+        ):
+            assert (ROOT / named).is_file(), (path, named)

@@ -5,7 +5,7 @@ import json
 import socket
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rapidgen.faces.control_commands import commands, subscribe
@@ -129,7 +129,6 @@ WORDS = sorted(
 )
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None)
 @given(
     st.sampled_from(WORDS) | st.text(),
     st.dictionaries(

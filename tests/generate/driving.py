@@ -1,4 +1,4 @@
-"""Driving a generated driver with bytes: every promise of docs/driver.md has a test with these.
+"""Driving a generated driver with bytes: every promise of docs/use/driver.md has a test with these.
 
 R1..R20 are the faults of abb_driver's modules that a promise answers.
 """

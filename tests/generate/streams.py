@@ -1,4 +1,4 @@
-"""Batches of points and what answers them, packed by hand from the byte tables of docs/protocol.md.
+"""Batches of points and what answers them, by hand from the tables of docs/develop/protocol.md.
 
 Rows are (duration, joints) in s, rad and m.
 """

@@ -1,7 +1,7 @@
 """The control server: STOP, PAUSE, SPEED, HEARTBEAT on a connection of their own.
 
-Bytes by hand from docs/protocol.md. IPers and its delay: [K §8.1]. Whether the StopMove of one task
-that is no motion task is taken back by another's StartMove is remembered only: `stop_owner`.
+Bytes by hand: docs/develop/protocol.md. IPers and its delay: [K §8.1]. Whether the StopMove of one
+task that is no motion task is taken back by another's StartMove is remembered only: `stop_owner`.
 """
 
 import struct

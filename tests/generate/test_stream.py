@@ -1,8 +1,8 @@
 """Streams of points: what is executed, when it begins, credits, starvation.
 
-The bytes are packed by hand from docs/protocol.md (tests/generate/streams.py). That a point without
-a successor is a stop point, so that the planner never runs dry in a corner, rests on S4 overview
-5-25; that a num counts to 2^23 exactly on [K §2.13].
+The bytes are packed by hand from docs/develop/protocol.md (tests/generate/streams.py). That a point
+without a successor is a stop point, so that the planner never runs dry in a corner, rests on S4
+overview 5-25; that a num counts to 2^23 exactly on [K §2.13].
 """
 
 import struct

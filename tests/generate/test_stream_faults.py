@@ -1,7 +1,7 @@
 """Streams with a fault: refused, or cut behind the last point before it.
 
 What was executed is a prefix of what was asked, point for point, and shorter only with a reason and
-an index. The bytes are packed by hand from docs/protocol.md.
+an index. The bytes are packed by hand from docs/develop/protocol.md.
 """
 
 import math

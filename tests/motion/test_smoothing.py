@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings, smoothing
-from rapidgen.motion.moves import JointMove, Speed
+from rapidgen.motion.moves import JointMove, MoveSpeed
 from rapidgen.motion.timelaw import brake, plan
 from tests.motion.campaign import disturb
 from tests.motion.test_timelaw import Stretch, paths
@@ -27,7 +27,7 @@ def limit_within(spans, low, high, name):
     )
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=200)
 @given(paths(), st.floats(0.005, 0.3))
 def test_the_mean_keeps_every_limit_where_the_robot_is(spans, width):
     law = plan(smoothing.widened(spans, 0.0, width / 2), 0.0, 0.0, 1.0, pause=width)
@@ -49,7 +49,7 @@ def test_the_mean_keeps_every_limit_where_the_robot_is(spans, width):
     assert jerk.max() <= 2 * max(s.acceleration for s in spans) / width * (1 + 1e-6) + 1e-3
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(paths())
 def test_it_stands_at_every_stop(spans):
     law = plan(smoothing.widened(spans, 0.0, WIDTH / 2), 0.0, 0.0, 1.0, pause=WIDTH)
@@ -60,7 +60,7 @@ def test_it_stands_at_every_stop(spans):
         assert speed == pytest.approx(0.0, abs=1e-6)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(paths(), st.floats(0, 1))
 def test_time_at_is_the_inverse_of_state(spans, share):
     law = plan(spans, 0.0, 0.0, 1.0, pause=WIDTH)
@@ -69,7 +69,7 @@ def test_time_at_is_the_inverse_of_state(spans, share):
     assert smoothing.state(law, time, WIDTH)[0] == pytest.approx(place, abs=1e-9)
 
 
-@settings(max_examples=100, deadline=None)
+@settings(max_examples=100)
 @given(paths(), st.floats(0, 1))
 def test_what_was_planned_before_is_still_felt(spans, share):
     """Braking at any moment: place, speed and acceleration go on without a jump."""
@@ -113,7 +113,8 @@ def test_limits_reach_as_far_as_the_mean():
 def test_acceleration_has_no_jump_on_straight_ways_whatever_happens(make_cell, zones, seed):
     """Stops, starts, overrides, new moves at random: jerk stays what the ramp allows.
 
-    Fine points: inside a corner the parabola's own turning begins at once (docs/motion-model.md).
+    Fine points: inside a corner the parabola's own turning begins at once
+    (docs/rapid/motion-model.md).
     """
     rng = random.Random(seed)
     cell = make_cell()
@@ -129,7 +130,9 @@ def test_acceleration_has_no_jump_on_straight_ways_whatever_happens(make_cell, z
                 min(max(v, j.lower), j.upper)
                 for v, j in zip(values, cell.config.joints, strict=True)
             ]
-            cell.group.move(task, JointMove(target=tuple(values), speed=Speed(1.0), zone=zones(0)))
+            cell.group.move(
+                task, JointMove(target=tuple(values), speed=MoveSpeed(1.0), zone=zones(0))
+            )
 
     task = cell.start(program)
     cell.sample(lambda: not task.alive and cell.scheduler.now > 4.1 * S, limit=90)

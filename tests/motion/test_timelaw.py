@@ -53,7 +53,7 @@ def check(law, spans, start, ceiling=1.0):
     assert law.state(law.duration + 1) == (law.place, 0.0)
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(paths(), st.floats(0.05, 1.0))
 def test_a_plan_keeps_the_limits_and_ends_at_the_end(spans, cap):
     law = plan(spans, 0.0, 0.0, cap)
@@ -62,7 +62,7 @@ def test_a_plan_keeps_the_limits_and_ends_at_the_end(spans, cap):
     assert law.place == spans[-1].end
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(paths(), st.floats(0, 1), st.floats(0.05, 1.0))
 def test_replanning_under_way_is_always_possible_and_keeps_the_end(spans, share, cap):
     first = plan(spans, 0.0, 0.0)
@@ -77,7 +77,7 @@ def test_replanning_under_way_is_always_possible_and_keeps_the_end(spans, share,
         assert slower.duration >= again.duration - 1e-6
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(paths(), st.floats(0, 1))
 def test_braking_ends_on_the_path_and_never_speeds_up(spans, share):
     law = plan(spans, 0.0, 0.0)
@@ -92,7 +92,7 @@ def test_braking_ends_on_the_path_and_never_speeds_up(spans, share):
     assert quick.place <= halt.place + 1e-12
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=150)
 @given(paths(), st.floats(0, 1))
 def test_time_at_is_the_inverse_of_state(spans, share):
     law = plan(spans, 0.0, 0.0)

@@ -13,7 +13,7 @@ from rapidgen.rapid.syntax.walk import walk
 from tests.rapid.conformance_files import all_files
 from tests.rapid.programs import program
 
-bounded = settings(max_examples=40, deadline=None, database=None)
+bounded = settings(max_examples=40)
 programs = st.integers(0, 2**32).map(program)
 
 

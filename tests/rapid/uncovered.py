@@ -1,4 +1,4 @@
-"""Lists rules of docs/rapid.md without a conformance file or test, and files that no rule claims.
+"""Lists rules of docs/rapid/language.md without a conformance file or test, and files without rule.
 
 python tests/rapid/uncovered.py
 """
@@ -15,7 +15,7 @@ _ROW = re.compile(r"^\| ([^|]+) \| ([^|]+) \| ((?:`[\w.*/:-]+` ?)+)\|$", re.MULT
 
 def rules():
     """(rule, source, patterns) of each row of the table."""
-    text = (ROOT / "docs" / "rapid.md").read_text("utf-8")
+    text = (ROOT / "docs" / "rapid" / "language.md").read_text("utf-8")
     return [
         (rule, source, re.findall(r"`([^`]+)`", files))
         for rule, source, files in _ROW.findall(text)

@@ -1,4 +1,4 @@
-"""docs/runtime-rules.md: what it names exists, and no conformance program is left out."""
+"""docs/rapid/runtime-rules.md: what it names exists, and no conformance program is left out."""
 
 import re
 from dataclasses import fields
@@ -7,7 +7,7 @@ from pathlib import Path
 from rapidgen.runtime.switches import NOT_THE_DRIVERS, Dialect
 
 TESTS = Path(__file__).parents[1]
-TEXT = (TESTS.parent / "docs" / "runtime-rules.md").read_text("utf-8")
+TEXT = (TESTS.parent / "docs" / "rapid" / "runtime-rules.md").read_text("utf-8")
 ROWS = re.findall(
     r"^\| ([A-Z]*[\d.]*[A-Z]?-[^|]*) \| ([^|]+) \| ([^|]+) \| ([^|]+) \|$", TEXT, re.MULTILINE
 )
@@ -46,7 +46,7 @@ def test_every_number_is_there_once() -> None:
 
 
 def test_every_switch_is_documented_with_its_values() -> None:
-    page = (TESTS.parent / "docs" / "virtual-controller.md").read_text("utf-8")
+    page = (TESTS.parent / "docs" / "rapid" / "virtual-controller.md").read_text("utf-8")
     rows = dict(re.findall(r"^\| `(\w+)` \| (`[^|]+) \| [^|]+ \|$", page, re.MULTILINE))
     for field in fields(Dialect):
         default = field.default

@@ -39,6 +39,32 @@ def test_layout_of_a_controllers_file():
 
 
 @pytest.mark.parametrize(
+    ("written", "is_set"),
+    [
+        ("-MotionTask", True),
+        ("-motiontask", True),
+        ("-MotionTask 1", True),
+        ('-MotionTask "TRUE"', True),
+        ("-MotionTask true", True),
+        ("-MotionTask 0", False),
+        ('-MotionTask "FALSE"', False),
+        ("-Other", False),
+    ],
+)
+def test_a_flag_is_bare_or_says_so(written, is_set):
+    (task,) = parse_cfg(f"SYS:CFG_1.0:6:0::\nCAB_TASKS:\n  {written}\n").instances("CAB_TASKS")
+    assert task.flag("MotionTask") is is_set
+
+
+def test_a_flag_is_written_bare():
+    task = Instance(
+        (Attribute("Name", ("T_ROB1",)), Attribute("MotionTask"), Attribute("Slot", (1,)))
+    )
+    written = write_cfg(CfgText("SYS", (6, 0), (Section("CAB_TASKS", (task,)),)))
+    assert written.splitlines()[-1].strip() == '-Name "T_ROB1" -MotionTask -Slot 1'
+
+
+@pytest.mark.parametrize(
     ("text", "code", "line"),
     [
         ("CAB_TASKS:\n", "RG701", 1),
@@ -80,4 +106,16 @@ def test_what_is_written_is_read_back(sections):
     read = parse_cfg(written)
     plain = [(s.name, [i.attributes for i in s.instances]) for s in read.sections]
     assert plain == [(s.name, [i.attributes for i in s.instances]) for s in sections]
-    assert all(len(line) <= 81 or '"' in line for line in written.splitlines())
+    # A line breaks before an attribute that does not fit; a longer one stands alone.
+    for line in written.splitlines():
+        if len(line) > 81:
+            (alone,) = parse_cfg(f"SYS:CFG_1.0:7:0::\nX:\n{line}").instances("X")
+            assert len(alone.attributes) == 1
+
+
+def test_an_attribute_longer_than_a_line_stands_alone():
+    attributes = (Attribute("A", (1,)), Attribute("B" * 31, (-1.5e-300, 10**40)), Attribute("C"))
+    cfg = CfgText("SYS", (7, 0), (Section("S", (Instance(attributes),)),))
+    lines = write_cfg(cfg).splitlines()[4:]
+    assert [line[:9] for line in lines] == ["      -A ", "      -BB", "      -C"]
+    assert len(lines[1]) > 81

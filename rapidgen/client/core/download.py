@@ -13,7 +13,7 @@ from rapidgen.client.core.motion import CommandedMotion, Phase
 from rapidgen.client.core.state import Progress, State, trajectory_state
 from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, fault
-from rapidgen.wire.simple_message.spec import REASON_TEXTS, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
 GOAL_TOLERANCE = 0.01
 """rad or m: as industrial_robot_client."""
@@ -106,7 +106,7 @@ class Download(CommandedMotion):
         if status.drives is TriState.FALSE:
             return "the motors are off"
         if status.in_error is TriState.TRUE and not self._was_in_error:
-            text = REASON_TEXTS[status.error] if status.error else f"code {status.error_code}"
+            text = status.error.text if status.error else f"code {status.error_code}"
             return f"the controller reports an error ({text})"
         return ""
 

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.errors import IncompatibleDriver
-from rapidgen.config.model import Joint, MotionGroup, RobotConfig, Signal, TrajectoryPolicy
+from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
 
@@ -30,11 +30,11 @@ class Group:
     policy: TrajectoryPolicy
     has_limits: bool = True
     """False: neither a configuration nor the driver told the limits."""
-    signals: tuple[Signal, ...] = ()
+    signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
 
     @classmethod
-    def of(cls, config: RobotConfig, group: MotionGroup) -> "Group":
+    def of(cls, config: RobotConfig, group: GroupConfig) -> "Group":
         """The group of a configuration."""
         return cls(group.name, JointMap.of(group), config.trajectory, signals=tuple(config.signals))
 

@@ -17,7 +17,7 @@ from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, Robo
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.spec import REASON_TEXTS, Reason, TrajectoryState, TriState
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState, TriState
 
 _REASONS = {int(reason): reason for reason in Reason}
 
@@ -239,7 +239,7 @@ def reason_of(number: int) -> Reason | None:
 def reason_text(number: int) -> str:
     """A reason of the wire in words."""
     reason = reason_of(number)
-    return REASON_TEXTS[reason] if reason is not None else f"reason {number}"
+    return reason.text if reason is not None else f"reason {number}"
 
 
 def place_of(group: Group, point: int, joint: int) -> str:

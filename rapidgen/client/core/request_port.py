@@ -3,7 +3,8 @@
 from collections import deque
 from dataclasses import dataclass, field
 
-from rapidgen.wire.simple_message import FrameSplitter, messages
+from rapidgen.wire.simple_message import FrameSplitter
+from rapidgen.wire.simple_message.declaration import Content
 
 
 @dataclass(slots=True, eq=False)
@@ -11,7 +12,7 @@ class PendingReply:
     """A request that waits for its reply."""
 
     number: int
-    reply: messages.Content | None = None
+    reply: Content | None = None
 
 
 @dataclass(slots=True)
@@ -28,7 +29,7 @@ class RequestPort:
         self.pending.append(waiting)
         return waiting
 
-    def answered(self, number: int, reply: messages.Content) -> bool:
+    def answered(self, number: int, reply: Content) -> bool:
         """Give a reply to the oldest request of its type; False when there is none."""
         for waiting in self.pending:
             if waiting.number == number:

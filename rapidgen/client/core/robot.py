@@ -36,19 +36,17 @@ from rapidgen.client.errors import (
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
 from rapidgen.wire.simple_message.codec import number_of
+from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, POINTS, batch_points
 from rapidgen.wire.simple_message.spec import (
-    HEARTBEAT,
     INDEX_WRAP,
-    JOINT_TRAJ_PT,
     MAX_JOINTS,
-    POINTS,
     PROTOCOL_VERSION,
     Comm,
     Feature,
     Port,
     Sequence,
     TriState,
-    batch_points,
 )
 
 STOP_FRAME = encode(
@@ -279,7 +277,7 @@ class Core:
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
         return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
 
-    def post(self, content: messages.Content) -> PendingReply:
+    def post(self, content: Content) -> PendingReply:
         """A request for the control port; it goes out next."""
         pending = PendingReply(number_of(content))
         self._outbox.append((pending, encode(content, Comm.REQUEST)))
@@ -464,7 +462,7 @@ class Core:
         motion.put(checked)
         return motion
 
-    def answered(self, run: Download, reply: messages.Content) -> None:
+    def answered(self, run: Download, reply: Content) -> None:
         """The reply to the end frame has come: accepted, or TrajectoryRefused is raised."""
         if isinstance(reply, messages.Accepted):
             run.accepted(reply.trajectory)
@@ -476,7 +474,7 @@ class Core:
         run.failed(error)
         raise error
 
-    def _refusal(self, reply: messages.Content) -> TrajectoryRefused:
+    def _refusal(self, reply: Content) -> TrajectoryRefused:
         point, joint, text = -1, 0, "no reason given"
         reason = None
         if isinstance(reply, messages.Refused):

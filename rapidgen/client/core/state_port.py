@@ -18,7 +18,8 @@ from rapidgen.client.core.state import (
     status_of,
     trajectory_state,
 )
-from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, messages, spec
+from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, messages
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import Frame
 from rapidgen.wire.simple_message.spec import FEEDBACK_WRAP, EventType
 
@@ -30,7 +31,7 @@ _NOISE = 1e-4
 """rad or m"""
 _PACED = 6
 """States that tell the pace of a driver's clock."""
-_NAMES = {message.number: message.name for message in spec.MESSAGES}
+_NAMES = {message.number: message.name for message in messages.MESSAGES}
 
 
 @dataclass(slots=True)
@@ -112,7 +113,7 @@ class StatePort:
                 continue
             self._take(content, now)
 
-    def _take(self, content: messages.Content, now: float) -> None:
+    def _take(self, content: Content, now: float) -> None:
         self.heard = now
         self._state = None
         match content:

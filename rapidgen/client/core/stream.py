@@ -23,6 +23,7 @@ from rapidgen.client.errors import (
 )
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
 
 
@@ -181,7 +182,7 @@ class PointStream(CommandedMotion):
             return
         super().step()
 
-    def _answered(self, end: int, reply: messages.Content) -> None:
+    def _answered(self, end: int, reply: Content) -> None:
         match reply:
             case messages.PointsAccepted() if reply.stream == self.stream:
                 if self.number is None:

@@ -11,7 +11,8 @@ from rapidgen.client.errors import (
 )
 from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, HangUp, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.spec import HELLO, MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
+from rapidgen.wire.simple_message.messages import HELLO
+from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
 
 _RETRY = 0.5
 """s between two attempts to connect again."""

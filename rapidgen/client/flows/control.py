@@ -7,6 +7,7 @@ from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Feature, Port
 
 
@@ -71,7 +72,7 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
     return which
 
 
-def _ask(core: Core, content: messages.Content, what: str) -> Flow[messages.Content]:
+def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
     control = core.ports[Port.CONTROL]

@@ -8,7 +8,8 @@ from rapidgen.client.errors import RobotError, RobotTimeout
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
 from rapidgen.client.flows.stop import PER_POINT, stop_and_leave
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
-from rapidgen.wire.simple_message.spec import JOINT_TRAJ_PT, Port
+from rapidgen.wire.simple_message.messages import JOINT_TRAJ_PT
+from rapidgen.wire.simple_message.spec import Port
 
 
 def download(core: Core, checked: CheckedTrajectory) -> Flow[Job]:

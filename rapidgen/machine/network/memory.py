@@ -7,14 +7,15 @@ connection falls silent, as with TCP when nobody acknowledges: the sender's buff
 """
 
 from collections import deque
+from functools import partial
 
 from rapidgen.machine.network.interface import (
     BUFFER,
-    Address,
     Endpoint,
     Network,
     NetworkFault,
-    Reason,
+    NetworkReason,
+    SocketAddress,
     taken,
 )
 from rapidgen.machine.scheduler import Scheduler
@@ -62,11 +63,11 @@ class MemoryEndpoint(Endpoint):
 
     __slots__ = ("backlog", "datagrams", "incoming", "listening", "outgoing")
 
-    def __init__(self, local: Address, peer: Address | None = None) -> None:
+    def __init__(self, local: SocketAddress, peer: SocketAddress | None = None) -> None:
         super().__init__(local, peer)
         self.listening = False
         self.backlog: deque[MemoryEndpoint] = deque()
-        self.datagrams: deque[tuple[Address, bytes]] | None = None
+        self.datagrams: deque[tuple[SocketAddress, bytes]] | None = None
         self.incoming: _Pipe | None = None
         self.outgoing: _Pipe | None = None
 
@@ -88,9 +89,9 @@ class MemoryNetwork(Network):
         if port == 0:
             port = self._free_port(datagram)
         elif not 0 < port <= _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         if (datagram, port) in self._ports:
-            raise NetworkFault(Reason.ADDRESS_IN_USE, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_IN_USE, f"port {port}")
         endpoint = MemoryEndpoint((host, port))
         if datagram:
             endpoint.datagrams = deque()
@@ -115,13 +116,13 @@ class MemoryNetwork(Network):
     def connect(self, host: str, port: int) -> MemoryEndpoint:
         """See `Network.connect`."""
         if not 0 < port <= _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         client = MemoryEndpoint((host, self._free_port(False)), (host, port))
         self._open[client] = None
         self._scheduler.after(self._latency, lambda: self._answer(client, port))
         return client
 
-    def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
+    def send(self, endpoint: Endpoint, data: bytes, to: SocketAddress | None = None) -> int:
         """See `Network.send`."""
         own = _mine(endpoint)
         own.check()
@@ -208,14 +209,14 @@ class MemoryNetwork(Network):
         for port in range(_FIRST_EPHEMERAL, _LAST_PORT + 1):
             if port not in used and (datagram, port) not in self._ports:
                 return port
-        raise NetworkFault(Reason.ADDRESS_IN_USE, "no free port")
+        raise NetworkFault(NetworkReason.ADDRESS_IN_USE, "no free port")
 
     def _answer(self, client: MemoryEndpoint, port: int) -> None:
         if client.closed:
             return
         listener = self._ports.get((False, port))
         if listener is None or not listener.listening:
-            self._fail(client, NetworkFault(Reason.REFUSED, f"port {port}"))
+            self._fail(client, NetworkFault(NetworkReason.REFUSED, f"port {port}"))
             return
         if len(listener.backlog) >= BACKLOG:
             # The connection request is repeated, as TCP does, until there is room.
@@ -243,7 +244,7 @@ class MemoryNetwork(Network):
             segment = bytes(pipe.waiting[:size])
             del pipe.waiting[:size]
             pipe.flying += size
-            self._scheduler.after(self._latency, lambda s=segment: self._arrive(pipe, s))  # type: ignore[misc]
+            self._scheduler.after(self._latency, partial(self._arrive, pipe, segment))
         if not pipe.waiting and pipe.ended and not pipe.finished:
             self._scheduler.after(self._latency, lambda: self._finish(pipe))
         if not had_room and len(pipe.waiting) < BUFFER:
@@ -256,7 +257,7 @@ class MemoryNetwork(Network):
         if pipe.receiver.closed:
             # Nobody is there any more: the sender gets a reset.
             if not pipe.sender.closed:
-                self._fail(pipe.sender, NetworkFault(Reason.RESET))
+                self._fail(pipe.sender, NetworkFault(NetworkReason.RESET))
             return
         pipe.arrived += segment
         pipe.receiver.changed.notify()
@@ -271,7 +272,7 @@ class MemoryNetwork(Network):
 
         def arrive() -> None:
             if not pipe.silent and not pipe.receiver.closed:
-                self._fail(pipe.receiver, NetworkFault(Reason.RESET))
+                self._fail(pipe.receiver, NetworkFault(NetworkReason.RESET))
 
         self._scheduler.after(self._latency, arrive)
 
@@ -281,9 +282,9 @@ class MemoryNetwork(Network):
             endpoint.fault = fault
             endpoint.changed.notify()
 
-    def _send_datagram(self, own: MemoryEndpoint, data: bytes, to: Address | None) -> int:
+    def _send_datagram(self, own: MemoryEndpoint, data: bytes, to: SocketAddress | None) -> int:
         if to is None:
-            raise NetworkFault(Reason.FAILED, "a datagram needs an address")
+            raise NetworkFault(NetworkReason.FAILED, "a datagram needs an address")
         _, port = to
 
         def arrive() -> None:

@@ -9,11 +9,10 @@ Sources: 3HAC050917 (RobotWare 6) for arguments; S4 datasys 2-MoveAbsJ, 2-MoveL,
 
 from dataclasses import replace
 from math import inf
-from typing import Any, TypeAlias
 
 from rapidgen.motion.moves import Carrier, From, JointMove, PathEvent
 from rapidgen.runtime.builtins.io import fitting
-from rapidgen.runtime.builtins.motion.access import here, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import (
     dwell_of,
     speed_of,
@@ -21,33 +20,33 @@ from rapidgen.runtime.builtins.motion.arguments import (
     time_of,
     zone_of,
 )
-from rapidgen.runtime.builtins.motion.request import Given, bind, cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.request import MoveArguments, bind, cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.targets import carrier_of
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.interrupts import Interrupt
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
-
-Data: TypeAlias = Any
-_NO_OFFSETS = (0.0,) * 6
+from rapidgen.runtime.values import Ref, Value
 
 
 @builtin("MoveAbsJ", cost="move")
+@planned
 def move_abs_j(
     task: Task,
     concurrent: bool | None,
-    to: Data,
+    to: Value,
     identity: float | None,
     no_offsets: bool | None,
-    speed: Data,
+    speed: Value,
     tcp_speed: float | None,
     time: float | None,
-    zone: Data,
+    zone: Value,
     radius: float | None,
-    stop: Data,
+    stop: Value,
     tool: Ref,
     work_object: Ref | None,
     _load: Ref | None,
@@ -55,13 +54,15 @@ def move_abs_j(
     """Displacement does not count here, offsets of external axes do (S4 datasys 2-MoveAbsJ-3)."""
     group = moving_group(task)
     modal = group.modal
-    offsets = _NO_OFFSETS if no_offsets else modal.external_offset
+    data = data_of(task, group)
+    offsets = NO_OFFSETS if no_offsets else data.external_offset
     tool_data = tool.get()
     object_data = work_object.get() if work_object is not None else None
     carrier = Carrier()
     if group.kinematics is not None:
         carrier = carrier_of(group, tool_data, object_data)
-    group.use(tool_data, object_data)
+    data.use(tool_data, object_data)
+    group.planner.tool = carrier.tool
     move = JointMove(
         target=group.with_active(target_of(to, group.map, group.path_target, offsets)),
         speed=speed_of(speed, tcp_speed, modal),
@@ -76,22 +77,24 @@ def move_abs_j(
 
 
 @builtin("MoveExtJ", cost="move")
+@planned
 def move_ext_j(
     task: Task,
     concurrent: bool | None,
-    to: Data,
+    to: Value,
     identity: float | None,
     use_offsets: bool | None,
-    speed: Data,
+    speed: Value,
     time: float | None,
-    zone: Data,
-    stop: Data,
+    zone: Value,
+    stop: Value,
 ) -> None:
     """Robot axes stay where the path ends, and only the speeds of external axes count."""
     group = moving_group(task)
     modal = group.modal
     ends = group.path_target
-    target = target_of(to, group.map, ends, modal.external_offset if use_offsets else _NO_OFFSETS)
+    offsets = data_of(task, group).external_offset if use_offsets else NO_OFFSETS
+    target = target_of(to, group.map, ends, offsets)
     target = group.with_active(
         tuple(
             new if joint.axis.startswith("eax") else old
@@ -113,7 +116,7 @@ def move_ext_j(
 # -- with a signal, or a procedure, in the middle of the corner ---------------------------------
 
 
-def _setting(task: Task, given: Given) -> tuple[PathEvent]:
+def _setting(task: Task, given: MoveArguments) -> tuple[PathEvent]:
     """The output changes in the middle of the corner, at a stop point on arrival."""
     signal, value = given["Signal"].signal, given["Value"]
     wanted = fitting(signal, given["Dvalue"] if value is None else value)
@@ -121,10 +124,10 @@ def _setting(task: Task, given: Given) -> tuple[PathEvent]:
     return (PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal, wanted)),)
 
 
-def _calling(task: Task, given: Given) -> tuple[PathEvent]:
+def _calling(task: Task, given: MoveArguments) -> tuple[PathEvent]:
     """The procedure runs when the task next attends, as a trap would; not inside a trap."""
     name = given["ProcName"]
-    routine = task.program.globals.get(name.lower())
+    routine = task.program.find_routine(None, name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":
         raise RapidError("ERR_REFUNKPRC", name)
 

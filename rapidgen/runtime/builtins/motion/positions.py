@@ -3,11 +3,9 @@
 Sources: S4 datasys 3-CJointT, 3-CRobT, 3-CTool; 3HAC050917 for CalcJointT and CalcRobT.
 """
 
-from typing import Any, TypeAlias
-
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
-from rapidgen.runtime.builtins.motion.access import group_of, named_group
+from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import (
     external_values,
     frame,
@@ -23,89 +21,97 @@ from rapidgen.runtime.builtins.motion.targets import (
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, WobjData
-
-Data: TypeAlias = Any
+from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, Value, WobjData
 
 
-def tool0() -> Data:
+def tool0() -> Value:
     """tooldata of the flange."""
     return ToolData(True, _identity(), load0())
 
 
-def load0() -> Data:
+def load0() -> Value:
     """loaddata of next to nothing."""
     return LoadData(0.001, Pos(0, 0, 0.001), Orient(1, 0, 0, 0))
 
 
-def wobj0() -> Data:
+def wobj0() -> Value:
     """wobjdata of the world."""
     return WobjData(False, True, "", _identity(), _identity())
 
 
-def _identity() -> Data:
+def _identity() -> Value:
     return Pose(Pos(0, 0, 0), Orient(1, 0, 0, 0))
 
 
-def carrier_for(group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Carrier:
+def carrier_for(
+    task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None
+) -> Carrier:
     """Frames of the given tool and object; those left out are the active ones.
 
     With a tool given, a work object left out is still the active one (S4 datasys 3-CRobT-1).
     """
+    data = data_of(task, group)
     return carrier_of(
         group,
-        tool.get() if tool is not None else group.tool or tool0(),
-        work_object.get() if work_object is not None else group.work_object,
+        tool.get() if tool is not None else data.tool or tool0(),
+        work_object.get() if work_object is not None else data.work_object,
     )
 
 
+def here_of(task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Value:
+    """The TCP now as a robtarget, in the displaced frame of an object."""
+    carrier = carrier_for(task, group, tool, work_object)
+    return rob_target(group, group.positions(), carrier, data_of(task, group).external_offset)
+
+
 @builtin("CJointT")
-def c_joint_t(task: Task, reference: Data, name: str | None) -> Data:
+def c_joint_t(task: Task, reference: Value, name: str | None) -> Value:
     """Arm-side angles and external axes now; external axes in the shifted frame."""
     group = named_group(task, reference, name)
-    return joint_target(group.map, group.positions(), group.modal.external_offset)
+    return joint_target(group.map, group.positions(), data_of(task, group).external_offset)
 
 
 @builtin("CRobT")
 def c_rob_t(
-    task: Task, reference: Data, name: str | None, tool: Ref | None, work_object: Ref | None
-) -> Data:
+    task: Task, reference: Value, name: str | None, tool: Ref | None, work_object: Ref | None
+) -> Value:
     """The TCP now, in the displaced object frame."""
     group = named_group(task, reference, name)
-    return rob_target(group, group.positions(), carrier_for(group, tool, work_object))
+    return here_of(task, group, tool, work_object)
 
 
 @builtin("CPos")
-def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Data:
+def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Value:
     """Position of `CRobT`."""
-    group = group_of(task)
-    return rob_target(group, group.positions(), carrier_for(group, tool, work_object)).trans
+    return here_of(task, group_of(task), tool, work_object).trans
 
 
 @builtin("CalcRobT")
-def calc_rob_t(task: Task, joints: Data, tool: Ref, work_object: Ref | None) -> Data:
+def calc_rob_t(task: Task, joints: Value, tool: Ref, work_object: Ref | None) -> Value:
     """The robtarget of a jointtarget."""
     group = group_of(task)
-    posture = target_of(joints, group.map, group.positions(), group.modal.external_offset)
-    return rob_target(group, posture, _carrier(group, tool, work_object))
+    offsets = data_of(task, group).external_offset
+    posture = target_of(joints, group.map, group.positions(), offsets)
+    return rob_target(group, posture, _carrier(group, tool, work_object), offsets)
 
 
 @builtin("CalcJointT")
 def calc_joint_t(
     task: Task,
     current: bool | None,
-    target: Data,
+    target: Value,
     tool: Ref,
     work_object: Ref | None,
     number: Ref | None,
-) -> Data:
+) -> Value:
     """The jointtarget of a robtarget, in the configuration that it programs.
 
     ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached).
     """
     group = group_of(task)
     here = group.positions()
-    external = external_values(target.extax, group.modal.external_offset)
+    offsets = data_of(task, group).external_offset
+    external = external_values(target.extax, offsets)
     asked = group.map.from_rapid((0.0,) * 6, external, here)
     near = tuple(
         new if joint.axis.startswith("eax") else old
@@ -117,15 +123,15 @@ def calc_joint_t(
     flange = placed.flange(frame(target))
     try:
         check = group.settings.configuration_check
-        posture = joints_for(group.geometry(), flange, near, wanted, check)
+        posture = joints_for(geometry_of(group), flange, near, wanted, check)
     except RapidError as error:
         if number is None:
             raise
         number.set(error.number)
-        return joint_target(group.map, here, group.modal.external_offset)
+        return joint_target(group.map, here, offsets)
     if number is not None:
         number.set(0)
-    return joint_target(group.map, posture, group.modal.external_offset)
+    return joint_target(group.map, posture, offsets)
 
 
 def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
@@ -133,14 +139,15 @@ def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
 
 
 @builtin("CTool")
-def c_tool(task: Task, reference: Data, name: str | None) -> Data:
+def c_tool(task: Task, reference: Value, name: str | None) -> Value:
     """Tool of the last move."""
-    tool: Data = named_group(task, reference, name).tool or tool0()
+    tool: Value = data_of(task, named_group(task, reference, name)).tool or tool0()
     return tool.copy()
 
 
 @builtin("CWObj")
-def c_wobj(task: Task, reference: Data, name: str | None) -> Data:
+def c_wobj(task: Task, reference: Value, name: str | None) -> Value:
     """Work object of the last move."""
-    work_object: Data = named_group(task, reference, name).work_object or wobj0()
+    data = data_of(task, named_group(task, reference, name))
+    work_object: Value = data.work_object or wobj0()
     return work_object.copy()

@@ -5,17 +5,16 @@ are no dynamics: torques are 0, loads change nothing. gizatt/ABB-IRB140 [code] f
 TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 """
 
-from typing import Any
-
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError, errnum
+from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.process_errors import ProcessError
+from rapidgen.runtime.task.recovery import Place
 from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 _CHANNELS = range(1, 13)
 _TORQUE = 9
@@ -30,7 +29,7 @@ def procerr_recovery(
     """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
     if not task.in_trap or origin == last:
         raise FatalError(
-            events.NOT_ALLOWED,
+            NOT_ALLOWED,
             "ProcerrRecovery",
             "in a trap, with \\SyncOrg- or \\SyncLastMoveInst",
         )
@@ -44,9 +43,9 @@ def procerr_recovery(
 
 def _owner(group: MotionGroup) -> tuple[str, str]:
     """Module and routine of the move that made the path; empty when there is no path."""
-    place: Any = group.legs[0].move.place if group.legs else None
+    place = group.legs[0].move.place if group.legs else None
     found = place() if place is not None else None
-    return (found.module, found.routine) if found is not None else ("", "")
+    return (found.module, found.routine) if isinstance(found, Place) else ("", "")
 
 
 def _axis(group: MotionGroup, number: float) -> int:
@@ -57,14 +56,14 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 
 @builtin("MechUnitLoad")
-def mech_unit_load(task: RapidTask, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
+def mech_unit_load(task: RapidTask, _unit: Value, axis: float, load: Ref) -> None:
     """Payload of an external mechanical unit."""
     group = group_of(task)
-    group.modal.extra[f"load of axis {int(axis)}"] = load.get().copy()
+    data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 
 @builtin("GetMotorTorque")
-def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa: ANN401
+def get_motor_torque(task: RapidTask, _unit: Value, axis: float) -> float:
     """0 Nm. ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
@@ -78,7 +77,7 @@ def define_test_signal(
     task: RapidTask,
     channel: float,
     signal: float,
-    unit: Any,  # noqa: ANN401
+    unit: Value,
     axis: float,
     _sample: float,
 ) -> None:
@@ -91,7 +90,7 @@ def define_test_signal(
     unit_axis(task, unit, axis)
     if signal != _TORQUE and signal not in _FORCES:
         raise FatalError(
-            events.NOT_SIMULATED,
+            NOT_SIMULATED,
             f"Test signal {signal:g} is not simulated",
             "torques (9) and force sensors (201 to 212) are, and are 0",
         )

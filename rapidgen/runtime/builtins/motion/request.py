@@ -1,12 +1,12 @@
 """Move instructions to robtargets: one place where RAPID's arguments become a Move."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
 from rapidgen.rapid.builtins.signatures import routine
-from rapidgen.runtime.builtins.motion.access import here, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import dwell_of, frame, speed_of, time_of, zone_of
 from rapidgen.runtime.builtins.motion.targets import (
     carrier_of,
@@ -15,19 +15,22 @@ from rapidgen.runtime.builtins.motion.targets import (
     joints_for,
 )
 from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Value
 
-Given: TypeAlias = Mapping[str, Any]
+MoveArguments: TypeAlias = Mapping[str, Value]
 """Arguments of a move by the names of its parameters; None: left out."""
 
 
-def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
+def _common(task: Task, group: MotionGroup, given: MoveArguments) -> dict[str, Value]:
     """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
     carrier = carrier_of(group, tool, work_object)
-    group.use(tool, work_object)
+    data_of(task, group).use(tool, work_object)
+    group.planner.tool = carrier.tool
     stop = given.get("Inpos")
     return {
         "speed": speed_of(given["Speed"], given.get("V"), group.modal),
@@ -41,14 +44,14 @@ def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
 
 
 def joint_move(
-    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+    task: Task, given: MoveArguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget with all axes together."""
     group = moving_group(task)
-    kinematics = group.geometry()
+    kinematics = geometry_of(group)
     common = _common(task, group, given)
     target = given["ToPoint"]
-    near = external_posture(group, target.extax)
+    near = external_posture(group, target.extax, data_of(task, group).external_offset)
     flange = common["carrier"].at(near).flange(frame(target))
     wanted = configuration_of(target.robconf) if group.modal.check_joint else None
     check = group.settings.configuration_check
@@ -57,17 +60,17 @@ def joint_move(
 
 
 def cartesian_move(
-    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+    task: Task, given: MoveArguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
-    group.geometry()
+    geometry_of(group)
     common = _common(task, group, given)
     target, via = given["ToPoint"], given.get("CirPoint")
     wanted = configuration_of(target.robconf) if group.modal.check_linear else None
     return group, CartesianMove(
         target=frame(target),
-        external=external_posture(group, target.extax),
+        external=external_posture(group, target.extax, data_of(task, group).external_offset),
         via=None if via is None else frame(via),
         wanted=wanted,
         singularities=group.modal.singularities,
@@ -77,20 +80,21 @@ def cartesian_move(
     )
 
 
-Maker: TypeAlias = Callable[[Task, Given, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
+Maker: TypeAlias = Callable[[Task, MoveArguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
 """joint_move or cartesian_move."""
 
 
 def bind(
     name: str,
     make: Maker,
-    events_of: Callable[[Task, Given], tuple[PathEvent, ...]] = lambda _task, _given: (),
+    events_of: Callable[[Task, MoveArguments], tuple[PathEvent, ...]] = lambda _task, _given: (),
 ) -> None:
     """Bind a move instruction to what makes its move and its events on the path."""
     names = parameter_names(name)
 
     @builtin(name, cost="move")
-    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+    @planned
+    def execute(task: Task, *arguments: Value) -> None:
         given = dict(zip(names, arguments, strict=True))
         group, move = make(task, given, events_of(task, given))
         group.move(task, together(task, group, move, given.get("ID")))

@@ -1,0 +1,147 @@
+"""The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
+
+from rapidgen.proving import messages
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.instructions import fails, watched_orders
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    MAX_JOINTS,
+    Comm,
+    Reason,
+    TrajectoryState,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.stream import BEGIN, Streamer
+from rapidgen.proving.suite.control import not_done, stop
+from rapidgen.proving.suite.streams import way
+
+case = Theme("controlling", port="control")
+
+_TRAJ = JOINT_TRAJ_PT
+_FAILED = TrajectoryState.FAILED
+_PING = encode(messages.Ping(), Comm.REQUEST)
+
+
+@case("stops-alone", "STOP while the supervisor hangs", "R7b")
+def _alone(bench: Bench) -> None:
+    """While the supervisor hangs STOP stops the robot all the same, and nobody says it is done."""
+    control, link = bench.control(), bench.motion()
+    supervisor = bench.controller.task(bench.task("ROS_supervisor"))
+    points = bench.wave(12)
+    link.send(bench.download(points))
+    bench.wait_until_moving()
+    bench.run(0.5)
+    orders = watched_orders(bench)
+    supervisor.stop()
+    asked = bench.now
+    for chosen in (control, link):
+        chosen.send(STOP)
+    bench.run(0.02)
+    if [o.instruction for o in orders].count("StopMove") != 1:
+        raise Broken(f"the supervisor hangs, STOP came, then {orders}")
+    for chosen in (control, link):
+        told = chosen.reply(_TRAJ, 2)
+        if not isinstance(told, messages.Failure) or not 0.9 < bench.now - asked < 1.5:
+            raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
+    for paused in (0, 1):
+        told = control.ask(messages.Pause(paused))
+        not_done(told, Reason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
+    bench.stays(0.5, "the robot was stopped, the supervisor hangs")
+    link.send(bench.download(bench.wave(3)))
+    bench.stays(1.5, "nobody can say whether the robot may move")
+    supervisor.start()
+    bench.stays(1, "the supervisor goes on")
+    bench.moves_through(link, bench.wave(3))
+
+
+@case("beats", "heartbeats to the moment", "R12")
+def _beats(bench: Bench) -> None:
+    """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
+    control, link = bench.control(), bench.motion()
+    orders = watched_orders(bench)
+    for seconds in (0.25, 1.03):
+        link.send(bench.download(bench.wave(12)))
+        bench.wait_until_moving()
+        orders.clear()
+        control.ask(messages.Heartbeat(0.1))
+        control.ask(messages.Heartbeat(seconds))
+        last = bench.now
+        bench.run(seconds - 0.01)
+        for _ in range(8):
+            control.send(_PING)
+            bench.run(0.001)
+        bench.wait_until_standing(3)
+        stops = [o.time for o in orders if o.instruction == "StopMove"]
+        if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.04:
+            raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
+        if seconds > 1:
+            told = control.ask(messages.Heartbeat(0.2))
+            if not isinstance(told, messages.HeartbeatReply) or told.state != _FAILED:
+                raise Broken(f"a heartbeat after one was missing is answered by {told}")
+            control.ask(messages.Heartbeat(0))
+        bench.moves_through(link, bench.wave(5))
+
+
+@case("beating-clients", "clients that beat, and are lost in each way", "R12")
+def _leave(bench: Bench) -> None:
+    """Each of several clients that beat leaves, is replaced, or is dropped: the robot stops."""
+    link, control = bench.motion(), bench.control()
+    for how in ("leaves", "is replaced", "is reset", "has not beaten", "is dropped", "leaves"):
+        points = bench.wave(6, duration=0.25)
+        link.send(bench.download(points))
+        bench.wait_until_moving()
+        if how != "has not beaten":
+            control.ask(messages.Heartbeat(0.6))
+        bench.run(0.2)
+        next_one: RawLink | None = None
+        if how == "is replaced":
+            next_one = bench.control()
+        elif how == "is dropped":
+            # By an error in serving it, where the task survives one, else by what it sends.
+            if bench.setting.dialect.unhandled_error == "propagate":
+                fails(bench, "ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
+            control.send(_PING + b"\xff" * 8)
+        else:
+            control.close(abort=how == "is reset")
+        if how == "has not beaten":
+            bench.wait_until_at(points[-1][0], 5)
+        else:
+            bench.wait_until_standing(0.35)
+            bench.stays(0.3, f"a client that beats {how}")
+        if not control.lost:
+            raise Broken(f"a control client that {how} keeps its connection")
+        control = next_one if next_one is not None else bench.control()
+        # Whoever comes next has asked for no heartbeats.
+        bench.moves_through(link, bench.wave(6, duration=0.25))
+
+
+@case("stops-before", "STOP before a stream moves")
+def _not_begun(bench: Bench) -> None:
+    """A stream that has points but did not begin to move is stopped: no point was reached."""
+    if bench.config.trajectory.preload <= 0:
+        return
+    control, watcher = bench.control(), bench.watcher()
+    stream = Streamer(bench)
+    stream.put(way(bench, 1), BEGIN)
+    number = stream.accepted("the first points").trajectory
+    stop(control)
+    told = control.expect(messages.Stopped, 2, "STOPPED arrives")
+    here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
+    if (
+        told[:3] != (number, 0, Reason.STOPPED)
+        or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
+    ):
+        raise Broken(f"a stream was stopped before it moved, STOPPED says {told}")
+    stream.put(way(bench, 2))
+    stream.refused(Reason.STOPPED, "points behind STOP")
+    bench.run(0.3)
+    progress = bench.progress(watcher)
+    if (progress.trajectory, progress.state, progress.reason) != (
+        number,
+        TrajectoryState.STOPPED,
+        Reason.STOPPED,
+    ):
+        raise Broken(f"a stream was stopped before it moved, PROGRESS says {progress}")
+    bench.stays(0.5, "the stream was stopped before it moved")

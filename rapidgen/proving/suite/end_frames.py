@@ -1,0 +1,289 @@
+"""The end frame: what is handed over, when, and what then moves in which time."""
+
+from itertools import pairwise
+
+from rapidgen.proving import messages
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import point_frame
+from rapidgen.proving.messages import Reason, Special, TrajectoryState
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.points import Table
+from rapidgen.proving.track import SETTLED, Point, Position, changed, distance
+
+case = Theme("taking")
+
+_BEGIN, _END = int(Special.BEGIN), int(Special.END)
+_TAKEN = messages.Acknowledged()
+_NO_START = messages.Refused(Reason.NO_START, 0, 0)
+_SLACK = 0.05
+"""s that a motion may begin later, or last longer, than it was asked to."""
+_LEAST = 0.1
+"""s in which every axis has gone a short way."""
+
+
+def _inward(bench: Bench, steps: Position) -> Position:
+    """Each axis by its step, to the side where there is more room."""
+    return tuple(
+        here + step if joint.upper - here >= here - joint.lower else here - step
+        for joint, here, step in zip(bench.group.joints, bench.position, steps, strict=True)
+    )
+
+
+def _in_time(bench: Bench, what: str, seen: float, wanted: float) -> None:
+    """Broken unless something took as long as wanted; an axis needs its time, too."""
+    motion = bench.setting.motion
+    more = max(_SLACK, _LEAST - wanted) + motion.settle + motion.servo_lag
+    if not 0.95 * wanted - 0.02 <= seen <= wanted + more:
+        raise Broken(f"{what} took {seen:.3f} s, not {wanted:.3f} s")
+
+
+def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
+    """When the robot first came to a place, and when it left it (now: it has not)."""
+    track = [(t, p) for t, p in bench.track if t >= since]
+    arrived = next((i for i, (_, p) in enumerate(track) if distance(p, place) < SETTLED), None)
+    if arrived is None:
+        raise Broken(f"the robot was not at {place}")
+    for (left, _), (_, after) in pairwise(track[arrived:]):
+        if distance(after, place) >= SETTLED:
+            return track[arrived][0], left
+    return track[arrived][0], bench.now
+
+
+def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
+    """Broken unless PROGRESS says within that time that all points are executed."""
+    wanted = (table.number, TrajectoryState.DONE, count, count, count, 0, -1, 0)
+    table.watcher.read()
+    more = 2.5 * bench.config.state_period + 2 * bench.setting.motion.settle
+    until, told = bench.now + seconds + more, None
+    while bench.now < until:
+        told = table.watcher.expect(messages.Progress, 2, "a PROGRESS arrives")
+        if told == wanted:
+            return
+    raise Broken(f"{count} points are executed, PROGRESS says {told}")
+
+
+@case("one-place", "one point, sent twice, in its time", "R8")
+def _one_place(bench: Bench) -> None:
+    """One point, sent twice: in the time given, or at approach speed, whichever takes longer."""
+    table, joints = Table(bench), bench.group.joints
+    slow = bench.config.trajectory.approach_speed
+    for slowest, needed, given in (
+        (1, 0.5, 0.05),
+        (0, 0.3, 0.8),
+        (len(joints) - 1, 0.6, 0.05),
+        (0, 0.0, 0.4),
+    ):
+        share = [needed if axis == slowest else 0.6 * needed for axis in range(len(joints))]
+        there = _inward(
+            bench, tuple(s * slow * j.speed for s, j in zip(share, joints, strict=True))
+        )
+        table.row(_BEGIN, there, given, _TAKEN)
+        table.accepted(there, given)
+        since = bench.now
+        table.ask()
+        if bench.now - since > 0.2:
+            raise Broken(f"the end frame was answered after {bench.now - since:.2f} s")
+        bench.wait_until_at(there, 5)
+        if needed:
+            took = bench.now - since
+            _in_time(bench, "a point that was sent twice", took, max(needed, given))
+        # It is a place to go to, not one to stay at.
+        _done(bench, table, 2, 0.1 if needed else given + 0.1)
+
+
+@case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "R8, R10")
+def _start(bench: Bench) -> None:
+    """How far from the robot a first point may be; the ways and stays behind it in their time."""
+    table, policy, joints = Table(bench), bench.config.trajectory, bench.group.joints
+    near = tuple(
+        policy.start_tolerance_linear if j.kind == "prismatic" else policy.start_tolerance
+        for j in joints
+    )
+    # Where no axis is at zero.
+    there = _inward(bench, tuple(4 * n for n in near))
+    table.row(_BEGIN, there, 0.1, _TAKEN)
+    table.accepted(there, 0.1)
+    table.ask()
+    bench.wait_until_at(there, 5)
+    if min(near) > 0:
+        beyond = _inward(bench, tuple(1.03 * n for n in near))
+        for axis in range(len(joints)):
+            far = messages.Refused(Reason.START_TOO_FAR, 0, axis + 1)
+            start = (*there[:axis], *beyond[axis:])
+            table.row(_BEGIN, start, 9.0, _TAKEN)
+            table.row(_END, there, 9.0, far)
+            alone = changed(there, axis, beyond[axis])
+            table.row(_BEGIN, alone, 9.0, _TAKEN)
+            table.row(1, alone, 9.0, _TAKEN)
+            table.row(_END, there, 9.0, far)
+        table.number += 1
+        table.row(1, there, 9.0, _NO_START)
+        table.ask()
+        bench.stays(0.1, "the first point was too far")
+    _ways(bench, table, near)
+
+
+def _ways(bench: Bench, table: Table, near: Position) -> None:
+    policy = bench.config.trajectory
+    short = max(0.3, 1.05 * policy.min_segment)
+    for last in (True, False):
+        here = bench.position
+        start = _inward(bench, tuple(-0.97 * n for n in near))
+        one, two, three = (p for p, _ in bench.wave(4, duration=short, size=0.03)[1:])
+        points: list[Point] = [(start, 9.0), (one, short), (one, 0.5), (two, short)]
+        points += [(three, short + 0.1), (three, 0.4)][: 2 if last else 1]
+        for number, (place, seconds) in enumerate(points[:-1]):
+            table.row(number or _BEGIN, place, seconds, _TAKEN)
+        table.accepted(*points[-1])
+        since = bench.now
+        table.ask()
+        bench.wait_until_at(points[-1][0], 10)
+        _done(bench, table, len(points), 0.4 if last else 0.0)
+        finished = bench.now
+        if bench.setting.motion.servo_lag:
+            # A robot that follows late does not quite get to a place where it does not stay.
+            continue
+        begun = _times(bench, since, here)[1]
+        at_start = _times(bench, since, start)[0]
+        needed = max(
+            policy.min_segment,
+            *(
+                0.97 * n / (policy.approach_speed * j.speed)
+                for n, j in zip(near, bench.group.joints, strict=True)
+            ),
+        )
+        if min(near) > 0:
+            _in_time(bench, "the way to the first point", at_start - begun, needed)
+        arrived, left = _times(bench, at_start, one)
+        _in_time(bench, "the first way", arrived - at_start, short)
+        _in_time(bench, "a stay", left - arrived, 0.5)
+        ended = _times(bench, left, three)[0]
+        _in_time(bench, "the ways behind a stay", ended - left, 2 * short + 0.1)
+        if last and finished < ended + 0.3:
+            raise Broken("a stay at the end was left out")
+
+
+@case("not-now", "an end frame while no motion is possible, or another one moves", "R7a")
+def _not_now(bench: Bench) -> None:
+    """What has stopped or stops the robot meanwhile is the reason; a halt is waited for."""
+    table, here = Table(bench), bench.position
+
+    def refused(reason: Reason) -> None:
+        table.row(_END, here, 9.0, messages.Refused(reason, -1, 0))
+        table.number += 1
+        table.row(1, here, 9.0, _NO_START)
+        table.ask()
+
+    if bench.group.ports.control:
+        control = bench.control()
+        for _ in range(2):
+            table.row(_BEGIN, here, 9.0, _TAKEN)
+            table.row(1, here, 9.0, _TAKEN)
+            table.ask()
+            table.stop(control)
+            refused(Reason.STOPPED)
+    stops = (("stop", Reason.NOT_EXECUTING), ("e-stop", Reason.EMERGENCY_STOP))
+    # While commissioning the driver stops with the program, and nobody answers.
+    for action, reason in () if bench.config.commissioning else stops:
+        table.row(_BEGIN, here, 9.0, _TAKEN)
+        table.ask()
+        bench.controller.perform(action)
+        # Sooner than anybody looks by himself.
+        bench.run(0.01)
+        refused(reason)
+        bench.start_again()
+        bench.run(0.5)
+    bench.stays(0.2, "nothing was handed over")
+    _while_moving(bench, table)
+
+
+def _while_moving(bench: Bench, table: Table) -> None:
+    """The one under way ends; its halt is waited for, no longer than it takes."""
+    joint, here = bench.group.joints[0], bench.position
+    step = 0.8 * max(joint.upper - here[0], here[0] - joint.lower)
+    away = _inward(bench, (step, *[0.0] * (len(here) - 1)))
+    # A TCP with a ceiling of its own is slower than the axis.
+    slower = 1.1 if bench.group.tcp_speed_limit >= 5 else 14
+    seconds = slower * step / joint.speed
+    table.row(_BEGIN, here, 9.0, _TAKEN)
+    table.accepted(away, seconds)
+    table.ask()
+    bench.wait_until_moving()
+    bench.run(0.6 * seconds)
+    for number, wanted in ((_BEGIN, _TAKEN), (_END, messages.Accepted(table.number + 1))):
+        table.row(number, here, 0.2, wanted)
+    since = bench.now
+    table.ask()
+    halted = bench.now
+    # A move that does not return is rung out, at the sixth bell (docs/use/driver.md).
+    longest = 0.9 if bench.setting.motion.cleared_move == "return" else 2.5
+    if not since + 0.02 < halted < since + longest + bench.setting.motion.settle:
+        raise Broken(f"a trajectory under way was halted in {halted - since:.3f} s")
+    bench.wait_until_at(here, 60)
+    _done(bench, table, 2, 0.1)
+    bench.followed([here, away, here], since=since - 0.6 * seconds)
+
+
+def _long(bench: Bench, count: int) -> list[Point]:
+    """`count` points in little time; more of them than the ring takes at once."""
+    seconds = max(0.1, 1.02 * bench.config.trajectory.min_segment)
+    return [(p, seconds) for p, _ in bench.wave(count, duration=seconds, size=0.02)]
+
+
+@case("fed", "more points than the ring takes", "R1")
+def _fed(bench: Bench) -> None:
+    """More points than the ring takes are all executed, in time, and the server goes on reading."""
+    policy = bench.config.trajectory
+    if policy.capacity < policy.ring + 25:
+        return
+    table, points, since = Table(bench), _long(bench, policy.ring + 25), bench.now
+    table.number += 1
+    table.link.send(bench.download(points))
+    bench.wait_until_moving(1)
+    for silence in (0.1, 0.1, 1.25):
+        bench.run(silence)
+        if not isinstance(table.link.ask(messages.Ping(), 0.05), messages.Acknowledged):
+            raise Broken("PING is not confirmed while a trajectory is fed")
+    asked = sum(d for _, d in points[1:])
+    bench.wait_until_at(points[-1][0], asked + 5)
+    # How closely axes follow dense points depends on their accelerations.
+    if bench.now - since > 1.4 * asked + 1:
+        raise Broken(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
+    _done(bench, table, len(points), 0.1)
+    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+
+
+@case("ends-while-fed", "the end of a trajectory that is still fed", "R5", background=True)
+def _ends_while_fed(bench: Bench) -> None:
+    """Nothing of what had not found room yet is ever executed."""
+    policy = bench.config.trajectory
+    if policy.capacity < policy.ring + 60:
+        return
+    table, points = Table(bench), _long(bench, policy.ring + 60)
+    link, data = table.link, bench.download(points)
+    for action in ("STOP", "stop", "another"):
+        since, start = bench.now, bench.position
+        # From wherever it stood to where the way begins.
+        table.number += 2
+        link.send(point_frame(0, 2, points[0][0], 0.2) + point_frame(1, 2, points[0][0], 0.2))
+        bench.wait_until_at(points[0][0], 5)
+        link.send(data)
+        bench.wait_until_moving(2)
+        bench.run(0.7)
+        if action == "STOP":
+            table.stop()
+        elif action == "another":
+            break
+        else:
+            bench.controller.perform(action)
+        bench.wait_until_standing(3)
+        bench.followed([start, *(p for p, _ in points)], since=since)
+        bench.controller.perform("start")
+        bench.stays(1, f"a long trajectory was ended by {action}")
+    goal = points[0][0]
+    for sequence, wanted in ((_BEGIN, _TAKEN), (_END, messages.Accepted(table.number + 1))):
+        table.row(sequence, goal, 0.3, wanted)
+    table.ask()
+    bench.wait_until_at(goal, 5)
+    _done(bench, table, 2, 0.1)
+    bench.stays(0.3, "the one before was superseded")

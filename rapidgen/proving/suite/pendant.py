@@ -1,0 +1,131 @@
+"""What the operator reads: lines on the pendant and in the event log."""
+
+from rapidgen.machine.log import Event, EventType
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import RawLink, point_frame, raw_point
+from rapidgen.proving.messages import Reason, text_of
+from rapidgen.proving.model import Broken, Theme
+
+case = Theme("telling")
+
+
+class _Pendant:
+    """Lines on the pendant and warnings of the driver, with their times."""
+
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
+        self._lines: list[str] = []
+        bench.controller.operator.subscribe(lambda _task, text: self._lines.append(text))
+        self._last = bench.last_event
+
+    def take(self) -> tuple[list[str], list[Event]]:
+        """What has come since the last call."""
+        lines, self._lines[:] = list(self._lines), []
+        events = [
+            e
+            for e in self._bench.controller.log.since(self._last)
+            if e.type is not EventType.INFO and e.title.startswith("ROS")
+        ]
+        self._last = self._bench.last_event
+        return lines, events
+
+    def says(self, reason: Reason, point: int, joint: int, *, after: str) -> None:
+        """One line and one warning with the reason's text, and the place where there is one."""
+        lines, events = self.take()
+        text = text_of(reason)
+        place = f"Point {point}. " if point >= 0 else ""
+        place += f"Joint {joint}. " if joint else ""
+        if lines != [f"ROS refused: {text}"]:
+            raise Broken(f"{after}: the pendant shows {lines}, wanted: {text}")
+        if len(events) != 1 or events[0].type is not EventType.WARNING:
+            raise Broken(f"{after}: the event log has {[str(e) for e in events]}")
+        said = " ".join(events[0].texts)
+        if text not in said or place.strip() not in said or ("Joint" in said) != bool(joint):
+            raise Broken(f"{after}: the event log says {said!r}, wanted {text!r} and {place!r}")
+
+
+def _send_wrong(bench: Bench, link: RawLink, index: int, *, joint: int = 0) -> None:
+    points = [(p, 30.0) for p, _ in bench.wave(5)]
+    joints = list(points[index][0])
+    joints[joint] = bench.group.joints[joint].upper + 0.5
+    points[index] = (tuple(joints), 30.0)
+    link.send(bench.download(points))
+
+
+@case("said", "a refusal is one line and one warning with point and joint", "R19")
+def _refusals_are_said(bench: Bench) -> None:
+    pendant, link = _Pendant(bench), bench.motion()
+    last = len(bench.position) - 1
+    for index, joint in ((2, 0), (3, last)):
+        _send_wrong(bench, link, index, joint=joint)
+        bench.run(1.5)
+        pendant.says(Reason.JOINT_LIMIT, index, joint + 1, after=f"joint {joint + 1} is too far")
+    points = bench.wave(5)
+    frames = [point_frame(n, 5, *point) for n, point in enumerate(points)]
+    link.send(b"".join((*frames[:2], *frames[3:])))
+    bench.run(1.5)
+    pendant.says(Reason.SEQUENCE_GAP, 2, 0, after="point 2 is missing")
+    link.send(frames[3])
+    bench.run(1.5)
+    pendant.says(Reason.NO_START, 0, 0, after="a point came alone")
+    link.send(frames[0] + frames[1])
+    link.close()
+    bench.run(1.5)
+    pendant.says(Reason.INCOMPLETE, 2, 0, after="the client left after two points")
+
+
+@case("framing-said", "broken framing is told")
+def _framing_is_said(bench: Bench) -> None:
+    pendant = _Pendant(bench)
+    link = bench.motion()
+    link.send(b"\xff" * 4)
+    bench.run(1.5)
+    pendant.says(Reason.FRAMING, -1, 0, after="a length out of bounds")
+    link = bench.motion()
+    link.send(raw_point(-1, bench.position, 1.0) + b"\xff" * 4)
+    bench.run(1.5)
+    pendant.says(Reason.FRAMING, 1, 0, after="a length out of bounds behind a point")
+    link = bench.motion()
+    link.send(b"\x0c\0\0\0\x14\0\0\0\x01\0\0\0\0\0\0\0")
+    bench.run(1.5)
+    pendant.says(Reason.UNKNOWN_MESSAGE, -1, 0, after="a message of another type")
+
+
+@case("rationed", "many refusals are few lines", "R19")
+def _lines_are_rationed(bench: Bench) -> None:
+    pendant, link = _Pendant(bench), bench.motion()
+    for _ in range(8):
+        _send_wrong(bench, link, 1)
+        bench.run(0.1)
+    lines, events = pendant.take()
+    if len(lines) != 1 or len(events) != 1:
+        raise Broken(f"eight refusals in 0.8 s: {len(lines)} lines, {len(events)} events")
+    bench.run(1.5)
+    if pendant.take() != ([], []):
+        raise Broken("lines come later than what they tell")
+    for more in ("7 more like it.", ""):
+        _send_wrong(bench, link, 1)
+        bench.run(1.5)
+        lines, events = pendant.take()
+        said = str(events[0]) if events else ""
+        if len(lines) != 1 or len(events) != 1 or ((more or "more like") in said) != bool(more):
+            raise Broken(f"after eight refusals at once the next one is told as {said!r}")
+
+
+@case("quiet", "what is in order is not told", "R19")
+def _peace_is_quiet(bench: Bench) -> None:
+    """Neither work nor clients that come and go are news."""
+    pendant = _Pendant(bench)
+    for _ in range(3):
+        link, state = bench.motion(), bench.state()
+        bench.moves_through(link, bench.wave(4))
+        # It is at its end a while before it has settled there.
+        bench.run(2 * bench.setting.motion.settle)
+        link.close()
+        state.close(abort=True)
+        bench.run(1.2)
+    lines, events = pendant.take()
+    if lines or events:
+        raise Broken(
+            f"nothing was wrong, yet the operator reads {lines} {[str(e) for e in events]}"
+        )
