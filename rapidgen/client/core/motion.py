@@ -135,12 +135,10 @@ class CommandedMotion(ABC):
         if silent <= self._silence:
             return False
         self.failed(
-            RobotTimeout(
-                fault(
-                    "RG603",
-                    f"no state for {silent:.1f} s while the robot may be moving",
-                    "look at the robot; a STOP was sent",
-                ),
+            RobotTimeout.because(
+                "RG603",
+                f"no state for {silent:.1f} s while the robot may be moving",
+                "look at the robot; a STOP was sent",
                 **state_port.evidence(),
             )
         )
