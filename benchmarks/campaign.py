@@ -23,7 +23,7 @@ from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.suite.framing import campaign
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages
 
 CHUNK = 500
 """Malformed openings for one controller."""
@@ -86,7 +86,7 @@ def days(hours, share):
         until = begun + ROUND * share
         while until - bench.now > 1e-3:
             bench.run(min(60.0, until - bench.now))
-            stamps = [when for when, f in reader.frames if f.number == spec.STATUS.number]
+            stamps = [when for when, f in reader.frames if f.number == messages.STATUS.number]
             for when in stamps:
                 if first is None:
                     first, turn = when, 0

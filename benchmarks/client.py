@@ -19,9 +19,9 @@ import time
 import numpy as np
 
 from rapidgen.client import AsyncRobot, MotionStopped, Robot, RobotError, Timeouts, Trajectory
-from rapidgen.client.core import STOP_FRAME
-from rapidgen.client.group import Group
-from rapidgen.client.tracker import Tracker
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.robot import STOP_FRAME
+from rapidgen.client.core.state_port import StatePort
 from rapidgen.wire.simple_message.bulk import (
     FRAME_BYTES,
     decode_batches,
@@ -236,14 +236,14 @@ def sending(count, rounds):
 
 
 def decoding(count):
-    tracker = Tracker(time.monotonic)
-    tracker.use(Group.unknown([f"joint_{i}" for i in range(6)]))
+    state_port = StatePort(time.monotonic)
+    state_port.use(Group.unknown([f"joint_{i}" for i in range(6)]))
     data = (JOINT + STATUS) * 20
     rounds = count // 40
-    best = min(_timed(lambda: [tracker.feed(data) for _ in range(rounds)]) for _ in range(3))
+    best = min(_timed(lambda: [state_port.feed(data) for _ in range(rounds)]) for _ in range(3))
     print(f"decode, merged segments     {rounds * 40 / best:14,.0f} messages/s (>= 200,000)")
     pair = JOINT + STATUS
-    best = min(_timed(lambda: [tracker.feed(pair) for _ in range(rounds)]) for _ in range(3))
+    best = min(_timed(lambda: [state_port.feed(pair) for _ in range(rounds)]) for _ in range(3))
     print(f"decode, two a segment       {rounds * 2 / best:14,.0f} messages/s")
 
 
@@ -271,7 +271,7 @@ def stopping(seconds, stops):
             latencies.append((sink.stamps.get() - begun) / 1e6)
             time.sleep(seconds / stops)
         ended.set()
-        robot._core.run.stopping = True
+        robot._core.motion.stopping = True
         loader.join(5)
     found = np.percentile(latencies, [50, 99, 100])
     print(

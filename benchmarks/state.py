@@ -20,7 +20,7 @@ from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.machine.costs import Costs
 from rapidgen.proving.bench import Bench
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
 from tests.generate import bench as tests
 
 ALL = spec.Feature.PROGRESS | spec.Feature.FEEDBACK
@@ -36,7 +36,9 @@ ROWS = (
 
 
 def hello(wanted):
-    return struct.pack("<9i", 32, spec.HELLO.number, 2, 0, spec.PROTOCOL_VERSION, 0, 1, 0, wanted)
+    return struct.pack(
+        "<9i", 32, messages.HELLO.number, 2, 0, spec.PROTOCOL_VERSION, 0, 1, 0, wanted
+    )
 
 
 def rounds_in(bench, clients, seconds):
@@ -45,7 +47,7 @@ def rounds_in(bench, clients, seconds):
     for _ in range(round(seconds / 0.02)):
         bench.vc.run_for(0.02)
         told = [client.frames() for client in clients]
-        found += sum(frame[4] == spec.STATUS.number for frame in told[0]) if told else 0
+        found += sum(frame[4] == messages.STATUS.number for frame in told[0]) if told else 0
     return found
 
 
@@ -76,7 +78,9 @@ def straying(config, system):
         other.send(hello(ALL if n % 2 else 0))
         bench.run(15)
         other.close()
-    stamps = [when for when, f in steady.frames if when > begun and f.number == spec.STATUS.number]
+    stamps = [
+        when for when, f in steady.frames if when > begun and f.number == messages.STATUS.number
+    ]
     period = config.state_period
     bench.close()
     return max(abs(when - stamps[0] - i * period) for i, when in enumerate(stamps)) / period

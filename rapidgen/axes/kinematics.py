@@ -16,7 +16,7 @@ from rapidgen.axes.frames import IDENTITY, Pose, Quaternion, Vector
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
 from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles, WristArm
-from rapidgen.config.model import Link, MotionGroup
+from rapidgen.config.model import ChainLink, GroupConfig
 
 Posture = tuple[float, ...]
 Configuration = tuple[int, int, int, int]
@@ -39,11 +39,11 @@ class _Step:
     follows: tuple[tuple[int, float], ...]
 
 
-def _steps(group: MotionGroup, chain: Sequence[Link]) -> tuple[_Step, ...]:
+def _steps(group: GroupConfig, chain: Sequence[ChainLink]) -> tuple[_Step, ...]:
     names = [joint.name for joint in group.joints]
     kinds = {joint.name: joint.kind for joint in group.joints}
 
-    def step(link: Link) -> _Step:
+    def step(link: ChainLink) -> _Step:
         return _Step(
             fixed=(link.xyz, frames.from_rpy(*link.rpy)),
             axis=link.axis,
@@ -81,7 +81,7 @@ class MovingFrame:
     steps: tuple[_Step, ...]
 
     @classmethod
-    def of(cls, group: MotionGroup, chain: Sequence[Link]) -> "MovingFrame":
+    def of(cls, group: GroupConfig, chain: Sequence[ChainLink]) -> "MovingFrame":
         """The frame at the end of a chain of the group's joints."""
         return cls(JointMap.of(group), _steps(group, chain))
 
@@ -94,12 +94,12 @@ class MovingFrame:
 class Kinematics:
     """What a group's chain can compute. Make it with `Kinematics.of`."""
 
-    group: MotionGroup
+    group: GroupConfig
     map: JointMap
     steps: tuple[_Step, ...]
 
     @classmethod
-    def of(cls, group: MotionGroup) -> "Kinematics | None":
+    def of(cls, group: GroupConfig) -> "Kinematics | None":
         """The kinematics of a group; None when its model has no geometry."""
         if not group.chain:
             return None

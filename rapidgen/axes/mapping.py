@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from rapidgen.config.model import Joint, MotionGroup
+from rapidgen.config.model import GroupConfig, Joint
 
 ABSENT = 9e9
 """RAPID's value of an external axis that is not connected."""
@@ -26,7 +26,7 @@ class JointMap:
     coupling: float = 0.0
 
     @classmethod
-    def of(cls, group: MotionGroup) -> "JointMap":
+    def of(cls, group: GroupConfig) -> "JointMap":
         """The map of one motion group."""
         return cls(group.joints, group.coupling)
 

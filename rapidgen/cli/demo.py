@@ -8,8 +8,8 @@ import typer
 
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
-    from rapidgen.client.recording import Recording
-    from rapidgen.config.model import MotionGroup
+    from rapidgen.client.recording import JointRecording
+    from rapidgen.config.model import GroupConfig
 
 _SERVERS = 10.0
 """s within which the driver's servers must listen."""
@@ -77,7 +77,7 @@ def _trajectory(robot: "Robot") -> "Trajectory":
 def _report(
     robot: "Robot",
     trajectory: "Trajectory",
-    recording: "Recording",
+    recording: "JointRecording",
     result: "Result",
     reached: tuple[float, ...],
 ) -> None:
@@ -99,7 +99,7 @@ def _report(
 
 
 def _draw(
-    output: Path, trajectory: "Trajectory", recording: "Recording", group: "MotionGroup"
+    output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
     from rapidgen.view.plot import Curve, write_plot
 

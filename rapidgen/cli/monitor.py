@@ -9,7 +9,7 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     from rapidgen.client import Robot, State
-    from rapidgen.client.watch import Watcher
+    from rapidgen.view.live import Watcher
 
 
 def monitor(
@@ -34,7 +34,7 @@ def monitor(
     the connection from a program that moves the robot, which then stops.
     """
     from rapidgen.client import Robot
-    from rapidgen.client.watch import Watcher
+    from rapidgen.view.live import Watcher
 
     robot = Robot(config, address=to or None, group=group, watch=True, reconnect=reconnect)
     watcher = Watcher()
@@ -67,7 +67,7 @@ def _live(robot: "Robot", watcher: "Watcher", count: int) -> None:
 
 
 def _line(state: "State", watcher: "Watcher") -> str:
-    from rapidgen.client.watch import activity, error_text
+    from rapidgen.view.live import activity, error_text
 
     joints = " ".join(f"{value:.4f}" for value in state.joints)
     status = state.status
@@ -114,7 +114,7 @@ def _table(robot: "Robot", state: "State", watcher: "Watcher") -> "Table":
 
     from rich.table import Table
 
-    from rapidgen.client.watch import activity, error_text
+    from rapidgen.view.live import activity, error_text
 
     status = state.status
     p50, p99 = watcher.jitter()

@@ -1,43 +1,28 @@
 """`rapidgen rollback`: put an earlier set back on a controller."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def rollback(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
-    to: Annotated[
-        list[str],
-        typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
-            metavar="URL",
-        ),
-    ],
+    config: options.ConfigOrFolder,
+    to: options.Controllers,
     number: Annotated[
         int | None, typer.Argument(help="Backup to restore; default the newest.", metavar="[ID]")
     ] = None,
     list_backups: Annotated[
         bool, typer.Option("--list", help="Change nothing; list the backups.")
     ] = False,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
-    ] = False,
-    yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
-    ] = False,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
-    parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
+    overwrite: options.Overwrite = False,
+    yes: options.Yes = False,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
+    parallel: options.Parallel = 8,
 ) -> int:
     """Go back to the set before the last deployment, or to backup ID. Undoes a run that was cut.
 

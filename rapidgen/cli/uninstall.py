@@ -5,34 +5,22 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def uninstall(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
-    to: Annotated[
-        list[str],
-        typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
-            metavar="URL",
-        ),
-    ],
+    config: options.ConfigOrFolder,
+    to: options.Controllers,
     overwrite: Annotated[
         bool,
         typer.Option("--overwrite", help="Take hand edits away too; copies go to .rapidgen/."),
     ] = False,
-    yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
-    ] = False,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
-    parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
+    yes: options.Yes = False,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
+    parallel: options.Parallel = 8,
 ) -> int:
     """Go back to the state before the first deployment.
 

@@ -2,7 +2,9 @@
 
 from rapidgen.client.aio import AsyncExecution, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
-from rapidgen.client.core import Timeouts
+from rapidgen.client.core.motion import Result
+from rapidgen.client.core.robot import Timeouts
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State, Status
 from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
@@ -20,9 +22,7 @@ from rapidgen.client.errors import (
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.motion import Result
-from rapidgen.client.state import Driver, Event, Feedback, Progress, State, Status
-from rapidgen.client.sync import Execution, Robot, Stream
+from rapidgen.client.threads import Execution, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 

@@ -12,17 +12,13 @@ from typing import Self, TypeVar, cast
 
 import numpy.typing as npt
 
-from rapidgen.client import (
-    connect_flows,
-    control_flows,
-    flows,
-    state_flows,
-    stop_flows,
-    stream_flows,
-)
 from rapidgen.client.address import Address
-from rapidgen.client.core import STOP_FRAME, Core, Timeouts
-from rapidgen.client.effects import Close, Connect, Effect, Flow, Send, Wait
+from rapidgen.client.core.feed import Feed, batches
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import CommandedMotion, Result, Way
+from rapidgen.client.core.robot import STOP_FRAME, Core, Timeouts
+from rapidgen.client.core.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.core.view import StreamView, View
 from rapidgen.client.errors import (
     MotionStopped,
     RobotError,
@@ -31,14 +27,16 @@ from rapidgen.client.errors import (
     not_reached,
     os_reason,
 )
-from rapidgen.client.feed import Feed, batches
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Motion, Result, Way
-from rapidgen.client.recording import Recording
-from rapidgen.client.state import Driver, Event, Feedback, Progress, State
+from rapidgen.client.flows import connect as connect_flows
+from rapidgen.client.flows import control as control_flows
+from rapidgen.client.flows import download as flows
+from rapidgen.client.flows import state as state_flows
+from rapidgen.client.flows import stop as stop_flows
+from rapidgen.client.flows import stream as stream_flows
+from rapidgen.client.flows.effects import Close, Effect, Flow, Open, Send, Wait
+from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
-from rapidgen.client.view import StreamView, View
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES
@@ -135,7 +133,7 @@ class AsyncRobot:
 
     async def close(self) -> None:
         """Close all connections. A motion under way is stopped first."""
-        run = self._core.run
+        run = self._core.motion
         try:
             if run is not None and not run.is_over and Port.MOTION in self._links:
                 await self.stop()
@@ -172,7 +170,7 @@ class AsyncRobot:
     @property
     def driver(self) -> Driver:
         """Who answered, and what it cannot do."""
-        return self._core.tracker.driver
+        return self._core.state_port.driver
 
     @property
     def group(self) -> Group:
@@ -184,14 +182,14 @@ class AsyncRobot:
     @property
     def messages(self) -> tuple[tuple[float, str], ...]:
         """The last messages received, as (time, text)."""
-        return self._core.tracker.messages
+        return self._core.state_port.messages
 
     # State
 
     @property
     def state(self) -> State:
         """The newest state. Raises ConnectionLost before the first."""
-        state = self._core.tracker.state
+        state = self._core.state_port.state
         if state is None:
             raise self._core.disconnected()
         return state
@@ -211,19 +209,19 @@ class AsyncRobot:
         return await self._run(flow)
 
     @contextmanager
-    def recording(self) -> Iterator[Recording]:
+    def recording(self) -> Iterator[JointRecording]:
         """Keep every joint message while the block runs."""
-        recording = Recording(self.group)
-        self._core.tracker.listeners.append(recording.add)
+        recording = JointRecording(self.group)
+        self._core.state_port.listeners.append(recording.add)
         try:
             yield recording
         finally:
-            self._core.tracker.listeners.remove(recording.add)
+            self._core.state_port.listeners.remove(recording.add)
 
     @property
     def events(self) -> tuple[Event, ...]:
         """The last entries of the controller's event log, where the driver tells them."""
-        return tuple(self._core.tracker.events)
+        return tuple(self._core.state_port.events)
 
     async def next_event(
         self, timeout: float | None = None, *, after: Event | None = None
@@ -343,7 +341,7 @@ class AsyncRobot:
         if isinstance(effect, Close):
             self._close(effect.port)
             return True
-        if isinstance(effect, Connect):
+        if isinstance(effect, Open):
             await self._connect(effect)
             return True
         link = self._links.get(effect.port)
@@ -399,7 +397,7 @@ class AsyncRobot:
 
     def _close(self, port: Port) -> None:
         link = self._links.pop(port, None)
-        self._core.talks[port].is_open = False
+        self._core.ports[port].is_open = False
         if link is not None and link.transport is not None:
             link.transport.close()
 
@@ -408,7 +406,7 @@ class AsyncRobot:
             _wake(waiter)
         self._waiters.clear()
 
-    async def _connect(self, effect: Connect) -> None:
+    async def _connect(self, effect: Open) -> None:
         loop = asyncio.get_running_loop()
         number, name = self.address.port(effect.port), effect.port.name.lower()
         where = f"{self.address.host} port {number} ({name})"
@@ -452,7 +450,7 @@ def _wake(waiter: "asyncio.Future[None]") -> None:
 class AsyncExecution(View):
     """A trajectory that the controller has taken."""
 
-    def __init__(self, robot: AsyncRobot, run: Motion) -> None:
+    def __init__(self, robot: AsyncRobot, run: CommandedMotion) -> None:
         super().__init__(run)
         self._robot = robot
 

@@ -6,14 +6,14 @@ from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
 from types import TracebackType
 from typing import Self, TypeVar
 
-from rapidgen.client import flows
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
-from rapidgen.client.core import Core
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.motion import Result
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTrajectory, RobotError
-from rapidgen.client.motion import Result
-from rapidgen.client.run import Run
-from rapidgen.client.state import State
-from rapidgen.client.sync import Execution, Robot
+from rapidgen.client.flows import download as flows
+from rapidgen.client.threads import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 
@@ -22,7 +22,7 @@ T = TypeVar("T")
 
 def _prepare_all(
     cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]
-) -> dict[str, tuple[Run, bytes]]:
+) -> dict[str, tuple[Download, bytes]]:
     """Every trajectory checked, with the faults of all; then every run made."""
     unknown = sorted(set(trajectories) - set(cores))
     if unknown:
@@ -39,7 +39,7 @@ def _prepare_all(
     return {name: flows.prepare(cores[name], what) for name, what in trajectories.items()}
 
 
-def _give_up(runs: Iterable[tuple[Run, bytes]], error: RobotError) -> None:
+def _give_up(runs: Iterable[tuple[Download, bytes]], error: RobotError) -> None:
     """None of these runs is under way any more."""
     for run, _ in runs:
         run.failed(error)

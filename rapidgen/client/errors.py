@@ -28,7 +28,7 @@ from typing import TYPE_CHECKING
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 
 if TYPE_CHECKING:
-    from rapidgen.client.state import State
+    from rapidgen.client.core.state import State
     from rapidgen.wire.simple_message.spec import Reason
 
 

@@ -6,13 +6,13 @@ from typing import Self
 
 import numpy as np
 
-from rapidgen.client.group import Group
-from rapidgen.client.state import Feedback, State
-from rapidgen.client.tracker import Sample
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import Feedback, State
+from rapidgen.client.core.state_port import Sample
 from rapidgen.client.trajectory import Array, Trajectory
 
 
-class Recording:
+class JointRecording:
     """Every joint message since it began; times count from the first one kept, s."""
 
     def __init__(self, group: Group) -> None:

@@ -3,10 +3,10 @@
 from os import PathLike
 
 from rapidgen.client.address import LOOPBACK, Address, parse_address
+from rapidgen.client.core.group import Group
 from rapidgen.client.errors import fault
-from rapidgen.client.group import Group
 from rapidgen.config import load_config, shipped_names
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError, suggest
 
 _SUFFIXES = (".yaml", ".yml")
@@ -49,7 +49,7 @@ def groups_of(target: str) -> list[str]:
     return [""]
 
 
-def _group(config: RobotConfig, name: str) -> MotionGroup:
+def _group(config: RobotConfig, name: str) -> GroupConfig:
     names = [group.name for group in config.groups]
     if not name and len(names) == 1:
         return config.groups[0]

@@ -14,8 +14,8 @@ from rapidgen.client.errors import InvalidTrajectory, fault
 if TYPE_CHECKING:
     from os import PathLike
 
-    from rapidgen.client.group import Group
-    from rapidgen.client.state import State
+    from rapidgen.client.core.group import Group
+    from rapidgen.client.core.state import State
 
 Array = npt.NDArray[np.float64]
 

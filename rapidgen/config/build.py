@@ -4,7 +4,7 @@ import math
 from pathlib import Path
 
 from rapidgen.config import model, schema
-from rapidgen.config.draft import GroupDraft, JointDraft, Report
+from rapidgen.config.draft import Findings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.registry import find_shipped
 from rapidgen.diagnostics import Severity
@@ -22,10 +22,10 @@ _PLAIN_PORTS_END = 4999
 
 
 def build(
-    configuration: schema.Configuration,
+    configuration: schema.ConfigurationKeys,
     drafts: list[GroupDraft],
     path: Path,
-    report: Report,
+    report: Findings,
 ) -> model.RobotConfig | None:
     """The model, or None when `report` holds errors; `path` is the file it is named after."""
     _check_controller(configuration, report)
@@ -71,7 +71,7 @@ def build(
         commissioning=configuration.commissioning,
         call_main=configuration.main == "driver",
         signals=tuple(
-            model.Signal(name, signal.kind, signal.access)
+            model.ExposedSignal(name, signal.kind, signal.access)
             for name, signal in configuration.signals.items()
         ),
         generations=tuple(configuration.generations),
@@ -83,7 +83,7 @@ def _name_of(path: Path) -> str:
     return (kept if kept[:1].isalpha() else f"robot_{kept}")[:40]
 
 
-def _check_controller(configuration: schema.Configuration, report: Report) -> None:
+def _check_controller(configuration: schema.ConfigurationKeys, report: Findings) -> None:
     controller = configuration.controller
     main = controller.robotware[0]
     path: KeyPath = ("controller", "robotware")
@@ -109,7 +109,7 @@ def _check_controller(configuration: schema.Configuration, report: Report) -> No
         )
 
 
-def _check_network(configuration: schema.Configuration, report: Report) -> None:
+def _check_network(configuration: schema.ConfigurationKeys, report: Findings) -> None:
     addresses: list[tuple[KeyPath, str]] = [
         (("network", "allowed_clients", index), address)
         for index, address in enumerate(configuration.network.allowed_clients)
@@ -134,8 +134,8 @@ def _check_network(configuration: schema.Configuration, report: Report) -> None:
 
 
 def _group(
-    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: Report
-) -> model.MotionGroup:
+    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: Findings
+) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = _joints(keys, draft, path, report)
     names = {joint.name for joint in draft.joints}
@@ -155,7 +155,7 @@ def _group(
             report.error("RG014", f"no joint moves '{unit}'", where)
         _chain(chain, where, external, "the external axes of `joints`", report)
     ports = keys.ports
-    return model.MotionGroup(
+    return model.GroupConfig(
         name=draft.name,
         task=keys.task or f"T_ROB{index + 1}",
         mechanical_unit=keys.mechanical_unit or f"ROB_{index + 1}",
@@ -181,7 +181,7 @@ def _group(
     )
 
 
-def _is_shipped(path: KeyPath, name: str, report: Report) -> bool:
+def _is_shipped(path: KeyPath, name: str, report: Findings) -> bool:
     """Whether a part is as the shipped model has it."""
     if not name:
         return False
@@ -189,7 +189,7 @@ def _is_shipped(path: KeyPath, name: str, report: Report) -> bool:
 
 
 def _chain(
-    chain: list[model.Link], path: KeyPath, names: set[str], among: str, report: Report
+    chain: list[model.ChainLink], path: KeyPath, names: set[str], among: str, report: Findings
 ) -> None:
     for number, step in enumerate(chain):
         if step.axis == (0.0, 0.0, 0.0):
@@ -205,7 +205,7 @@ def _chain(
 
 
 def _joints(
-    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: Report
+    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: Findings
 ) -> tuple[model.Joint, ...]:
     where: KeyPath = (*path, "joints")
     if not draft.joints:
@@ -242,7 +242,7 @@ def _joints(
     return tuple(joints)
 
 
-def _check_radians(draft: GroupDraft, path: KeyPath, report: Report) -> None:
+def _check_radians(draft: GroupDraft, path: KeyPath, report: Findings) -> None:
     """Four and more turning axes that all stay within 7: radians, not degrees."""
     turning = [joint for joint in draft.joints if joint.unit != "mm"]
     ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
@@ -258,7 +258,7 @@ def _check_radians(draft: GroupDraft, path: KeyPath, report: Report) -> None:
         )
 
 
-def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Report) -> model.Joint | None:
+def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Findings) -> model.Joint | None:
     missing = [
         name
         for name in ("axis", "lower", "upper", "speed")
@@ -318,7 +318,7 @@ def inwards(lower: float, upper: float) -> tuple[float, float]:
 
 
 def _unit_quaternion(
-    values: list[float], path: KeyPath, report: Report
+    values: list[float], path: KeyPath, report: Findings
 ) -> tuple[float, float, float, float]:
     norm = math.sqrt(sum(v * v for v in values))
     if abs(norm - 1) > 1e-3:
@@ -339,16 +339,16 @@ def _metres(values: list[float]) -> tuple[float, float, float]:
     return (x, y, z)
 
 
-def _frame(frame: schema.Frame, path: KeyPath, report: Report) -> model.Frame:
-    return model.Frame(
+def _frame(frame: schema.FrameKeys, path: KeyPath, report: Findings) -> model.Placement:
+    return model.Placement(
         _metres(frame.position),
         _unit_quaternion(frame.orientation, (*path, "orientation"), report),
     )
 
 
-def _tool(tool: schema.Tool, path: KeyPath, report: Report) -> model.Tool:
+def _tool(tool: schema.ToolKeys, path: KeyPath, report: Findings) -> model.Tool:
     load = tool.load
-    if tool.name == "tool0" and tool != schema.Tool():
+    if tool.name == "tool0" and tool != schema.ToolKeys():
         report.error(
             "RG014",
             "tool0 is the controller's own and cannot be described",
@@ -377,8 +377,8 @@ def _tool(tool: schema.Tool, path: KeyPath, report: Report) -> model.Tool:
     )
 
 
-def _work_object(given: schema.WorkObject, path: KeyPath, report: Report) -> model.WorkObject:
-    if given.name == "wobj0" and given != schema.WorkObject():
+def _work_object(given: schema.WorkObjectKeys, path: KeyPath, report: Findings) -> model.WorkObject:
+    if given.name == "wobj0" and given != schema.WorkObjectKeys():
         report.error(
             "RG014",
             "wobj0 is the controller's own and cannot be described",
@@ -395,7 +395,7 @@ def _work_object(given: schema.WorkObject, path: KeyPath, report: Report) -> mod
 
 
 def _check_ports(
-    configuration: schema.Configuration, groups: list[model.MotionGroup], report: Report
+    configuration: schema.ConfigurationKeys, groups: list[model.GroupConfig], report: Findings
 ) -> None:
     users: dict[int, str] = {}
     for group in groups:
@@ -424,7 +424,7 @@ def _check_ports(
                 )
 
 
-def _check_tasks(groups: list[model.MotionGroup], report: Report) -> None:
+def _check_tasks(groups: list[model.GroupConfig], report: Findings) -> None:
     for name in ("task", "mechanical_unit"):
         users: dict[str, str] = {}
         for group in groups:

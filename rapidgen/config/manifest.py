@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import refusal
 
 
 def to_manifest(config: RobotConfig) -> dict[str, Any]:
@@ -34,13 +34,11 @@ def from_manifest(data: object, path: Path = Path("manifest.json")) -> RobotConf
     try:
         made = _in(RobotConfig, data, "configuration", path)
     except (TypeError, ValueError) as fault:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG019",
-                Severity.ERROR,
-                f"{path}: not a configuration of this version: {fault}",
-                help="build the folder again with `rapidgen build`",
-            )
+        raise refusal(
+            "RG019",
+            None,
+            f"{path}: not a configuration of this version: {fault}",
+            "build the folder again with `rapidgen build`",
         ) from None
     assert isinstance(made, RobotConfig)
     return made

@@ -40,7 +40,7 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class ChainLink:
     """One step of the kinematic chain: fixed transform to the joint, then the joint's axis.
 
     `xyz` m, `rpy` rad (fixed axes x, y, z as in URDF), `axis` unit vector; `joint` is the
@@ -66,7 +66,7 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class Placement:
     """Position in m and unit quaternion q1..q4 (q1 the scalar)."""
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -79,7 +79,7 @@ class Tool:
 
     name: str = "tool0"
     held: bool = True
-    frame: Frame = field(default_factory=Frame)
+    frame: Placement = field(default_factory=Placement)
     load: Load = field(default_factory=Load)
 
 
@@ -89,8 +89,8 @@ class WorkObject:
 
     name: str = "wobj0"
     held: bool = False
-    user_frame: Frame = field(default_factory=Frame)
-    object_frame: Frame = field(default_factory=Frame)
+    user_frame: Placement = field(default_factory=Placement)
+    object_frame: Placement = field(default_factory=Placement)
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,11 +108,11 @@ class Positioner:
     user frame. Its joints are external axes of the group."""
 
     unit: str
-    chain: tuple[Link, ...]
+    chain: tuple[ChainLink, ...]
 
 
 @dataclass(frozen=True, slots=True)
-class MotionGroup:
+class GroupConfig:
     """One motion task with its mechanical unit: `joints` in wire order (1 to 10)."""
 
     name: str
@@ -121,7 +121,7 @@ class MotionGroup:
     joints: tuple[Joint, ...]
     ports: Ports
     model: str = ""
-    chain: tuple[Link, ...] = ()
+    chain: tuple[ChainLink, ...] = ()
     coupling: float = 0.0
     """Factor k of controller axis 3 = J3 + k * J2 (0: not coupled)."""
     tool: Tool = field(default_factory=Tool)
@@ -153,7 +153,7 @@ class TrajectoryPolicy:
 
 
 @dataclass(frozen=True, slots=True)
-class Signal:
+class ExposedSignal:
     """A signal that the driver exposes to the client."""
 
     name: str
@@ -169,7 +169,7 @@ class RobotConfig:
     path: Path = field(compare=False)
     controller: Literal["irc5", "irc5_compact", "omnicore", "virtual"]
     robotware: tuple[int, int]
-    groups: tuple[MotionGroup, ...]
+    groups: tuple[GroupConfig, ...]
     trajectory: TrajectoryPolicy = field(default_factory=TrajectoryPolicy)
     state_period: float = 0.1
     bind: str = "lan"
@@ -180,7 +180,7 @@ class RobotConfig:
     """Background tasks NORMAL instead of SEMISTATIC, so that they can be stopped and edited."""
     call_main: bool = True
     """False: the motion task's own `main` calls the driver's entry routine."""
-    signals: tuple[Signal, ...] = ()
+    signals: tuple[ExposedSignal, ...] = ()
     generations: tuple[Generation, ...] = ()
     """RobotWare generations that the robot exists for; empty: not known."""
     inputs: tuple[tuple[str, bytes], ...] = field(default=(), compare=False)

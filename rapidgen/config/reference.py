@@ -1,6 +1,8 @@
 """The schema for people and editors: JSON schema, and the tables of docs/start/configuration.md."""
 
 import dataclasses
+import json
+import re
 import types
 import typing
 from typing import Any
@@ -9,21 +11,21 @@ from rapidgen.config import schema
 from rapidgen.config.rules import Rule
 
 SECTIONS = (
-    schema.Configuration,
-    schema.Controller,
+    schema.ConfigurationKeys,
+    schema.ControllerKeys,
     schema.GroupKeys,
-    schema.Joint,
-    schema.Urdf,
-    schema.ChainStep,
-    schema.Tool,
-    schema.WorkObject,
-    schema.Frame,
-    schema.Load,
-    schema.Ports,
-    schema.Trajectory,
-    schema.State,
-    schema.Network,
-    schema.Signal,
+    schema.JointKeys,
+    schema.UrdfKeys,
+    schema.ChainStepKeys,
+    schema.ToolKeys,
+    schema.WorkObjectKeys,
+    schema.FrameKeys,
+    schema.LoadKeys,
+    schema.PortsKeys,
+    schema.TrajectoryKeys,
+    schema.StateKeys,
+    schema.NetworkKeys,
+    schema.SignalKeys,
 )
 
 
@@ -31,12 +33,13 @@ def json_schema() -> dict[str, Any]:
     """JSON schema (2020-12) of a configuration file; group keys may stand at the top."""
     from pydantic import TypeAdapter
 
-    made = TypeAdapter(schema.Configuration).json_schema()
+    written = json.dumps(TypeAdapter(schema.ConfigurationKeys).json_schema())
+    made = json.loads(re.sub(r"\b(\w+Keys)\b", lambda found: _shown(found[0]), written))
     parts = {"Configuration": made, **made["$defs"]}
     for section in SECTIONS:
         # pydantic drops the words beside a reference to another part.
         for key in dataclasses.fields(section):
-            value = parts[section.__name__]["properties"][key.name]
+            value = parts[_shown(section.__name__)]["properties"][key.name]
             value.setdefault("description", _doc(key.type))
     group = made["$defs"]["GroupKeys"]["properties"]
     made["properties"] = {**group, **made["properties"]}
@@ -47,13 +50,18 @@ def json_schema() -> dict[str, Any]:
     }
 
 
+def _shown(name: str) -> str:
+    """Name of a part in the schema that editors read: without the suffix of the class."""
+    return name if name == schema.GroupKeys.__name__ else name.removesuffix("Keys")
+
+
 def reference() -> str:
     """Markdown tables of every key, in the order of `SECTIONS`."""
     return "\n".join(_section(part) for part in SECTIONS)
 
 
 def _section(part: type) -> str:
-    title = "top of the file" if part is schema.Configuration else _key_of(part)
+    title = "top of the file" if part is schema.ConfigurationKeys else _key_of(part)
     text = (part.__doc__ or "").strip()
     lines = [f"### {title}", "", " ".join(text.split()), "", "| key | value | default | |"]
     lines.append("|---|---|---|---|")
@@ -67,14 +75,14 @@ def _section(part: type) -> str:
 def _key_of(part: type) -> str:
     names = {
         schema.GroupKeys: "`groups.NAME`",
-        schema.Joint: "`joints.NAME`",
-        schema.ChainStep: "`chain` (a list of these)",
-        schema.Frame: "frames",
-        schema.Load: "`tool.load`",
-        schema.Signal: "`signals.NAME`",
-        schema.WorkObject: "`work_object`",
+        schema.JointKeys: "`joints.NAME`",
+        schema.ChainStepKeys: "`chain` (a list of these)",
+        schema.FrameKeys: "frames",
+        schema.LoadKeys: "`tool.load`",
+        schema.SignalKeys: "`signals.NAME`",
+        schema.WorkObjectKeys: "`work_object`",
     }
-    return names.get(part, f"`{part.__name__.lower()}`")
+    return names.get(part, f"`{_shown(part.__name__).lower()}`")
 
 
 def _rules(hint: Any) -> tuple[Rule, ...]:

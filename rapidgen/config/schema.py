@@ -59,7 +59,7 @@ class _Part:
 
 
 @dataclass(frozen=True)
-class Controller(_Part):
+class ControllerKeys(_Part):
     """The controller and its software."""
 
     type: Annotated[
@@ -72,7 +72,7 @@ class Controller(_Part):
 
 
 @dataclass(frozen=True)
-class Joint(_Part):
+class JointKeys(_Part):
     """One joint: which controller axis it drives and what that axis can do.
 
     Controller value = sign x URDF value + offset. Limits and speeds are those of the
@@ -106,7 +106,7 @@ class Joint(_Part):
 
 
 @dataclass(frozen=True)
-class ChainStep(_Part):
+class ChainStepKeys(_Part):
     """One step of the kinematic chain, from the base to the flange."""
 
     joint: Annotated[str, Rule("Joint that turns or slides here; none: a fixed step.")] = ""
@@ -126,7 +126,7 @@ class ChainStep(_Part):
 
 
 @dataclass(frozen=True)
-class Frame(_Part):
+class FrameKeys(_Part):
     """A position with an orientation."""
 
     position: Annotated[Vector, Rule("x, y, z in mm.")] = field(
@@ -138,7 +138,7 @@ class Frame(_Part):
 
 
 @dataclass(frozen=True)
-class Load(_Part):
+class LoadKeys(_Part):
     """What the tool weighs."""
 
     mass: Annotated[float, Rule("kg", ge=0)] = 0.0
@@ -154,29 +154,33 @@ class Load(_Part):
 
 
 @dataclass(frozen=True)
-class Tool(_Part):
+class ToolKeys(_Part):
     """The tool that the driver moves with. Another name than tool0 declares that tooldata."""
 
     name: Annotated[Identifier, Rule("Name of the tooldata.")] = "tool0"
     held: Annotated[bool, Rule("False: a stationary tool.")] = True
-    frame: Annotated[Frame, Rule("TCP in the flange's frame.")] = field(default_factory=Frame)
-    load: Annotated[Load, Rule("Load of the tool.")] = field(default_factory=Load)
+    frame: Annotated[FrameKeys, Rule("TCP in the flange's frame.")] = field(
+        default_factory=FrameKeys
+    )
+    load: Annotated[LoadKeys, Rule("Load of the tool.")] = field(default_factory=LoadKeys)
 
 
 @dataclass(frozen=True)
-class WorkObject(_Part):
+class WorkObjectKeys(_Part):
     """The work object. Another name than wobj0 declares that wobjdata."""
 
     name: Annotated[Identifier, Rule("Name of the wobjdata.")] = "wobj0"
     held: Annotated[bool, Rule("True: the robot holds the work object.")] = False
-    user_frame: Annotated[Frame, Rule("User frame in the world.")] = field(default_factory=Frame)
-    object_frame: Annotated[Frame, Rule("Object frame in the user frame.")] = field(
-        default_factory=Frame
+    user_frame: Annotated[FrameKeys, Rule("User frame in the world.")] = field(
+        default_factory=FrameKeys
+    )
+    object_frame: Annotated[FrameKeys, Rule("Object frame in the user frame.")] = field(
+        default_factory=FrameKeys
     )
 
 
 @dataclass(frozen=True)
-class Ports(_Part):
+class PortsKeys(_Part):
     """TCP ports of one group. Defaults: 11000, 11001, 11002, and 10 more for each next group."""
 
     motion: Annotated[Port | None, Rule("Trajectories and stop.")] = None
@@ -188,7 +192,7 @@ class Ports(_Part):
 
 
 @dataclass(frozen=True)
-class Urdf(_Part):
+class UrdfKeys(_Part):
     """A robot description. Meshes are never opened; ROS is not needed."""
 
     file: Annotated[str, Rule("URDF or xacro file, relative to this file.")]
@@ -217,7 +221,7 @@ class GroupKeys(_Part):
     """One motion task with its mechanical unit; for one group these may stand at the top."""
 
     model: Annotated[str | None, Rule("A shipped model (`rapidgen robots`).")] = None
-    urdf: Annotated[Urdf | None, Rule("Robot description to read joints from.")] = None
+    urdf: Annotated[UrdfKeys | None, Rule("Robot description to read joints from.")] = None
     task: Annotated[
         Identifier | None, Rule("Motion task; `T_ROB1` for the first group without one.")
     ] = None
@@ -228,7 +232,7 @@ class GroupKeys(_Part):
         list[Identifier], Rule("Mechanical units of the external axes.", max_length=6)
     ] = field(default_factory=list)
     joints: Annotated[
-        dict[str, Joint],
+        dict[str, JointKeys],
         Rule("Joint name: its axis. The order is the order on the wire; at most 10."),
     ] = field(default_factory=dict)
     acceleration_time: Annotated[
@@ -239,11 +243,11 @@ class GroupKeys(_Part):
             le=10,
         ),
     ] = 0.25
-    chain: Annotated[list[ChainStep], Rule("Kinematic chain from the base to the flange.")] = field(
-        default_factory=list
+    chain: Annotated[list[ChainStepKeys], Rule("Kinematic chain from the base to the flange.")] = (
+        field(default_factory=list)
     )
     positioners: Annotated[
-        dict[str, list[ChainStep]],
+        dict[str, list[ChainStepKeys]],
         Rule("External unit that carries work objects: its chain, from where the robot's begins."),
     ] = field(default_factory=dict)
     coupling: Annotated[
@@ -254,14 +258,14 @@ class GroupKeys(_Part):
             le=1,
         ),
     ] = None
-    tool: Annotated[Tool, Rule("Tool of the moves.")] = field(default_factory=Tool)
-    work_object: Annotated[WorkObject, Rule("Work object of the moves.")] = field(
-        default_factory=WorkObject
+    tool: Annotated[ToolKeys, Rule("Tool of the moves.")] = field(default_factory=ToolKeys)
+    work_object: Annotated[WorkObjectKeys, Rule("Work object of the moves.")] = field(
+        default_factory=WorkObjectKeys
     )
     tcp_speed_limit: Annotated[
         float, Rule("Ceiling of the tool's speed, mm/s.", ge=0.001, le=10000)
     ] = 5000.0
-    ports: Annotated[Ports, Rule("TCP ports.")] = field(default_factory=Ports)
+    ports: Annotated[PortsKeys, Rule("TCP ports.")] = field(default_factory=PortsKeys)
     source: Annotated[
         dict[Literal["limits", "speeds", "chain", "coupling", "mapping", "tcp_speed_limit"], Text],
         Rule("Where the group's figures come from."),
@@ -273,7 +277,7 @@ class GroupKeys(_Part):
 
 
 @dataclass(frozen=True)
-class Trajectory(_Part):
+class TrajectoryKeys(_Part):
     """What the motion server accepts."""
 
     capacity: Annotated[
@@ -317,7 +321,7 @@ class Trajectory(_Part):
 
 
 @dataclass(frozen=True)
-class State(_Part):
+class StateKeys(_Part):
     """The state server."""
 
     rate: Annotated[
@@ -327,7 +331,7 @@ class State(_Part):
 
 
 @dataclass(frozen=True)
-class Network(_Part):
+class NetworkKeys(_Part):
     """Who may talk to the driver."""
 
     bind: Annotated[
@@ -351,7 +355,7 @@ class Network(_Part):
 
 
 @dataclass(frozen=True)
-class Signal(_Part):
+class SignalKeys(_Part):
     """A signal that a client may read or write."""
 
     kind: Annotated[Literal["DI", "DO", "GI", "GO", "AI", "AO"], Rule("Type of the signal.")]
@@ -361,7 +365,7 @@ class Signal(_Part):
 
 
 @dataclass(frozen=True)
-class Configuration(_Part):
+class ConfigurationKeys(_Part):
     """A controller with its motion groups."""
 
     name: Annotated[
@@ -374,19 +378,19 @@ class Configuration(_Part):
         list[Literal[5, 6, 7, 8]],
         Rule("RobotWare generations that the robot exists for; empty: not known."),
     ] = field(default_factory=list)
-    controller: Annotated[Controller, Rule("Controller and software.")] = field(
-        default_factory=Controller
+    controller: Annotated[ControllerKeys, Rule("Controller and software.")] = field(
+        default_factory=ControllerKeys
     )
     groups: Annotated[
         dict[GroupName, GroupKeys],
         Rule("Motion groups by name; for one group its keys may stand at the top."),
     ] = field(default_factory=dict)
-    trajectory: Annotated[Trajectory, Rule("What the motion server accepts.")] = field(
-        default_factory=Trajectory
+    trajectory: Annotated[TrajectoryKeys, Rule("What the motion server accepts.")] = field(
+        default_factory=TrajectoryKeys
     )
-    state: Annotated[State, Rule("The state server.")] = field(default_factory=State)
-    network: Annotated[Network, Rule("Who may talk to the driver.")] = field(
-        default_factory=Network
+    state: Annotated[StateKeys, Rule("The state server.")] = field(default_factory=StateKeys)
+    network: Annotated[NetworkKeys, Rule("Who may talk to the driver.")] = field(
+        default_factory=NetworkKeys
     )
     commissioning: Annotated[
         bool,
@@ -397,9 +401,9 @@ class Configuration(_Part):
         Rule("`driver`: the module brings `main`. `own`: your `main` calls the entry routine."),
     ] = "driver"
     signals: Annotated[
-        dict[Identifier, Signal], Rule("Signals to expose, by name.", max_length=64)
+        dict[Identifier, SignalKeys], Rule("Signals to expose, by name.", max_length=64)
     ] = field(default_factory=dict)
 
 
 GROUP_KEYS = tuple(f.name for f in fields(GroupKeys))
-TOP_KEYS = tuple(f.name for f in fields(Configuration))
+TOP_KEYS = tuple(f.name for f in fields(ConfigurationKeys))

@@ -14,9 +14,9 @@ from pydantic_core import SchemaValidator, ValidationError
 
 from rapidgen.config.layers import group_names
 from rapidgen.config.rules import core
-from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
-from rapidgen.config.tree import Mapping, error, place_of, to_python
-from rapidgen.diagnostics import Diagnostic, suggest
+from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
+from rapidgen.config.tree import MappingNode, place_of, to_python
+from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
 
@@ -25,15 +25,15 @@ Path = tuple[str | int, ...]
 class Validated:
     """The configuration as far as it is sound; `removed` are the paths taken out as faulty."""
 
-    configuration: Configuration
+    configuration: ConfigurationKeys
     found: list[Diagnostic] = field(default_factory=list)
     removed: set[Path] = field(default_factory=set)
 
 
-def validate(root: Mapping) -> Validated:
+def validate(root: MappingNode) -> Validated:
     """Validate a canonical tree."""
     data = to_python(root)
-    schema: Any = core(Configuration)
+    schema: Any = core(ConfigurationKeys)
     validator = SchemaValidator(schema)
     found: list[Diagnostic] = []
     removed: set[Path] = set()
@@ -83,25 +83,25 @@ def _remove(data: Any, path: Path) -> None:
         data.clear()
 
 
-def shown(root: Mapping, path: Path) -> str:
+def shown(root: MappingNode, path: Path) -> str:
     """A path as a user may write it: the only group's keys stand at the top."""
     if len(path) > 2 and path[0] == "groups" and len(group_names(root)) == 1:
         path = path[2:]
     return ".".join(str(part) for part in path)
 
 
-def _missing(root: Mapping, loc: Path) -> Diagnostic:
+def _missing(root: MappingNode, loc: Path) -> Diagnostic:
     key, _ = place_of(root, loc[:-1])
     return error(
         "RG007",
-        f"'{shown(root, loc[:-1])}' lacks '{loc[-1]}'",
         key,
-        "here",
+        f"'{shown(root, loc[:-1])}' lacks '{loc[-1]}'",
         f"add `{loc[-1]}:`",
+        label="here",
     )
 
 
-def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
+def _translate(root: MappingNode, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
     key, value = place_of(root, path)
     if item["type"] == "unexpected_keyword_argument":
         known = keys_at(path[:-1])
@@ -109,16 +109,16 @@ def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) ->
         where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
             "RG005",
-            f"unknown key '{_short(path[-1])}'{where}",
             key,
-            "not a key of the configuration" if len(path) == 1 else "not a key here",
+            f"unknown key '{_short(path[-1])}'{where}",
             meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
+            label="not a key of the configuration" if len(path) == 1 else "not a key here",
         )
     return error(
         "RG006",
-        f"'{shown(root, path)}': {_reason(item, is_key)}",
         key if is_key else value,
-        _input(item),
+        f"'{shown(root, path)}': {_reason(item, is_key)}",
+        label=_input(item),
     )
 
 
@@ -182,7 +182,7 @@ def keys_at(path: Path) -> tuple[str, ...]:
     """Keys that the schema knows at a path of the canonical tree."""
     if not path:
         return tuple(dict.fromkeys((*TOP_KEYS, *GROUP_KEYS)))
-    hint: Any = Configuration
+    hint: Any = ConfigurationKeys
     for part in path:
         hint = _step(hint, part)
     model = _model(hint)

@@ -6,8 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Literal, Self
 
-from rapidgen.config.model import MotionGroup as GroupConfig
-from rapidgen.config.model import RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
@@ -18,7 +17,6 @@ from rapidgen.machine.configuration import Configuration
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.network.device import SocketTable
 from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
@@ -30,13 +28,15 @@ from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid import Dialect as TextDialect
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.base import Options
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.predefined import find_type
-from rapidgen.runtime.compiler.program import Shared
 from rapidgen.runtime.compiler.symbols import Data, Routine
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.queues import QueueSystem
+from rapidgen.runtime.robot_data import RobotData
+from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Dialect
 from rapidgen.runtime.task.recovery import Place
 from rapidgen.runtime.task.running import RapidTask
@@ -225,6 +225,8 @@ class VirtualController(ControllerState):
             self.scheduler, self.log, system, lowest_first=self.dialect.bit_order == "lowest"
         )
         self.motion = MotionSystem(self.scheduler, robots, self.log, self.io)
+        self.robot_data = {g.name: RobotData.of(g) for g in self.motion.groups.values()}
+        """What programs have set, by motion group."""
         self._connect_background_tasks()
         if network is None:
             network = (
@@ -380,7 +382,7 @@ class VirtualController(ControllerState):
                 found += [d for d in tree.diagnostics if d not in found]
             task.program.load([(t, f) for t, f in trees if t.name])
             found += task.program.faults
-            entry = task.program.globals.get(task.spec.entry.lower())
+            entry = task.program.find_routine(None, task.spec.entry.lower())
             if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
                 task.state = "ready"
             else:

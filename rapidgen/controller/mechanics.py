@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.system.model import System
 
 DEFAULT_ROBOT = "irb120"
@@ -14,7 +14,7 @@ def motion_tasks(system: System) -> list[str]:
     return moving or [task.name for task in system.tasks[:1]]
 
 
-def groups_for(system: System, config: RobotConfig) -> tuple[MotionGroup, ...]:
+def groups_for(system: System, config: RobotConfig) -> tuple[GroupConfig, ...]:
     """The configuration's groups, given to the system's motion tasks in order.
 
     More motion tasks than groups get copies of the last one.

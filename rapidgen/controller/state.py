@@ -8,13 +8,13 @@ from rapidgen.controller.event_log import ControllerLog
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
-from rapidgen.machine.network.device import SocketTable
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.loading import ModuleTable
+from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Dialect
 from rapidgen.runtime.task.stepping import CannotStep
 from rapidgen.runtime.task.task import Task

@@ -3,9 +3,11 @@
 from rapidgen.deploy.apply import apply
 from rapidgen.deploy.driverset import DriverSet, from_files, from_folder
 from rapidgen.deploy.keep import backup_set
-from rapidgen.deploy.plan import Plan, make_plan, plan_json
-from rapidgen.deploy.target import Access, Target, connect, parse_target
-from rapidgen.deploy.transport import Transport, TransportFault
+from rapidgen.deploy.plan import Plan, plan_json
+from rapidgen.deploy.planning import make_plan
+from rapidgen.deploy.target import Access, connect, parse_target
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import Transport, TransportFault
 
 __all__ = [
     "Access",

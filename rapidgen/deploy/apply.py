@@ -15,9 +15,8 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
-from rapidgen.deploy.plan import Change, Plan, make_plan
-from rapidgen.deploy.run import (
-    Run,
+from rapidgen.deploy.operation import (
+    Operation,
     Say,
     delete,
     delete_all,
@@ -28,9 +27,11 @@ from rapidgen.deploy.run import (
     swap,
     write,
 )
+from rapidgen.deploy.plan import FileChange, Plan
+from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
-from rapidgen.deploy.transport import Transport, TransportFault, read_or_none
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, refusal
 
 
 def apply(
@@ -47,18 +48,18 @@ def apply(
         raise moved_on(plan.target)
     if plan.is_empty:
         return
-    run = _begin(transport, plan, say)
+    work = _begin(transport, plan, say)
     if plan.interrupted:
-        _clean(run)
+        _clean(work)
     if not plan.repair and not plan.is_stale and all(c.action == "same" for c in plan.changes):
-        _finish(run, None)
+        _finish(work, None)
         return
-    journal = _prepare(run)
+    journal = _prepare(work)
     try:
-        write(run, f"{run.folder}/switching", b"old files are being replaced: see the journal\n")
-        _switch(run)
-        _verify(run)
-        _finish(run, journal)
+        write(work, f"{work.folder}/switching", b"old files are being replaced: see the journal\n")
+        _switch(work)
+        _verify(work)
+        _finish(work, journal)
     except TransportFault as fault:
         raise _cut(plan, fault) from fault
 
@@ -70,40 +71,38 @@ def conflicts_of(plan: Plan) -> list[Diagnostic]:
 
 def moved_on(target: str) -> DiagnosticError:
     """RG522."""
-    return DiagnosticError(
-        Diagnostic(
-            "RG522",
-            Severity.ERROR,
-            f"{target} has changed since it was planned",
-            help="plan again, and look at what has changed",
-        ),
+    return refusal(
+        "RG522",
+        None,
+        f"{target} has changed since it was planned",
+        "plan again, and look at what has changed",
         exit_code=1,
     )
 
 
-def _begin(transport: Transport, plan: Plan, say: Say) -> Run:
+def _begin(transport: Transport, plan: Plan, say: Say) -> Operation:
     """The state folder, what rename does here, and room on the disk."""
-    folder = Run(transport, plan, "none", say).folder
+    folder = Operation(transport, plan, "none", say).folder
     try:
         transport.make_folder(folder)
-        run = Run(transport, plan, probe(transport, folder), say, {folder})
+        work = Operation(transport, plan, probe(transport, folder), say, {folder})
         needed = sum(len(c.before or b"") + 2 * len(c.after or b"") for c in plan.changes)
         free = transport.free()
         if free is not None and free < needed:
             raise TransportFault("full", f"{plan.target}: {free} bytes free, {needed} needed")
     except TransportFault as fault:
         if fault.kind not in ("lost", "garbled") and not plan.state.present:
-            delete_folder(Run(transport, plan, "none", say), folder)
+            delete_folder(Operation(transport, plan, "none", say), folder)
         raise
-    return run
+    return work
 
 
-def _prepare(run: Run) -> Journal:
+def _prepare(work: Operation) -> Journal:
     """Journal, backup and staged files; on a refusal all of it is taken away again."""
-    plan, old = run.plan, run.plan.state.journal
+    plan, old = work.plan, work.plan.state.journal
     number = old.id if old and plan.repair else 1 + (plan.had.id if plan.had else 0)
     known = {p: set(hashes) for p, hashes in (old.known if old and plan.repair else {}).items()}
-    fences = _fences(run)
+    fences = _fences(work)
     staged: dict[str, bytes] = {}
     for change in plan.changes:
         fence = fences.get(change.path) if change.kind != "syspar" else None
@@ -124,52 +123,52 @@ def _prepare(run: Run) -> Journal:
         {path: tuple(sorted(hashes)) for path, hashes in known.items()},
         tuple(staged),
     )
-    _write_journal(run, journal)
+    _write_journal(work, journal)
     # Only now, as the new journal knows the contents that the old staged files explained.
-    delete_all(run, (path for path in (old.staged if old else ()) if path not in staged))
+    delete_all(work, (path for path in (old.staged if old else ()) if path not in staged))
     try:
         if not plan.repair:
-            back_up(run, number)
+            back_up(work, number)
         for path, data in staged.items():
-            write(run, path, data)
+            write(work, path, data)
     except TransportFault as fault:
         if not plan.repair and fault.kind not in ("lost", "garbled"):
-            _undo_preparation(run, journal)
+            _undo_preparation(work, journal)
         raise
     return journal
 
 
-def _switch(run: Run) -> None:
+def _switch(work: Operation) -> None:
     """Fence in, the old set's own key modules out, the rest, fence out."""
-    plan = run.plan
-    fences = _fences(run)
+    plan = work.plan
+    fences = _fences(work)
     fenced = [c for c in plan.changes if c.path in fences and c.kind != "syspar"]
     for change in fenced:
         if change.before != fences[change.path]:
             exists = change.before is not None
-            swap(run, change.where, FENCE, fences[change.path], exists=exists)
+            swap(work, change.where, FENCE, fences[change.path], exists=exists)
     first = _old_fences(plan)
     gone = [c for c in plan.changes if c.after is None and c.before is not None]
     for change in sorted(gone, key=lambda c: c.path not in first):
-        run.say(f"removing {change.shown}")
-        delete(run, change.where)
+        work.say(f"removing {change.shown}")
+        delete(work, change.where)
     rest = [c for c in plan.changes if c.after is not None and c.action != "same"]
     rest = [c for c in rest if c not in fenced]
     # SYSPAR before the cfg file that says what is ours in it.
     for change in sorted(rest, key=lambda c: c.kind != "syspar"):
-        run.say(f"switching {change.shown}")
-        swap(run, change.where, NEW, change.after or b"", exists=change.before is not None)
+        work.say(f"switching {change.shown}")
+        swap(work, change.where, NEW, change.after or b"", exists=change.before is not None)
     for change in fenced:
-        run.say(f"switching {change.shown}")
-        swap(run, change.where, NEW, change.after or b"", exists=True)
+        work.say(f"switching {change.shown}")
+        swap(work, change.where, NEW, change.after or b"", exists=True)
 
 
-def _fences(run: Run) -> dict[str, bytes]:
+def _fences(work: Operation) -> dict[str, bytes]:
     """Fences of the new set; none when the whole switch is one atomic rename."""
-    steps = [c for c in run.plan.changes if c.action != "same" and c.kind != "cfg"]
-    if run.plan.wanted is None or not steps or (run.mode == "replace" and len(steps) == 1):
+    steps = [c for c in work.plan.changes if c.action != "same" and c.kind != "cfg"]
+    if work.plan.wanted is None or not steps or (work.mode == "replace" and len(steps) == 1):
         return {}
-    return run.plan.wanted.fences()
+    return work.plan.wanted.fences()
 
 
 def _old_fences(plan: Plan) -> frozenset[str]:
@@ -185,88 +184,88 @@ def _old_fences(plan: Plan) -> frozenset[str]:
     return frozenset(old.fences())
 
 
-def _verify(run: Run) -> None:
+def _verify(work: Operation) -> None:
     """Everything read back once more, in place."""
-    for change in run.plan.changes:
-        if read_or_none(run.transport, change.where) != change.after:
+    for change in work.plan.changes:
+        if read_or_none(work.transport, change.where) != change.after:
             raise differs(change.shown)
 
 
-def _finish(run: Run, journal: Journal | None) -> None:
+def _finish(work: Operation, journal: Journal | None) -> None:
     """Manifest, then the end of the notes; without a journal only the notes are cleared."""
-    folder = run.folder
-    present = names(run.transport, folder)
+    folder = work.folder
+    present = names(work.transport, folder)
     if journal is not None and journal.new is not None:
         data = encode(manifest_json(journal.new))
         path = f"{folder}/manifest.json"
-        if run.mode != "none":
-            write(run, path + NEW, data)
-        swap(run, path, NEW, data, exists="manifest.json" in present)
-    elif run.plan.wanted is None and "manifest.json" in present:
-        delete(run, f"{folder}/manifest.json")
-    delete_all(run, [*(journal.staged if journal else ()), f"{folder}/manifest.json{NEW}"])
-    if run.plan.wanted is None:
-        delete_backups(run, keep=frozenset())
+        if work.mode != "none":
+            write(work, path + NEW, data)
+        swap(work, path, NEW, data, exists="manifest.json" in present)
+    elif work.plan.wanted is None and "manifest.json" in present:
+        delete(work, f"{folder}/manifest.json")
+    delete_all(work, [*(journal.staged if journal else ()), f"{folder}/manifest.json{NEW}"])
+    if work.plan.wanted is None:
+        delete_backups(work, keep=frozenset())
     elif journal is not None and journal.new is not None:
         kept = (str(past.id) for past in journal.new.history)
-        delete_backups(run, keep=frozenset({"origin", *kept}))
+        delete_backups(work, keep=frozenset({"origin", *kept}))
     for name in ("switching", "journal.a", "journal.b"):
-        delete_all(run, [f"{folder}/{name}"])
-    if run.plan.wanted is None:
-        delete_folder(run, folder)
-    delete_empty_folders(run)
+        delete_all(work, [f"{folder}/{name}"])
+    if work.plan.wanted is None:
+        delete_folder(work, folder)
+    delete_empty_folders(work)
 
 
-def _clean(run: Run) -> None:
+def _clean(work: Operation) -> None:
     """Take away what an earlier run left half-done; what it switched is in the plan already."""
-    journal = run.plan.state.journal
-    if run.plan.repair:
+    journal = work.plan.state.journal
+    if work.plan.repair:
         return
-    delete_all(run, [*(journal.staged if journal else ()), f"{run.folder}/manifest.json{NEW}"])
-    finished = journal is not None and run.plan.had is not None and run.plan.had.id == journal.id
-    delete_all(run, [f"{run.folder}/switching"])
+    delete_all(work, [*(journal.staged if journal else ()), f"{work.folder}/manifest.json{NEW}"])
+    finished = journal is not None and work.plan.had is not None and work.plan.had.id == journal.id
+    delete_all(work, [f"{work.folder}/switching"])
     if journal is not None and journal.new is not None and not finished:
-        delete_backup(run, str(journal.id))
-        if run.plan.had is None:
-            delete_backup(run, "origin")
-    delete_all(run, [f"{run.folder}/journal.a", f"{run.folder}/journal.b"])
+        delete_backup(work, str(journal.id))
+        if work.plan.had is None:
+            delete_backup(work, "origin")
+    delete_all(work, [f"{work.folder}/journal.a", f"{work.folder}/journal.b"])
 
 
-def _undo_preparation(run: Run, journal: Journal) -> None:
+def _undo_preparation(work: Operation, journal: Journal) -> None:
     """Best effort: what stays is named in the journal, and the next run takes it away."""
     try:
-        delete_all(run, journal.staged)
-        if run.plan.wanted is not None:
-            delete_backup(run, str(journal.id))
-            if run.plan.had is None:
-                delete_backup(run, "origin")
-        delete_all(run, [f"{run.folder}/journal.a", f"{run.folder}/journal.b"])
-        if run.plan.had is None:
-            delete_folder(run, f"{run.folder}/backup")
-            delete_empty_folders(run)
-            delete_folder(run, run.folder)
+        delete_all(work, journal.staged)
+        if work.plan.wanted is not None:
+            delete_backup(work, str(journal.id))
+            if work.plan.had is None:
+                delete_backup(work, "origin")
+        delete_all(work, [f"{work.folder}/journal.a", f"{work.folder}/journal.b"])
+        if work.plan.had is None:
+            delete_folder(work, f"{work.folder}/backup")
+            delete_empty_folders(work)
+            delete_folder(work, work.folder)
     except TransportFault:
         return
 
 
-def _write_journal(run: Run, journal: Journal) -> None:
+def _write_journal(work: Operation, journal: Journal) -> None:
     """Into the file that is not in use, then the other goes: one of them is always whole."""
-    current = run.plan.state.journal_file
+    current = work.plan.state.journal_file
     name = "journal.b" if current == "journal.a" else "journal.a"
-    write(run, f"{run.folder}/{name}", encode(journal_json(journal)))
+    write(work, f"{work.folder}/{name}", encode(journal_json(journal)))
     if current:
-        delete_all(run, [f"{run.folder}/{current}"])
+        delete_all(work, [f"{work.folder}/{current}"])
 
 
 def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
     return DiagnosticError(
         [
             *fault.diagnostics,
-            Diagnostic(
+            error(
                 "RG527",
-                Severity.ERROR,
+                None,
                 f"{plan.verb} of {plan.target} was cut while it switched files",
-                help=f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
+                f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
                 notes=("what lies there now is the old set, the new set, or refuses to move",),
             ),
         ],
@@ -274,20 +273,19 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
     )
 
 
-def _conflict(change: Change) -> Diagnostic:
+def _conflict(change: FileChange) -> Diagnostic:
     if change.conflict == "stranger":
-        return Diagnostic(
+        return error(
             "RG521",
-            Severity.ERROR,
+            None,
             f"{change.shown} is there already, and rapidgen did not put it there",
-            help="rename or remove it, or --overwrite: a copy stays on the controller, and "
+            "rename or remove it, or --overwrite: a copy stays on the controller, and "
             "`rapidgen uninstall` puts it back",
         )
-    return Diagnostic(
+    return error(
         "RG520",
-        Severity.ERROR,
+        None,
         f"{change.shown} was edited by hand since the last deployment",
-        help="take the edit over into the configuration, or --overwrite: a copy stays in the "
-        "backup",
+        "take the edit over into the configuration, or --overwrite: a copy stays in the backup",
         notes=(change.note,) if change.note else (),
     )

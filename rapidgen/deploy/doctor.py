@@ -8,10 +8,12 @@ from typing import Any, Literal
 
 from rapidgen.deploy.cfg import keyed
 from rapidgen.deploy.driverset import DriverSet
-from rapidgen.deploy.plan import Plan, make_plan
+from rapidgen.deploy.plan import Plan
+from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
-from rapidgen.deploy.target import Access, Target, connect, credentials
-from rapidgen.deploy.transport import Transport, TransportFault
+from rapidgen.deploy.target import Access, connect, credentials
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import Instance
 
@@ -112,7 +114,7 @@ def _state_port(where: str, host: str, port: int, build: str, hello: Hello) -> C
 
 
 def _default_login(target: Target, access: Access) -> Iterator[Check]:
-    if target.scheme == "dir":
+    if not target.way.port:
         return
     used = credentials(target, access)
     if used.is_default:
@@ -121,22 +123,11 @@ def _default_login(target: Target, access: Access) -> Iterator[Check]:
     known = Credentials("Default User", Secret("robotics"), known_hosts=used.known_hosts)
     attempt = replace(target, user=known.user)
     try:
-        _login(attempt, known, access.timeout)
+        attempt.open(known, access.timeout).close()
     except DiagnosticError:
         yield Check("passwords", "ok", "the delivered password is not accepted")
         return
     yield _open_door(known)
-
-
-def _login(target: Target, login: Credentials, timeout: float) -> None:
-    if target.scheme == "ftp":
-        from rapidgen.deploy.ftp import FtpTransport
-
-        FtpTransport(target.host, target.port, target.path, login, timeout=timeout).close()
-        return
-    from rapidgen.deploy.sftp import SftpTransport
-
-    SftpTransport(target.host, target.port, target.path, login, timeout=timeout).close()
 
 
 def _open_door(login: Credentials) -> Check:

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from rapidgen.deploy.transport import TransportFault, safe
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.deploy.transports.transport import TransportFault, safe
+from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.system import CfgText, parse_cfg, read_manifest
 
 Kind = Literal["module", "cfg"]
@@ -104,8 +104,8 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
         )
     except TransportFault as fault:
         raise _bad(fault.diagnostics[0].message, "module paths stay inside HOME") from None
-    except (KeyError, TypeError, ValueError, RecursionError) as error:
-        raise _bad(f"the manifest of {source} is damaged: {error!r}", "build it again") from None
+    except (KeyError, TypeError, ValueError, RecursionError) as cause:
+        raise _bad(f"the manifest of {source} is damaged: {cause!r}", "build it again") from None
     uncovered = {t for f in wanted for t in f.tasks} - {
         t for f in wanted if f.path in result.fences() for t in f.tasks
     }
@@ -130,10 +130,10 @@ def from_folder(folder: Path) -> DriverSet:
             files[path] = target.read_bytes()
         except TransportFault as fault:
             raise _bad(fault.diagnostics[0].message, "build it again") from None
-        except OSError as error:
-            raise _bad(f"{path} of {folder}: {error.strerror}", "build it again") from error
+        except OSError as cause:
+            raise _bad(f"{path} of {folder}: {cause.strerror}", "build it again") from cause
     return from_files(files, source=str(folder))
 
 
 def _bad(message: str, help: str) -> DiagnosticError:
-    return DiagnosticError(Diagnostic("RG530", Severity.ERROR, message, help=help))
+    return refusal("RG530", None, message, help)

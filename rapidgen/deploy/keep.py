@@ -7,55 +7,55 @@ from typing import Any
 from rapidgen import __version__
 from rapidgen.deploy.cfg import keyed, remember
 from rapidgen.deploy.driverset import DriverSet, SetFile, digest
+from rapidgen.deploy.operation import Operation, delete, delete_folder, names, write
 from rapidgen.deploy.plan import Plan
-from rapidgen.deploy.run import Run, delete, delete_folder, names, write
 from rapidgen.deploy.state import (
     KEPT,
+    FileRecord,
     Manifest,
     Past,
-    Record,
     encode,
     manifest_json,
     read_backup,
 )
-from rapidgen.deploy.transport import Transport, parent, read_or_none
+from rapidgen.deploy.transports.transport import Transport, parent, read_or_none
 
 
-def back_up(run: Run, number: int) -> None:
+def back_up(work: Operation, number: int) -> None:
     """Strangers' files for `uninstall`, and the whole set as it lies there, edits included."""
-    plan, had = run.plan, run.plan.had
+    plan, had = work.plan, work.plan.had
     if plan.wanted is None:
         return
     for record, data in strangers(plan):
-        run.say(f"keeping a copy of {record.path}")
-        write(run, f"{run.folder}/backup/{record.stored}", data)
+        work.say(f"keeping a copy of {record.path}")
+        write(work, f"{work.folder}/backup/{record.stored}", data)
     if had is None:
         return
-    folder = f"{run.folder}/backup/{number}"
-    run.say(f"backup {number}")
+    folder = f"{work.folder}/backup/{number}"
+    work.say(f"backup {number}")
     by_path = {c.path: c.before for c in plan.changes if c.kind != "syspar"}
     records = []
     for index, record in enumerate(had.files):
         if record.path in by_path:
             found = by_path[record.path]
         else:
-            found = read_or_none(run.transport, run.home + record.path)
+            found = read_or_none(work.transport, work.home + record.path)
         if found is not None:
             name = f"{index}.bin"
-            write(run, f"{folder}/{name}", found)
+            write(work, f"{folder}/{name}", found)
             records.append(replace(record, sha256=digest(found), size=len(found), stored=name))
     kept = replace(had, files=tuple(records), history=())
-    write(run, f"{folder}/backup.json", encode(manifest_json(kept)))
+    write(work, f"{folder}/backup.json", encode(manifest_json(kept)))
 
 
-def strangers(plan: Plan) -> list[tuple[Record, bytes]]:
+def strangers(plan: Plan) -> list[tuple[FileRecord, bytes]]:
     """Files that are not ours and are about to be replaced, or taken over because they are equal,
     and cfg files before our first instance."""
     count = len(plan.origin)
-    found: list[tuple[Record, bytes]] = []
+    found: list[tuple[FileRecord, bytes]] = []
     for change in plan.changes:
         if change.foreign and change.before is not None and change.path not in plan.origin:
-            record = Record(
+            record = FileRecord(
                 change.path,
                 digest(change.before),
                 len(change.before),
@@ -69,7 +69,7 @@ def strangers(plan: Plan) -> list[tuple[Record, bytes]]:
 def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     """The manifest that stands when the run is done."""
     had = plan.had
-    files = tuple(Record(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in wanted.files)
+    files = tuple(FileRecord(f.path, f.sha256, len(f.data), f.kind, f.tasks) for f in wanted.files)
     history = had.history if had else ()
     undone = plan.repair and had is not None and had.files == files
     if had is not None and not undone:
@@ -106,33 +106,33 @@ def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
     )
 
 
-def delete_backups(run: Run, *, keep: frozenset[str]) -> None:
+def delete_backups(work: Operation, *, keep: frozenset[str]) -> None:
     """All backups but those named."""
-    folder = f"{run.folder}/backup"
-    for name in sorted(names(run.transport, folder) - keep):
-        delete_backup(run, name)
+    folder = f"{work.folder}/backup"
+    for name in sorted(names(work.transport, folder) - keep):
+        delete_backup(work, name)
     if not keep:
-        delete_folder(run, folder)
+        delete_folder(work, folder)
 
 
-def delete_backup(run: Run, name: str) -> None:
+def delete_backup(work: Operation, name: str) -> None:
     """One backup; `backup.json` first, without which the rest counts as none."""
-    folder = f"{run.folder}/backup/{name}"
-    for member in sorted(names(run.transport, folder), key=lambda n: n != "backup.json"):
-        delete(run, f"{folder}/{member}")
-    delete_folder(run, folder)
+    folder = f"{work.folder}/backup/{name}"
+    for member in sorted(names(work.transport, folder), key=lambda n: n != "backup.json"):
+        delete(work, f"{folder}/{member}")
+    delete_folder(work, folder)
 
 
-def delete_empty_folders(run: Run) -> None:
+def delete_empty_folders(work: Operation) -> None:
     """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR."""
     folders: set[str] = set()
-    for change in run.plan.changes:
+    for change in work.plan.changes:
         place = parent(change.where) if change.kind != "syspar" else ""
-        while place and place + "/" != run.home:
+        while place and place + "/" != work.home:
             folders.add(place)
             place = parent(place)
     for folder in sorted(folders, key=len, reverse=True):
-        delete_folder(run, folder)
+        delete_folder(work, folder)
 
 
 def now() -> str:

@@ -10,13 +10,15 @@ from typing import Any
 from rapidgen._writing import write_whole
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
-from rapidgen.deploy.fleet import Outcome, connected, on_all
+from rapidgen.deploy.fleet import TargetOutcome, connected, on_all
 from rapidgen.deploy.keep import backup_set
-from rapidgen.deploy.plan import Plan, Verb, find_layout, make_plan, plan_json
+from rapidgen.deploy.plan import Plan, Verb, plan_json
+from rapidgen.deploy.planning import find_layout, make_plan
 from rapidgen.deploy.state import Past, read_state
-from rapidgen.deploy.target import Access, Target
-from rapidgen.deploy.transport import Transport
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.deploy.target import Access
+from rapidgen.deploy.transports.registry import Target
+from rapidgen.deploy.transports.transport import Transport
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 Say = Callable[[str], None]
 
@@ -70,14 +72,14 @@ def plan_all(job: Job) -> list[Plan]:
     return [r for r in results if isinstance(r, Plan)]
 
 
-def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
+def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     """Carry the plans out; a controller that has changed since refuses (RG522)."""
     by_target = dict(zip(job.targets, plans, strict=True))
 
-    def work(target: Target) -> Outcome:
+    def work(target: Target) -> TargetOutcome:
         plan = by_target[target]
         if plan.is_empty:
-            return Outcome(target, "same", "nothing to do")
+            return TargetOutcome(target, "same", "nothing to do")
         prefix = f"{target.shown}: " if len(job.targets) > 1 else ""
         with connected(target, job.access) as transport:
             apply(
@@ -87,7 +89,7 @@ def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
                 say=lambda line: say(prefix + line),
             )
         count = sum(1 for c in plan.changes if c.action != "same")
-        return Outcome(target, "done", f"{count} files, build {plan.build_id or '-'}")
+        return TargetOutcome(target, "done", f"{count} files, build {plan.build_id or '-'}")
 
     outcomes = []
     for target, result in zip(
@@ -95,9 +97,11 @@ def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[Outcome]:
     ):
         if isinstance(result, DiagnosticError):
             first = result.diagnostics[0]
-            outcomes.append(Outcome(target, "failed", f"{first.code}: {first.message}", result))
+            outcomes.append(
+                TargetOutcome(target, "failed", f"{first.code}: {first.message}", result)
+            )
         else:
-            outcomes.append(result or Outcome(target, "not begun"))
+            outcomes.append(result or TargetOutcome(target, "not begun"))
     return outcomes
 
 
@@ -115,19 +119,15 @@ def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
     if yes:
         return
     if not sys.stdin.isatty():
-        raise DiagnosticError(
-            Diagnostic(
-                "RG533",
-                Severity.ERROR,
-                "nobody is there to answer: nothing was changed",
-                help="look at `rapidgen plan`, then say --yes",
-            ),
+        raise refusal(
+            "RG533",
+            None,
+            "nobody is there to answer: nothing was changed",
+            "look at `rapidgen plan`, then say --yes",
             exit_code=1,
         )
     if not ask(question):
-        raise DiagnosticError(
-            Diagnostic("RG533", Severity.ERROR, "not confirmed: nothing was changed"), exit_code=1
-        )
+        raise refusal("RG533", None, "not confirmed: nothing was changed", exit_code=1)
 
 
 def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:
@@ -155,13 +155,11 @@ def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSe
         return backup_set(transport, home, journal.id)
     past = plan.had.history if plan.had else ()
     if not past:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG528",
-                Severity.ERROR,
-                f"{plan.target}: no earlier set is kept there",
-                help="`rapidgen uninstall` goes back to the state before the first deployment",
-            ),
+        raise refusal(
+            "RG528",
+            None,
+            f"{plan.target}: no earlier set is kept there",
+            "`rapidgen uninstall` goes back to the state before the first deployment",
             exit_code=1,
         )
     return backup_set(transport, home, past[-1].id)
@@ -172,8 +170,8 @@ def write_plans(path: Path, plans: Sequence[Plan]) -> None:
     text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
     try:
         write_whole(path, text.encode())
-    except OSError as error:
-        raise _plan_file(path, error.strerror or str(error)) from error
+    except OSError as fault:
+        raise _plan_file(path, fault.strerror or str(fault)) from fault
 
 
 def check_plans(path: Path, plans: Sequence[Plan]) -> None:
@@ -185,10 +183,10 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
         by_target: dict[str, dict[str, Any]] = {str(p["target"]): p for p in stored}
-    except OSError as error:
-        raise _plan_file(path, error.strerror or str(error)) from error
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise _plan_file(path, "it is not a plan that rapidgen wrote") from error
+    except OSError as fault:
+        raise _plan_file(path, fault.strerror or str(fault)) from fault
+    except (ValueError, KeyError, TypeError, RecursionError) as fault:
+        raise _plan_file(path, "it is not a plan that rapidgen wrote") from fault
     if set(by_target) != {p.target for p in plans}:
         raise _plan_file(path, f"it is for {', '.join(sorted(by_target)) or 'no controller'}")
     for plan in plans:
@@ -225,24 +223,20 @@ def check_names(plans: Sequence[Plan], name: str) -> None:
 
 def _check_name(plan: Plan, name: str) -> None:
     if plan.had is not None and name and plan.had.name != name:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG524",
-                Severity.ERROR,
-                f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
-                help="check the URL",
-            ),
+        raise refusal(
+            "RG524",
+            None,
+            f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
+            "check the URL",
             exit_code=1,
         )
 
 
 def _plan_file(path: Path, reason: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG523",
-            Severity.ERROR,
-            f"plan {path} cannot be carried out: {reason}",
-            help="make a new one with `rapidgen plan ... --out FILE`",
-        ),
+    return refusal(
+        "RG523",
+        None,
+        f"plan {path} cannot be carried out: {reason}",
+        "make a new one with `rapidgen plan ... --out FILE`",
         exit_code=1,
     )

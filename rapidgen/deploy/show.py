@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from rapidgen.deploy.fleet import Outcome
-from rapidgen.deploy.plan import Change, Plan
+from rapidgen.deploy.fleet import TargetOutcome
+from rapidgen.deploy.plan import FileChange, Plan
 
 _SIGNS = {"add": "+", "change": "~", "same": "=", "remove": "-", "restore": "<"}
 
@@ -36,7 +36,7 @@ def plan_text(plan: Plan) -> str:
     return "\n".join(out) + "\n"
 
 
-def table(outcomes: Sequence[Outcome]) -> str:
+def table(outcomes: Sequence[TargetOutcome]) -> str:
     """One line a controller."""
     width = max(len(o.target.shown) for o in outcomes)
     return "".join(f"{o.target.shown:<{width}}  {o.word:<8}  {o.detail}\n" for o in outcomes)
@@ -47,7 +47,7 @@ def size_text(size: int) -> str:
     return f"{size} B" if size < 1000 else f"{size / 1000:.1f} kB"
 
 
-def _words(change: Change) -> str:
+def _words(change: FileChange) -> str:
     if change.action == "add":
         return f"new, {size_text(len(change.after or b''))}"
     if change.action == "remove":

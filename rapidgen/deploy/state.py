@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, digest
-from rapidgen.deploy.transport import Transport, TransportFault, read_or_none, safe
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 FORMAT = 1
 KEPT = 5
@@ -34,7 +34,7 @@ _SHA = re.compile(r"[0-9a-f]{64}")
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class FileRecord:
     """One file: its path in HOME, its hash, and the name of a copy in a backup folder."""
 
     path: str
@@ -64,15 +64,15 @@ class Manifest:
     name: str
     build_id: str
     robotware: tuple[int, int]
-    files: tuple[Record, ...]
-    origin: tuple[Record, ...] = ()
+    files: tuple[FileRecord, ...]
+    origin: tuple[FileRecord, ...] = ()
     """Strangers' files that were overwritten: kept for `uninstall`."""
     history: tuple[Past, ...] = ()
     cfg_before: Mapping[str, Any] = field(default_factory=dict)
     """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
     generated: Mapping[str, Any] = field(default_factory=dict)
 
-    def record(self, path: str) -> Record | None:
+    def record(self, path: str) -> FileRecord | None:
         """The record of a path in HOME."""
         return next((r for r in self.files if r.path == path), None)
 
@@ -93,7 +93,7 @@ class Journal:
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class StateFolder:
     """All that the state folder says."""
 
     manifest: Manifest | None = None
@@ -108,7 +108,7 @@ class State:
     """Files of a run that was cut while it tried out what rename does."""
 
 
-def read_state(transport: Transport, home: str) -> State:
+def read_state(transport: Transport, home: str) -> StateFolder:
     """State folder of the HOME with this prefix ('' or 'HOME/')."""
     folder = home + STATE
     try:
@@ -116,14 +116,14 @@ def read_state(transport: Transport, home: str) -> State:
     except TransportFault as fault:
         if fault.kind != "missing":
             raise
-        return State(digest=digest(b""))
+        return StateFolder(digest=digest(b""))
     raw = read_or_none(transport, f"{folder}/manifest.json") if "manifest.json" in names else None
     manifest, damaged = None, ""
     if raw is not None:
         try:
             manifest = manifest_from(json.loads(raw))
-        except DAMAGE as error:
-            damaged = f"manifest.json on the controller is damaged ({type(error).__name__})"
+        except DAMAGE as cause:
+            damaged = f"manifest.json on the controller is damaged ({type(cause).__name__})"
     journals: list[tuple[int, str, Journal, bytes]] = []
     for name in sorted(names & {"journal.a", "journal.b"}):
         text = read_or_none(transport, f"{folder}/{name}") or b""
@@ -138,8 +138,10 @@ def read_state(transport: Transport, home: str) -> State:
     litter = bool(names & {"probe.one", "probe.two"})
     seen = (raw or b"") + (latest[3] if latest else b"") + (b"switching" if switching else b"")
     if latest is None:
-        return State(manifest, None, "", switching, damaged, digest(seen), True, litter)
-    return State(manifest, latest[2], latest[1], switching, damaged, digest(seen), True, litter)
+        return StateFolder(manifest, None, "", switching, damaged, digest(seen), True, litter)
+    return StateFolder(
+        manifest, latest[2], latest[1], switching, damaged, digest(seen), True, litter
+    )
 
 
 def manifest_json(manifest: Manifest) -> dict[str, Any]:
@@ -231,8 +233,8 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
         raise _no_backup(f"there is no backup {number} on the controller")
     try:
         manifest = manifest_from(json.loads(raw))
-    except DAMAGE as error:
-        raise _no_backup(f"backup {number} is damaged: {error!r}") from None
+    except DAMAGE as fault:
+        raise _no_backup(f"backup {number} is damaged: {fault!r}") from None
     files = {}
     for record in manifest.files:
         data = read_or_none(transport, f"{folder}/{safe(record.stored)}")
@@ -243,18 +245,12 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
 
 
 def _no_backup(message: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG528",
-            Severity.ERROR,
-            message,
-            help="`rapidgen rollback --list` shows which there are",
-        ),
-        exit_code=1,
+    return refusal(
+        "RG528", None, message, "`rapidgen rollback --list` shows which there are", exit_code=1
     )
 
 
-def _record_json(record: Record) -> dict[str, Any]:
+def _record_json(record: FileRecord) -> dict[str, Any]:
     data: dict[str, Any] = {
         "path": record.path,
         "sha256": record.sha256,
@@ -267,8 +263,8 @@ def _record_json(record: Record) -> dict[str, Any]:
     return data
 
 
-def _record(data: Any) -> Record:  # noqa: ANN401 - whatever JSON held
-    return Record(
+def _record(data: Any) -> FileRecord:  # noqa: ANN401 - whatever JSON held
+    return FileRecord(
         safe(_text(data["path"])),
         _sha(data["sha256"]),
         int(data["size"]),

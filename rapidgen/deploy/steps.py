@@ -17,7 +17,7 @@ _LOAD = "Control Panel > Configuration > (topic) > File > Load parameters, repla
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class ManualStep:
     """One thing that a person does; `stops_motion` means that every motion ends with it."""
 
     who: str
@@ -32,13 +32,13 @@ def steps_of(
     *,
     written: bool,
     touched: bool,
-) -> tuple[Step, ...]:
+) -> tuple[ManualStep, ...]:
     """Steps after the files have been switched.
 
     `modules` are the changed ones with their tasks, `texts` the cfg that names the tasks,
     `written` that SYSPAR itself was changed, `touched` that any file was.
     """
-    steps: list[Step] = []
+    steps: list[ManualStep] = []
     for domain in sorted({c.domain for c in cfg}) if not written else ():
         counts = [
             sum(1 for c in cfg if c.domain == domain and c.action == action)
@@ -47,11 +47,11 @@ def steps_of(
         if any(counts):
             words = f"{counts[0]} instances to add, {counts[1]} to change"
             file = f"HOME:/{STATE}/{domain}.cfg"
-            steps.append(Step("pendant", f"load {file} ({words}): {_LOAD}"))
+            steps.append(ManualStep("pendant", f"load {file} ({words}): {_LOAD}"))
     gone = [c.key for c in cfg if c.action == "remove"] if not written else []
     if gone:
         what = "loading removes nothing: delete in Control Panel > Configuration: "
-        steps.append(Step("pendant", what + "; ".join(gone)))
+        steps.append(ManualStep("pendant", what + "; ".join(gone)))
     if not touched:
         return tuple(steps)
     types = {
@@ -67,7 +67,7 @@ def steps_of(
         kind = types.get(name, "NORMAL")
         restart = "Reset RAPID" if kind == "STATIC" else "Restart"
         steps.append(
-            Step(
+            ManualStep(
                 "pendant",
                 f"{name} ({kind}) reads {', '.join(files)} at the next {restart} "
                 f"of the controller (menu > {restart})",
@@ -76,9 +76,9 @@ def steps_of(
         )
     if not tasks:
         steps.append(
-            Step("pendant", "Restart of the controller (menu > Restart)", stops_motion=True)
+            ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True)
         )
     steps.append(
-        Step("pendant", "program pointer to main, motors on and start: a person at the robot")
+        ManualStep("pendant", "program pointer to main, motors on and start: a person at the robot")
     )
     return tuple(steps)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from rapidgen.deploy.cfg import keyed, merged
-from rapidgen.deploy.transport import Transport, read_or_none
+from rapidgen.deploy.transports.transport import Transport, read_or_none
 from rapidgen.system import CfgText, parse_cfg, write_cfg
 
 

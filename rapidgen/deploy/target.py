@@ -7,31 +7,11 @@ from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
 from rapidgen.deploy.secrets import Credentials, find_password
-from rapidgen.deploy.transport import Transport
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+from rapidgen.deploy.transports.registry import SCHEMES, Target
+from rapidgen.deploy.transports.transport import Transport
+from rapidgen.diagnostics import DiagnosticError, refusal, suggest
 
-_PORTS = {"dir": 0, "ftp": 21, "sftp": 22}
 _LATER = ("rws", "rwss")
-
-
-@dataclass(frozen=True, slots=True)
-class Target:
-    """A controller to deploy to. `path` is absolute, or '' for the folder of the login."""
-
-    scheme: str
-    host: str
-    port: int
-    path: str
-    user: str = ""
-
-    @property
-    def shown(self) -> str:
-        """The URL without the user, as plans and tables show it."""
-        if self.scheme == "dir":
-            return f"dir://{self.path}"
-        port = "" if self.port == _PORTS[self.scheme] else f":{self.port}"
-        host = f"[{self.host}]" if ":" in self.host else self.host
-        return f"{self.scheme}://{host}{port}{self.path}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,52 +34,40 @@ def parse_target(url: str) -> Target:
     scheme, colon, rest = url.partition("://")
     if not colon:
         raise _bad(url, "there is no scheme", "for a folder on this machine: dir://" + url)
-    if scheme == "dir":
+    if scheme in SCHEMES and not SCHEMES[scheme].port:
         folder = Path(os.path.abspath(os.path.expanduser(unquote(rest) or ".")))
-        return Target("dir", "", 0, str(folder))
+        return Target(scheme, "", 0, str(folder))
     if scheme in _LATER:
         raise _bad(url, "Robot Web Services are not a transport yet", "use ftp:// or sftp://")
-    if scheme not in _PORTS:
-        known = ", ".join(f"{name}://" for name in _PORTS)
-        meant = suggest(scheme, list(_PORTS)) or f"there are {known}"
+    if scheme not in SCHEMES:
+        known = ", ".join(f"{name}://" for name in SCHEMES)
+        meant = suggest(scheme, list(SCHEMES)) or f"there are {known}"
         raise _bad(url, f"unknown scheme {scheme!r}", meant)
     try:
         parts = urlsplit(url.replace(" ", "%20"))
         host, port = parts.hostname or "", parts.port
-    except ValueError as error:
-        raise _bad("--to", str(error)) from None
+    except ValueError as fault:
+        raise _bad("--to", str(fault)) from None
     if parts.password is not None:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG510",
-                Severity.ERROR,
-                f"a password stands in the URL of {host}",
-                help="URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
-                "or wait for the prompt",
-            )
+        raise refusal(
+            "RG510",
+            None,
+            f"a password stands in the URL of {host}",
+            "URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
+            "or wait for the prompt",
         )
     path = unquote(parts.path).rstrip("/")
     if not host or parts.query or parts.fragment:
         raise _bad(url, "expected ftp://[USER@]HOST[:PORT]/FOLDER")
     if re.search(r"[\x00-\x1f\x7f]", path + host) or ".." in path.split("/"):
         raise _bad(url, "the folder holds '..' or control characters")
-    return Target(scheme, host, port or _PORTS[scheme], path, unquote(parts.username or ""))
+    return Target(scheme, host, port or SCHEMES[scheme].port, path, unquote(parts.username or ""))
 
 
 def connect(target: Target, access: Access) -> Transport:
     """A logged-in transport. Raises DiagnosticError RG501..RG511."""
-    if target.scheme == "dir":
-        from rapidgen.deploy.folder import FolderTransport
-
-        return FolderTransport(Path(target.path))
-    login = credentials(target, access)
-    if target.scheme == "ftp":
-        from rapidgen.deploy.ftp import FtpTransport
-
-        return FtpTransport(target.host, target.port, target.path, login, timeout=access.timeout)
-    from rapidgen.deploy.sftp import SftpTransport
-
-    return SftpTransport(target.host, target.port, target.path, login, timeout=access.timeout)
+    login = credentials(target, access) if target.way.port else Credentials("")
+    return target.open(login, access.timeout)
 
 
 def credentials(target: Target, access: Access) -> Credentials:
@@ -107,16 +75,14 @@ def credentials(target: Target, access: Access) -> Credentials:
     login = Credentials(
         target.user or access.user, identity=access.identity, known_hosts=access.known_hosts
     )
-    ask = access.ask and not (target.scheme == "sftp" and access.identity)
+    ask = access.ask and not (target.way.takes_keys and access.identity)
     login = find_password(login, target.host, target.port, secrets=access.secrets, ask=ask)
     if login.user:
         return login
     return Credentials("Default User", login.password, login.identity, login.known_hosts)
 
 
-def _bad(url: str, reason: str, help: str = "") -> DiagnosticError:
+def _bad(url: str, reason: str, mend: str = "") -> DiagnosticError:
     # A URL that is not understood may hold a password in an odd place: it is not repeated.
     shown = url if "@" not in url else url.partition("://")[0] + "://..."
-    return DiagnosticError(
-        Diagnostic("RG509", Severity.ERROR, f"--to {shown}: {reason}", help=help)
-    )
+    return refusal("RG509", None, f"--to {shown}: {reason}", mend)

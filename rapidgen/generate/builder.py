@@ -9,7 +9,7 @@ from typing import Any
 from rapidgen import __version__
 from rapidgen._data import data_folder
 from rapidgen.config import to_manifest
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
 from rapidgen.generate.context import group_context
@@ -73,7 +73,7 @@ def make_build_id(config: RobotConfig, templates: Path) -> str:
 
 
 def _modules(
-    config: RobotConfig, group: MotionGroup, build_id: str, renderer: Renderer
+    config: RobotConfig, group: GroupConfig, build_id: str, renderer: Renderer
 ) -> list[OutputFile]:
     context = group_context(config, group, build_id, data_folder("templates"))
     files = []

@@ -6,11 +6,11 @@ from dataclasses import asdict
 from pathlib import Path
 
 from rapidgen import __version__
-from rapidgen.config.model import Frame, Joint, Load, MotionGroup, RobotConfig, Tool, WorkObject
+from rapidgen.config.model import GroupConfig, Joint, Load, Placement, RobotConfig, Tool, WorkObject
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
-from rapidgen.wire.simple_message import rapid, spec
+from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.spec import ReplyCode
 
 # Clients that the state port serves at a time.
@@ -38,7 +38,7 @@ _FACTORS = (
 
 
 def group_context(
-    config: RobotConfig, group: MotionGroup, build_id: str, templates: Path
+    config: RobotConfig, group: GroupConfig, build_id: str, templates: Path
 ) -> dict[str, object]:
     """What the modules of one motion group are rendered from."""
     x = layout.suffix(config, group)
@@ -94,21 +94,21 @@ def group_context(
         "call_main": config.call_main,
         "tool": _tool(group.tool),
         "wobj": _work_object(group.work_object),
-        "head_point": spec.JOINT_TRAJ_PT.length + (spec.JOINT_TRAJ_PT.number << 32),
+        "head_point": messages.JOINT_TRAJ_PT.length + (messages.JOINT_TRAJ_PT.number << 32),
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
         "slots": STATE_CLIENTS + 1,
         "feedback_wrap": literal(spec.FEEDBACK_WRAP),
-        "status_at": spec.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,
+        "status_at": messages.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,
         "hello": hello_reply(config, group, build_id),
         **_streams(config, joints),
         "exposed": _exposed(config),
-        "heartbeat_reply": _reply_length(spec.HEARTBEAT),
-        "signal_reply": _reply_length(spec.SIGNAL),
+        "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
+        "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
 
 
-def _tight(config: RobotConfig, group: MotionGroup) -> bool:
+def _tight(config: RobotConfig, group: GroupConfig) -> bool:
     """Corners have sizes of their own: that needs the TCP's speed, so the group's geometry."""
     policy = config.trajectory
     return policy.corners == "tight" and policy.zone != "fine" and bool(group.chain)
@@ -129,22 +129,16 @@ def _streams(config: RobotConfig, joints: list[dict[str, object]]) -> dict[str, 
     even = len(joints) % 2 == 0
     return {
         "preload": config.trajectory.preload,
-        "words": spec.point_pairs(len(joints)),
-        "pad_word": spec.point_pairs(len(joints)) if even else 0,
+        "words": messages.point_pairs(len(joints)),
+        "pad_word": messages.point_pairs(len(joints)) if even else 0,
         "batch_head": _HEADER_AND_PREFIX + 16,
         "steps": spec.PAIR_SCALE,
         "units": {joint["factor"] for joint in joints},
         "deg_step": literal(math.degrees(1 / spec.PAIR_SCALE)),
         "mm_step": literal(_MM / spec.PAIR_SCALE),
-        "points_accepted": _reply_length(spec.POINTS),
-        "points_refused": _reply_length(spec.POINTS, ReplyCode.FAILURE),
+        "points_accepted": messages.POINTS.reply(ReplyCode.SUCCESS).length,
+        "points_refused": messages.POINTS.reply(ReplyCode.FAILURE).length,
     }
-
-
-def _reply_length(message: spec.Message, code: ReplyCode = ReplyCode.SUCCESS) -> int:
-    """Length field of a reply, of whose code there is only one."""
-    (reply,) = [reply for reply in message.replies if reply.code is code]
-    return spec.HEADER_BYTES + sum(field.size for field in reply.fields)
 
 
 def _exposed(config: RobotConfig) -> list[dict[str, object]]:
@@ -176,7 +170,7 @@ def used_constants(templates: Path) -> list[dict[str, object]]:
 def _reasons(constants: list[dict[str, object]]) -> list[dict[str, str]]:
     """Reasons that the driver can give, with their texts."""
     known = {constant["name"] for constant in constants}
-    named = [(f"ROS_REASON_{reason.name}", text) for reason, text in spec.REASON_TEXTS.items()]
+    named = [(f"ROS_REASON_{reason.name}", reason.text) for reason in spec.Reason]
     return [{"name": name, "text": text} for name, text in named if name in known]
 
 
@@ -185,7 +179,7 @@ def to_rapid(joint: Joint, value: float) -> float:
     return math.degrees(value) if joint.kind == "revolute" else value * _MM
 
 
-def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]:
+def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]:
     joint = group.joints[n - 1]
     policy = config.trajectory
     revolute = joint.kind == "revolute"
@@ -214,7 +208,7 @@ def _joint(config: RobotConfig, group: MotionGroup, n: int) -> dict[str, object]
     }
 
 
-def _axes(group: MotionGroup, names: list[str], absent: str) -> list[str]:
+def _axes(group: GroupConfig, names: list[str], absent: str) -> list[str]:
     """Members of a robjoint or extjoint: the variable of each joint, `absent` where is none."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
     return [joints.get(name, absent) for name in names]
@@ -249,7 +243,7 @@ def _list(values: tuple[float, ...], factor: float = 1.0) -> str:
     return "[" + ",".join(literal(v * factor) for v in values) + "]"
 
 
-def _frame(frame: Frame) -> str:
+def _frame(frame: Placement) -> str:
     return f"[{_list(frame.position, _MM)},{_list(frame.orientation)}]"
 
 

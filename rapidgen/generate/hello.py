@@ -3,14 +3,15 @@
 import re
 
 from rapidgen import __version__
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.generate.numbers import literal
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message.declaration import Wire
 from rapidgen.wire.simple_message.mapping import mapping_hash
-from rapidgen.wire.simple_message.spec import Feature, ReplyCode, Wire
+from rapidgen.wire.simple_message.spec import Feature, ReplyCode
 
 
-def features(config: RobotConfig, group: MotionGroup) -> Feature:
+def features(config: RobotConfig, group: GroupConfig) -> Feature:
     """What the driver of a group can do beyond the standard messages."""
     found = Feature.PROGRESS | Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK
     if group.ports.control:
@@ -20,7 +21,7 @@ def features(config: RobotConfig, group: MotionGroup) -> Feature:
     return found
 
 
-def hello_reply(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[str, object]:
+def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[str, object]:
     """The reply to HELLO as pack instructions, in the order of the specification.
 
     The first of a field that is not zero has its `label`, for people who read the module.
@@ -55,14 +56,13 @@ def hello_reply(config: RobotConfig, group: MotionGroup, build_id: str) -> dict[
         # One place of the ring stays free.
         "ring": [str(policy.ring - 1)],
         "preload": [literal(policy.preload)],
-        "batch": [str(spec.batch_points(len(joints)))],
+        "batch": [str(messages.batch_points(len(joints)))],
         "signals": [str(len(config.signals) if group.ports.control else 0)],
     }
     forms = {Wire.INT32: "\\IntX:=DINT", Wire.FLOAT32: "\\Float4", Wire.CHAR: "\\ASCII"}
-    reply = next(r for r in spec.HELLO.replies if r.code is ReplyCode.SUCCESS)
     items = []
     offset = spec.PREFIX_BYTES + spec.HEADER_BYTES + 1
-    for field in reply.fields:
+    for field in messages.HELLO.reply(ReplyCode.SUCCESS).fields:
         given = values[field.name]
         step = field.size if field.type is Wire.CHAR else field.type.size
         label = field.name.replace("_", " ") + (f", {field.unit}" if field.unit else "")

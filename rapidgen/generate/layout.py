@@ -6,7 +6,7 @@ group) and its reasons are in docs/use/driver.md.
 
 from dataclasses import dataclass, replace
 
-from rapidgen.config.model import Joint, MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, Joint, RobotConfig
 from rapidgen.system import (
     Attribute,
     CfgText,
@@ -59,12 +59,12 @@ ROLES = (
 SYSTEM_MODULES = (COMMON, LIMITS, MESSAGES, SOCKET)
 
 
-def roles(group: MotionGroup) -> tuple[Role, ...]:
+def roles(group: GroupConfig) -> tuple[Role, ...]:
     """The tasks of a group: without a control port there is no control server."""
     return tuple(role for role in ROLES if group.ports.control or role.name != "control")
 
 
-def modules(group: MotionGroup) -> tuple[str, ...]:
+def modules(group: GroupConfig) -> tuple[str, ...]:
     """Modules of a group, each once: those that several tasks load first."""
     return tuple(dict.fromkeys((*SYSTEM_MODULES, *(m for r in roles(group) for m in r.modules))))
 
@@ -117,26 +117,26 @@ STATUS_SIGNALS = (
 )
 
 
-def suffix(config: RobotConfig, group: MotionGroup) -> str:
+def suffix(config: RobotConfig, group: GroupConfig) -> str:
     """What tells names of this group from those of the others: nothing when it is the only one."""
     if len(config.groups) == 1:
         return ""
     return f"_{config.groups.index(group) + 1}"
 
 
-def task_name(config: RobotConfig, group: MotionGroup, role: Role) -> str:
+def task_name(config: RobotConfig, group: GroupConfig, role: Role) -> str:
     """Name of the task that plays `role` for a group."""
     return (role.task + suffix(config, group)) if role.task else group.task
 
 
-def module_file(config: RobotConfig, group: MotionGroup, module: str) -> str:
+def module_file(config: RobotConfig, group: GroupConfig, module: str) -> str:
     """Path of a module below HOME. Groups have a folder each: their PERS differ in name."""
     kind = "sys" if module in SYSTEM_MODULES else "mod"
     ending = f"{kind}x" if config.robotware[0] >= 7 else kind
     return f"ROS{suffix(config, group)}/{module}.{ending}"
 
 
-def signal_name(config: RobotConfig, group: MotionGroup, signal: StatusSignal) -> str:
+def signal_name(config: RobotConfig, group: GroupConfig, signal: StatusSignal) -> str:
     """Name of a status signal, for a group where it has its own."""
     return signal.base + (suffix(config, group) if signal.per_group else "")
 
@@ -190,13 +190,13 @@ def with_data(system: System, files: dict[str, ModuleFile]) -> System:
     )
 
 
-def unit_group(group: MotionGroup) -> str:
+def unit_group(group: GroupConfig) -> str:
     """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_L of ROB_L."""
     head, _, tail = group.mechanical_unit.partition("_")
     return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
 
 
-def arm(group: MotionGroup, joint: Joint) -> str:
+def arm(group: GroupConfig, joint: Joint) -> str:
     """Name of the ARM in the controller's MOC that holds the limits of a joint, empty: not known.
 
     Robot axes have the unit's name and their number, also the seventh axis of a YuMi arm [code]:
@@ -223,7 +223,7 @@ def sio_cfg() -> CfgText:
     return CfgText("SIO", (7, 0), (Section("FIREWALL_MANAGER", (rule,)),))
 
 
-def _task(config: RobotConfig, group: MotionGroup, role: Role) -> TaskSpec:
+def _task(config: RobotConfig, group: GroupConfig, role: Role) -> TaskSpec:
     motion = not role.task
     background: TaskType = "NORMAL" if config.commissioning else "SEMISTATIC"
     modules = tuple(

@@ -4,7 +4,7 @@ SYS and EIO are those of the system; of MOC there is ARM with the axes' limits (
 programs ask for them. A written value stays here: nothing is reconfigured by it.
 """
 
-from rapidgen.config.model import Joint, MotionGroup
+from rapidgen.config.model import GroupConfig, Joint
 from rapidgen.system import CfgText, System, eio_cfg, sys_cfg
 from rapidgen.system.cfg import Attribute, Instance, Scalar, Section, write_cfg
 
@@ -14,7 +14,7 @@ _Values = dict[str, Scalar | bool]
 class Configuration:
     """Instances by domain, type and name, without case."""
 
-    def __init__(self, system: System, groups: tuple[MotionGroup, ...]) -> None:
+    def __init__(self, system: System, groups: tuple[GroupConfig, ...]) -> None:
         self._texts = {text.domain: text for text in (sys_cfg(system), eio_cfg(system))}
         version = next(iter(self._texts.values())).version
         arms = tuple(_arm(group, joint) for group in groups for joint in group.joints)
@@ -53,7 +53,7 @@ class Configuration:
         return write_cfg(self._texts[domain])
 
 
-def _arm(group: MotionGroup, joint: Joint) -> Instance:
+def _arm(group: GroupConfig, joint: Joint) -> Instance:
     return Instance(
         (
             Attribute("Name", (arm_name(group, joint),)),
@@ -63,7 +63,7 @@ def _arm(group: MotionGroup, joint: Joint) -> Instance:
     )
 
 
-def arm_name(group: MotionGroup, joint: Joint) -> str:
+def arm_name(group: GroupConfig, joint: Joint) -> str:
     """Name of the ARM of a joint, as in backups of controllers and in public RAPID.
 
     rob1_1 to rob1_6 of ROB_1, rob_R_7 the seventh axis of a YuMi; an external axis is called as

@@ -9,11 +9,9 @@ import os
 import shutil
 import tempfile
 import weakref
+from enum import StrEnum
 from pathlib import Path
 from typing import BinaryIO
-
-from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import register_type
 
 _DEVICES = {
     "home:": "HOME",
@@ -33,8 +31,23 @@ MAX_OPEN = 64
 """Files and folders of one controller that may be open at a time."""
 
 
+class DiskReason(StrEnum):
+    """Why a disk refuses something."""
+
+    NO_ACCESS = "no access"
+    TOO_MANY_OPEN = "too many open files"
+
+
+class DiskFault(Exception):
+    """A disk refuses something; the text says what."""
+
+    def __init__(self, reason: DiskReason, text: str = "") -> None:
+        super().__init__(text or reason.value)
+        self.reason = reason
+
+
 class IODevice:
-    """An `iodev` datum: an open file, or nothing."""
+    """What a program opens files with: an open file, or nothing."""
 
     __slots__ = ("binary", "file", "path", "readable", "writable")
 
@@ -47,16 +60,12 @@ class IODevice:
 
 
 class Directory:
-    """A `dir` datum: the names of a folder that are still to be read, or None."""
+    """What a program reads folders with: the names that are still to be read, or None."""
 
     __slots__ = ("names",)
 
     def __init__(self) -> None:
         self.names: list[str] | None = None
-
-
-register_type("iodev", IODevice)
-register_type("dir", Directory)
 
 
 _SCRATCH: dict[Path, int] = {}
@@ -107,28 +116,28 @@ class FileSystem:
             self._scratch()
 
     def path(self, text: str, file: str = "") -> Path:
-        """Where a RAPID path (with \\File behind it) lies; relative ones are in HOME:.
+        """Where a path (with a file's name behind it) lies; relative ones are in HOME:.
 
-        RapidError ERR_FILEACC: it names no disk, or leads out of it.
+        DiskFault NO_ACCESS: it names no disk, or leads out of it.
         """
         if file:
             text = text.rstrip("/\\") + "/" + file if not text.endswith(":") else text + file
         device, rest = _split(text)
         folder = _DEVICES.get(device)
         if folder is None or "\0" in rest:
-            raise RapidError("ERR_FILEACC", f"no disk for '{text}'")
+            raise DiskFault(DiskReason.NO_ACCESS, f"no disk for '{text}'")
         place = self.folder / folder
         for part in rest.replace("\\", "/").split("/"):
             if part in ("", "."):
                 continue
             if part == "..":
                 if place == self.folder / folder:
-                    raise RapidError("ERR_FILEACC", f"'{text}' leads out of {device.upper()}")
+                    raise DiskFault(DiskReason.NO_ACCESS, f"'{text}' leads out of {device.upper()}")
                 place = place.parent
             else:
                 place = _find(place, part)
         if not self._inside(place):
-            raise RapidError("ERR_FILEACC", f"'{text}' leads out of the controller")
+            raise DiskFault(DiskReason.NO_ACCESS, f"'{text}' leads out of the controller")
         return place
 
     def _inside(self, place: Path) -> bool:
@@ -141,9 +150,9 @@ class FileSystem:
             return False
 
     def hold(self, device: IODevice | Directory, task: str) -> None:
-        """A file or folder is open for a task; ERR_FILEOPEN when too many are."""
+        """A file or folder is open for a task; DiskFault TOO_MANY_OPEN."""
         if len(self._open) >= MAX_OPEN:
-            raise RapidError("ERR_FILEOPEN", f"{MAX_OPEN} files are open")
+            raise DiskFault(DiskReason.TOO_MANY_OPEN, f"{MAX_OPEN} files are open")
         self._open[device] = task
 
     def release(self, device: IODevice | Directory) -> None:
@@ -161,9 +170,9 @@ class FileSystem:
             self.release(device)
 
     def spend(self, count: int) -> None:
-        """Account for bytes that are written; ERR_FILEACC when the disk is full."""
+        """Account for bytes that are written; DiskFault NO_ACCESS when the disk is full."""
         if count > self._room:
-            raise RapidError("ERR_FILEACC", "the disk is full")
+            raise DiskFault(DiskReason.NO_ACCESS, "the disk is full")
         self._room -= count
 
     @property

@@ -12,8 +12,6 @@ from typing import Final
 
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
-from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import register_type
 from rapidgen.system.model import CrossConnection, SignalSpec, System
 
 # How a status is spelled in SYSSIG_OUT. First of each row: the name used by `report`. "Error",
@@ -77,7 +75,7 @@ class Signal:
 
     @property
     def signal(self) -> "Signal":
-        """This signal; of an alias the one behind it."""
+        """Itself: where a program gives a signal it may also give an alias of one."""
         return self
 
     @property
@@ -99,35 +97,6 @@ class Signal:
         if not math.isfinite(value) or value != int(value) or not 0 <= value <= self.largest:
             raise ValueError(f"{value:g} does not fit {self.name} (0 to {self.largest:g})")
         return int(value)
-
-
-class SignalAlias:
-    """A signal that a program declares: nothing until AliasIO connects it."""
-
-    __slots__ = ("target", "type")
-
-    def __init__(self, type: str) -> None:
-        self.type = type
-        self.target: Signal | None = None
-
-    @property
-    def signal(self) -> Signal:
-        """The signal behind the alias; ERR_NO_ALIASIO_DEF when there is none."""
-        if self.target is None:
-            raise RapidError("ERR_NO_ALIASIO_DEF")
-        return self.target
-
-    @property
-    def value(self) -> float:
-        """Its value, for expressions such as `IF di1 = 1`."""
-        return self.signal.value
-
-
-AnySignal = Signal | SignalAlias
-"""What a VAR signalxx argument is: both have `.signal` and `.value`."""
-
-for _type in ("DI", "DO", "GI", "GO", "AI", "AO"):
-    register_type(f"signal{_type}", lambda type=_type: SignalAlias(type), "semivalue")  # type: ignore[misc]
 
 
 @dataclass(frozen=True, slots=True)

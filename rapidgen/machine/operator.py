@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.diagnostics import DiagnosticError, Span, error
 from rapidgen.machine.scheduler import S, Scheduler, WaitSet
 
 ROW = 40
@@ -164,8 +164,8 @@ class Operator:
         if question in self.questions:
             try:
                 self.answer(question.number, value)
-            except ValueError as error:
-                question.refused = f"answer '{value}' refused: {error}"
+            except ValueError as fault:
+                question.refused = f"answer '{value}' refused: {fault}"
                 self.show(question.refused)
 
 
@@ -179,10 +179,10 @@ def read_answers(path: Path) -> list[Answer]:
 
     try:
         entries = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise _unreadable(path, error.strerror or str(error)) from error
-    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
-        raise _unreadable(path, str(error).splitlines()[0]) from error
+    except OSError as fault:
+        raise _unreadable(path, fault.strerror or str(fault)) from fault
+    except (UnicodeDecodeError, YAMLError, RecursionError) as fault:
+        raise _unreadable(path, str(fault).splitlines()[0]) from fault
     if not isinstance(entries, list):
         raise _unreadable(path, "it holds no list")
     return [_entry(path, i, entry) for i, entry in enumerate(entries, 1)]
@@ -210,11 +210,10 @@ def _text(value: object) -> str:
 
 def _unreadable(path: Path, reason: str) -> DiagnosticError:
     return DiagnosticError(
-        Diagnostic(
-            code="RG420",
-            severity=Severity.ERROR,
-            message=f"the script of answers cannot be used: {reason}",
-            span=Span(str(path), 1, 1),
-            help="a YAML list: `- 2`, or `- {dialog: TPReadNum, text: parts, answer: 2}`",
+        error(
+            "RG420",
+            Span(str(path), 1, 1),
+            f"the script of answers cannot be used: {reason}",
+            "a YAML list: `- 2`, or `- {dialog: TPReadNum, text: parts, answer: 2}`",
         )
     )

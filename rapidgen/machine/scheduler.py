@@ -1,4 +1,4 @@
-"""Time, events and the one CPU that all RAPID tasks share.
+"""Time, events and the one CPU that all processes (`process.py`) share.
 
 Everything of one controller runs on one thread: events are plain callbacks that never wait,
 processes are greenlets. `now` is integer nanoseconds. On the virtual clock time passes only by
@@ -19,7 +19,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterable
 from itertools import count
-from typing import Literal, TypeAlias, get_args
+from typing import Literal, Protocol, TypeAlias, get_args
 
 import greenlet
 
@@ -83,108 +83,20 @@ class WaitSet:
         return bool(self.w)
 
 
-class Process:
-    """A greenlet that is charged for what it does. RAPID tasks are processes.
+class Runnable(Protocol):
+    """What the scheduler dispatches; `process.py` has it."""
 
-    `body` runs in the greenlet; `attend()` is called at every poll and after every wait and is
-    where a task serves traps and stops.
-    """
-
-    __slots__ = ("_blocked", "_greenlet", "b", "name", "scheduler", "slice_end")
-
-    def __init__(self, scheduler: "Scheduler", name: str) -> None:
-        self.scheduler = scheduler
-        self.name = name
-        self.b = 0
-        self.slice_end = 0
-        self._blocked = False
-        self._greenlet: greenlet.greenlet | None = None
-
-    # -- for the scheduler and its owner -----------------------------------------------------------
-
-    def launch(self, body: Callable[[], None]) -> None:
-        """Start `body` in a fresh greenlet at the next turn."""
-        self._greenlet = greenlet.greenlet(body)
-        self._blocked = False
-        self.scheduler.ready.append(self)
+    b: int
+    """Nanoseconds that are left until anything can concern it."""
+    slice_end: int
+    body: greenlet.greenlet | None
 
     def abandon(self) -> None:
-        """End the greenlet where it is; nothing wakes it any more. It can be launched again."""
-        self._blocked = False
-        self._greenlet = None
-
-    @property
-    def alive(self) -> bool:
-        """Whether the body has been launched and has not returned."""
-        return self._greenlet is not None and not self._greenlet.dead
-
-    @property
-    def frame(self) -> object:
-        """Innermost Python frame of a suspended process, for call stacks."""
-        return self._greenlet.gr_frame if self._greenlet is not None else None
-
-    def wake(self) -> None:
-        """Make a blocked process ready; it looks at the reason itself."""
-        if self._blocked:
-            self._blocked = False
-            self.scheduler.ready.append(self)
-
-    def attend(self) -> None:
-        """Hook: called in the process after every poll and every wait."""
-
-    # -- inside the process ----------------------------------------------------------------------
-
-    def block(self) -> None:
-        """Give the CPU away until somebody calls `wake()`; then `attend()`."""
-        self._blocked = True
-        self.scheduler.suspend(self)
-        self.attend()
-
-    def poll(self, b: int) -> int:
-        """Account for a spent budget, let the world go on, return the next budget."""
-        self.b = b
-        scheduler = self.scheduler
-        if scheduler.catch_up(self):
-            scheduler.suspend(self)
-        else:
-            scheduler.grant(self)
-        self.attend()
-        return self.b
-
-    def give_way(self) -> None:
-        """Go to the end of the queue when others are ready; then `attend()`."""
-        self.switch()
-        self.attend()
-
-    def switch(self) -> None:
-        """Go to the end of the queue when others are ready, in the middle of a statement."""
-        scheduler = self.scheduler
-        if scheduler.catch_up(self):
-            scheduler.suspend(self)
-        elif scheduler.ready:
-            scheduler.ready.append(self)
-            scheduler.suspend(self)
-        else:
-            scheduler.grant(self)
-
-    def charge(self, cost: int) -> None:
-        """Spend `cost` nanoseconds of CPU."""
-        self.b -= cost
-        if self.b < 0:
-            self.poll(self.b)
-
-    def kick(self) -> None:
-        """Let `attend()` be called before the next statement."""
-        scheduler = self.scheduler
-        if scheduler.running is self:
-            scheduler.deadline -= self.b + 1
-            self.b = -1
-        else:
-            self.wake()
+        """End the greenlet where it is."""
 
 
 class Scheduler:
-    """Clock, event heap, scheduler, random sources. Bound to the thread that steps it."""
+    """Clock, event heap, CPU, random sources. Bound to the thread that steps it."""
 
     def __init__(
         self,
@@ -204,8 +116,8 @@ class Scheduler:
         self.seed = seed
         self.rng = random.Random(f"{seed}")
         self._order = random.Random(f"{seed} schedule")
-        self.ready: deque[Process] = deque()
-        self.running: Process | None = None
+        self.ready: deque[Runnable] = deque()
+        self.running: Runnable | None = None
         self.deadline = 0
         self.switches = 0
         self.idle = 0
@@ -213,7 +125,7 @@ class Scheduler:
         self._now = 0
         self._heap: list[tuple[int, int, Timer]] = []
         self._serial = count()
-        self._front: Process | None = None
+        self._front: Runnable | None = None
         self._until: int | None = None
         self._stop: Callable[[], bool] | None = None
         self._stopping = False
@@ -274,7 +186,7 @@ class Scheduler:
                 os.close(handle)
             self._pipe = None
 
-    def close_processes(self, processes: Iterable[Process]) -> None:
+    def close_processes(self, processes: Iterable[Runnable]) -> None:
         """Forget what is ready and end the processes' greenlets, on the thread they ran on.
 
         The collector does not see through a suspended greenlet: one that is left so keeps
@@ -287,7 +199,7 @@ class Scheduler:
             process.abandon()
 
     @property
-    def preempted(self) -> Process | None:
+    def preempted(self) -> Runnable | None:
         """The process that goes on first when time passes again."""
         return self._front
 
@@ -441,7 +353,7 @@ class Scheduler:
             process.slice_end = self._now + self._slice()
         self.switches += 1
         self.grant(process)
-        body = process._greenlet
+        body = process.body
         assert body is not None
         if not body:  # not started: when it ends, the loop goes on here
             body.parent = greenlet.getcurrent()
@@ -461,7 +373,7 @@ class Scheduler:
 
     # -- called by processes ---------------------------------------------------------------------
 
-    def grant(self, process: Process) -> None:
+    def grant(self, process: Runnable) -> None:
         """Give the CPU to `process`: its budget lasts until something may concern it."""
         now = self._now
         limit = now + _LARGEST_BUDGET
@@ -476,7 +388,7 @@ class Scheduler:
         process.b = limit - now
         self.running = process
 
-    def catch_up(self, process: Process) -> bool:
+    def catch_up(self, process: Runnable) -> bool:
         """Account for what `process` spent; True when it must give way now."""
         end = self.deadline - process.b
         self.running = None
@@ -499,7 +411,7 @@ class Scheduler:
             return True
         return False
 
-    def suspend(self, process: Process) -> None:
+    def suspend(self, process: Runnable) -> None:
         """Switch to the loop; returns when `process` is dispatched again."""
         if self.running is process:
             end = self.deadline - process.b

@@ -8,7 +8,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
 from rapidgen.axes.limits import outside
-from rapidgen.motion import events
+from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.motion.moves import (
     NO_TURN,
@@ -23,7 +23,6 @@ from rapidgen.motion.pieces import AxisLimits, Curve, Piece
 from rapidgen.motion.sampling import interval_limits, largest_step, spaced
 from rapidgen.motion.singular import put_tcp, wrist_end, wrist_places
 from rapidgen.motion.timed import SHORTEST, timed
-from rapidgen.runtime.errors import FatalError, RapidError
 
 _STEP = 0.12
 """rad or m of one axis that an interval of the sampling should not exceed."""
@@ -158,17 +157,13 @@ class CartesianWay:
                 break
             if count >= _MOST:
                 if step > _JUMP:
-                    raise FatalError(
-                        events.SINGULARITY,
-                        "Close to singularity",
-                        "an axis would have to turn at once",
-                    )
+                    raise MotionFault(Refusal.SINGULARITY)
                 break
             count = min(_MOST, max(2 * count, min(4 * count, ceil(count * step / _STEP))))
         for node in nodes:
             faults = outside(self._kinematics.group.joints, node)
             if faults:
-                raise RapidError("ERR_ROBLIMIT", str(faults[0]))
+                raise MotionFault(Refusal.OUT_OF_RANGE, faults[0])
         return shares, nodes
 
     def _pose(self, share: float) -> Pose:
@@ -186,7 +181,7 @@ class CartesianWay:
             return self._solve_wrist(share, near)
         found = self._kinematics.follow(self.carrier.at(near).flange(pose), near)
         if found is None:
-            raise RapidError("ERR_OUTSIDE_REACH", f"{tuple(round(v, 4) for v in pose[0])} m")
+            raise MotionFault(Refusal.OUT_OF_REACH, tuple(round(v, 4) for v in pose[0]))
         return found
 
     def _solve_wrist(self, share: float, near: Posture) -> Posture:
@@ -198,7 +193,7 @@ class CartesianWay:
             values[i] = first[i] + (last[i] - first[i]) * share
         found = put_tcp(self._kinematics, self.carrier, self.shape.position(share), tuple(values))
         if found is None:
-            raise RapidError("ERR_OUTSIDE_REACH", "with SingArea \\Wrist")
+            raise MotionFault(Refusal.OUT_OF_REACH_WITH_WRIST)
         return found
 
     @property
@@ -253,13 +248,9 @@ def _shape(start: Pose, move: CartesianMove) -> Line | Arc:
         return Line(start, move.target)
     arc = arc_through(start, move.via, move.target, move.circle)
     if arc is None:
-        raise FatalError(
-            events.CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"
-        )
+        raise MotionFault(Refusal.NO_CIRCLE)
     if arc.sweep > LARGEST_ARC:
-        raise FatalError(
-            events.CIRCLE_UNCERTAIN, "Circle uncertain", "more than 240 degrees in one MoveC"
-        )
+        raise MotionFault(Refusal.CIRCLE_TOO_LONG)
     return arc
 
 

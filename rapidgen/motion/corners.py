@@ -12,6 +12,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Quaternion, Vector
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.motion.cartesian import CartesianWay, external_places, with_external
+from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.legs import Geometry, JointWay, Leg
 from rapidgen.motion.moves import (
     NO_TURN,
@@ -24,7 +25,6 @@ from rapidgen.motion.moves import (
 )
 from rapidgen.motion.pieces import AxisLimits, Curve, Piece, joint_corner
 from rapidgen.motion.sampling import interval_limits, largest_step, sample, spaced
-from rapidgen.runtime.errors import RapidError
 
 Bend = tuple[float, float, list[Piece]]
 """Start and end on the path, and the pieces between."""
@@ -234,7 +234,7 @@ class _Tracker:
             near = with_external(near, self._external(time), self._places)
         found = self._kinematics.follow(self._carrier.at(near).flange(self._pose(time)), near)
         if found is None:
-            raise RapidError("ERR_OUTSIDE_REACH", "in a corner")
+            raise MotionFault(Refusal.OUT_OF_REACH_IN_CORNER)
         return found
 
 
@@ -254,7 +254,7 @@ def _sampled(
                 return None
             at, origin, ceilings = found
             pieces += _curves(at, (low, high), ceilings, tcp)
-    except RapidError:
+    except MotionFault:
         return None  # the corner cannot be reached: the point itself can
     return sections[0][0], sections[-1][1], pieces
 

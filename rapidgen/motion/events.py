@@ -1,20 +1,9 @@
-"""Numbers of the motion events. Those from 49900 and 59900 on are ours: ABB's are not public."""
+"""Events that a robot writes by itself. Numbers from 59900 on are ours: ABB's are not public."""
 
 from rapidgen.machine.log import EventLog
 from rapidgen.motion.moves import Move
 
 CORNER_PATH_FAILURE = 50_024
-SINGULARITY = 50_026
-OUT_OF_RANGE = 50_027
-CIRCLE_UNCERTAIN = 50_063
-NOT_COMPATIBLE = 50_080
-
-NO_UNIT = 49_900
-NO_MOTION_TASK = 49_901
-NOT_ALLOWED = 49_902
-FRAMES_CONTRADICT = 49_904
-NOT_SIMULATED = 49_905
-NO_GEOMETRY = 59_900
 TIME_NOT_MET = 59_901
 
 

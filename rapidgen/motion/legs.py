@@ -7,7 +7,7 @@ from typing import Protocol
 
 from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics
-from rapidgen.config.model import MotionGroup
+from rapidgen.config.model import GroupConfig
 from rapidgen.motion.moves import (
     Carrier,
     JointMove,
@@ -146,7 +146,7 @@ def joint_way(
 
 
 def lever_measure(
-    group: MotionGroup, origin: Posture, target: Posture, lever: float
+    group: GroupConfig, origin: Posture, target: Posture, lever: float
 ) -> tuple[Measure, float]:
     """How far a joint move goes when the robot has no geometry, twice: evenly on the way.
 

@@ -27,8 +27,6 @@ class ModalSettings:
     """SingArea"""
     displacement: Pose = IDENTITY
     """Program displacement, m."""
-    external_offset: tuple[float, ...] = (0.0,) * 6
-    """Offsets of eax_a to eax_f in RAPID units."""
     path_acceleration: float = inf
     """PathAccLim, m/s^2 of the TCP along its path."""
     world_acceleration: float = inf
@@ -39,9 +37,3 @@ class ModalSettings:
     """SpeedLimAxis: rad/s or m/s by axis, while the speed is limited."""
     point_limit: float = inf
     """SpeedLimCheckPoint: m/s of the TCP, while the speed is limited."""
-    partners: frozenset[str] = frozenset()
-    """Tasks that move synchronously with this one, itself included (SyncMoveOn); lower case."""
-    suspended: bool = False
-    """SyncMoveSuspend"""
-    extra: dict[str, object] = field(default_factory=dict)
-    """Settings that change no motion here: kept so that a program can set them."""

@@ -6,7 +6,7 @@ from enum import Enum
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
 from rapidgen.axes.kinematics import Configuration, MovingFrame
-from rapidgen.runtime.errors import RapidError
+from rapidgen.motion.faults import MotionFault, Refusal
 
 Posture = tuple[float, ...]
 """Controller axis values in wire order, rad and m."""
@@ -171,7 +171,7 @@ def nominal_time(measure: Measure, speed: Speed) -> float:
     """s that the slowest part needs at programmed speed; 0 when nothing moves.
 
     All parts end together: the slowest one limits the move (S4 datasys 1-speeddata-1).
-    ERR_ARGVALERR: something has to move at speed 0.
+    MotionFault NO_SPEED: something has to move at speed 0.
     """
     needs = (
         (measure.tcp, speed.tcp),
@@ -183,7 +183,7 @@ def nominal_time(measure: Measure, speed: Speed) -> float:
     for way, rate in needs:
         if way > 1e-12:
             if rate <= 0.0:
-                raise RapidError("ERR_ARGVALERR", "a part of the move has speed 0")
+                raise MotionFault(Refusal.NO_SPEED)
             times.append(way / rate)
     return max(times)
 

@@ -8,8 +8,8 @@ from math import pi
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
+from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.moves import Carrier, CartesianMove, Posture, Singularities
-from rapidgen.runtime.errors import RapidError
 
 _ROUNDS = 25
 _CLOSE = 1e-9
@@ -34,7 +34,7 @@ def wrist_end(
     With \\Wrist a linear move goes to the programmed wrist configuration (S4 datasys 2-ConfL);
     with \\LockAxis4 to the one whose axis 4 is closest to where it is locked, and the little that
     is left is orientation that the target does not get [mem].
-    ERR_OUTSIDE_REACH, ERR_ROBLIMIT: there is none.
+    MotionFault: there is none.
     """
     near = tuple(
         e if joint.axis.startswith("eax") else o
@@ -44,7 +44,7 @@ def wrist_end(
     found = kinematics.solutions(flange, near)
     if not found:
         reached = kinematics.reaches(flange, near)
-        raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH")
+        raise MotionFault(Refusal.NO_POSTURE_IN_RANGE if reached else Refusal.NO_POSTURE)
     if move.singularities is Singularities.LOCK_AXIS_4:
         return _locked(kinematics, move, near, found)
     if move.wanted is not None:
@@ -62,7 +62,7 @@ def _locked(
     values[fourth] = locked
     end = put_tcp(kinematics, move.carrier, move.target[0], tuple(values))
     if end is None:
-        raise RapidError("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4")
+        raise MotionFault(Refusal.OUT_OF_REACH_WITH_AXIS_4)
     return end
 
 

@@ -1,18 +1,14 @@
 """All motion groups of one controller, and which task moves which."""
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
 
-from rapidgen.config.model import MotionGroup as GroupConfig
+from rapidgen.config.model import GroupConfig
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.settings import MotionSettings
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.builtins.motion.together import Gathering
 
 
 class MotionSystem:
@@ -34,8 +30,6 @@ class MotionSystem:
         }
         self._tasks = {g.config.task.lower(): g for g in self.groups.values()}
         self._moving = set(self._tasks)
-        self.gatherings: dict[tuple[frozenset[str], float], Gathering] = {}
-        """Tasks that wait for each other at moves of one \\ID, by partners and \\ID."""
 
     @property
     def settings(self) -> MotionSettings:

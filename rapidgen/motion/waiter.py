@@ -1,4 +1,4 @@
-"""Whoever waits for a robot: what a group needs of a task."""
+"""Whoever waits for a robot."""
 
 from collections.abc import Callable, Iterable
 from typing import Protocol
@@ -7,7 +7,7 @@ from rapidgen.machine.scheduler import WaitSet
 
 
 class Waiter(Protocol):
-    """What a task can do for a move."""
+    """What a group needs of a program: RAPID tasks do it, and Python functions in tests."""
 
     def wait_for(
         self,

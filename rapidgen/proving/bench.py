@@ -13,7 +13,7 @@ from itertools import pairwise
 from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.config.model import MotionGroup, RobotConfig
+from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Coverage
@@ -26,7 +26,8 @@ from rapidgen.proving.model import Broken, Series
 from rapidgen.proving.positions import distance, off
 from rapidgen.rapid import parse
 from rapidgen.rapid.syntax.nodes import Module
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.switches import Dialect
@@ -90,7 +91,7 @@ class Bench:
         config: RobotConfig,
         system: System,
         setting: Setting | None = None,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         controller: VirtualController | None = None,
     ) -> None:
         """Boot. `robots`: the controller's, where they are not the configuration's."""
@@ -102,7 +103,7 @@ class Bench:
         self.controller = controller if controller is not None else self._boot()
         tracked = self.setting.coverage and controller is None
         self._coverage = Coverage(self.controller) if tracked else None
-        self.group: MotionGroup = config.groups[self.setting.group]
+        self.group: GroupConfig = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
         self.orders: list[Order] = []
         self.commanded: list[tuple[float, list[Point]]] = []
@@ -132,7 +133,7 @@ class Bench:
     def beside(
         self,
         system: System,
-        robots: Sequence[MotionGroup] = (),
+        robots: Sequence[GroupConfig] = (),
         setting: Setting | None = None,
     ) -> "Bench":
         """Another controller with another system, other robots or another setting.
@@ -285,11 +286,10 @@ class Bench:
         """Compile all RAPID now, not on first call: copies of this bench then need not."""
         for task in self.controller.rapid_tasks.values():
             for module in task.program.modules.values():
-                for symbol in module.symbols.values():
-                    if isinstance(symbol, Routine) and symbol.node is not None:
-                        # What cannot be linked ends its task when it is called, not here.
-                        with suppress(FatalError):
-                            task.program.function(symbol)
+                for routine in module.routines.values():
+                    # What cannot be linked ends its task when it is called, not here.
+                    with suppress(FatalError):
+                        task.program.function(routine)
 
     def exchange(self, path: str, data: bytes) -> None:
         """Give a module file another text, as if the controller had been booted with it.
@@ -557,8 +557,7 @@ def _exchange(program: Program, module: LoadedModule, tree: Module) -> None:
         new_tokens = tree.source.tokens[node.first : node.last + 1]
         if new_tokens == before.source.tokens[old.first : old.last + 1]:
             continue
-        routine = module.symbols[node.name.casefold()]
-        assert isinstance(routine, Routine)
+        routine = module.routines[node.name.casefold()]
         routine.node = node
         program.codes.pop(program.code_name(routine), None)
         program.space[routine.code] = partial(_call, program, routine)

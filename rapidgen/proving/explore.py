@@ -19,8 +19,9 @@ from itertools import pairwise
 from typing import TextIO
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.controller.faults import Direction, FaultPlan, NetworkRule
+from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Trace
+from rapidgen.machine.network.rules import Direction, NetworkRule
 from rapidgen.proving.bench import FAILURES, Bench, Setting
 from rapidgen.proving.link import STOP, Link, Point, Position
 from rapidgen.proving.model import Broken, Finding
@@ -440,7 +441,7 @@ class _Walk:
         control = self.bench.control()
         if ending == "STOP":
             control.send(STOP)
-            control.reply(spec.JOINT_TRAJ_PT.number, 5)
+            control.reply(messages.JOINT_TRAJ_PT.number, 5)
         elif ending == "pause":
             self.bench.run(self.chance.uniform(0, 1.5))
             if isinstance(control.ask(messages.Pause(1), 5), messages.Acknowledged):
@@ -478,7 +479,7 @@ class _Walk:
         self.bench.until(lambda: bool(control.frames) or control.lost, 5, "STOP is answered")
         # What had not been received to its end by then is not stopped by that.
         link.send(STOP)
-        link.reply(spec.JOINT_TRAJ_PT.number, 5)
+        link.reply(messages.JOINT_TRAJ_PT.number, 5)
         self.bench.wait_until_standing(10)
         self._on_the_way([start, *(p for p, _ in points)], since)
         self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")

@@ -13,6 +13,7 @@ from rapidgen.wire.simple_message import (
     messages,
     spec,
 )
+from rapidgen.wire.simple_message.declaration import Content
 
 if TYPE_CHECKING:
     from rapidgen.proving.bench import Bench
@@ -148,14 +149,14 @@ class Link:
         self._bench.until(arrived, seconds, what)
         return found[0]
 
-    def ask(self, content: messages.Content, seconds: float = 2) -> messages.Content:
+    def ask(self, content: Content, seconds: float = 2) -> Content:
         """Send a request; the reply to it."""
         data = encode(content, spec.Comm.REQUEST)
         self.send(data)
         number = int.from_bytes(data[4:8], "little")
         return self.reply(number, seconds)
 
-    def reply(self, number: int, seconds: float = 2) -> messages.Content:
+    def reply(self, number: int, seconds: float = 2) -> Content:
         """The next reply of a type; what comes before it is passed over."""
         found: list[Frame] = []
 

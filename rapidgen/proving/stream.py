@@ -8,6 +8,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Link, Point
 from rapidgen.proving.model import Broken
 from rapidgen.wire.simple_message import bulk, messages, spec
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import StreamFlag
 
 BEGIN, END, FLUSH = StreamFlag.BEGIN, StreamFlag.END, StreamFlag.FLUSH
@@ -24,7 +25,7 @@ class Streamer:
         self.sent = 0
         """Points sent so far."""
         self.room = bench.config.trajectory.ring - 1
-        self.last: messages.Content | None = None
+        self.last: Content | None = None
         self.points: list[Point] = []
 
     def frame(self, points: Sequence[Point], flags: StreamFlag, first: int | None = None) -> bytes:
@@ -40,9 +41,9 @@ class Streamer:
             raise ValueError(f"{len(points)} points do not fit in one message")
         return found[0]
 
-    def put(self, points: Sequence[Point], flags: StreamFlag = NONE) -> messages.Content:
+    def put(self, points: Sequence[Point], flags: StreamFlag = NONE) -> Content:
         """Send one batch, in several messages where it does not fit into one; the last reply."""
-        most = spec.batch_points(len(self.bench.position))
+        most = messages.batch_points(len(self.bench.position))
         parts = [points[at : at + most] for at in range(0, len(points), most)] or [points]
         for number, part in enumerate(parts):
             own = flags & ~(END | FLUSH) if number + 1 < len(parts) else flags
@@ -52,9 +53,9 @@ class Streamer:
             told = self.reply()
         return told
 
-    def reply(self) -> messages.Content:
+    def reply(self) -> Content:
         """The next reply to a batch."""
-        self.last = self.link.reply(spec.POINTS.number, 5)
+        self.last = self.link.reply(messages.POINTS.number, 5)
         if isinstance(self.last, messages.PointsAccepted):
             self.room = self.last.room
         return self.last

@@ -11,12 +11,13 @@ from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Severity
 from rapidgen.machine.calendar import date_time
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.missing import missing_routines
-from rapidgen.runtime.compiler.program import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import literal_text
-from rapidgen.runtime.values import Cell
+from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile
 
 if TYPE_CHECKING:
@@ -116,9 +117,9 @@ class ModuleTable:
                 raise RapidError("ERR_PATH", "only a loaded module knows its file")
             words = origin.path
         data = module_text(task, loaded).encode(loaded.tree.source.encoding, "replace")
-        task.controller.files.spend(len(data))
+        spend(task, len(data))
         try:
-            task.controller.files.path(words).write_bytes(data)
+            file_path(task, words).write_bytes(data)
         except OSError as error:
             raise RapidError("ERR_IOERROR", f"{words}: {error.strerror}") from error
 
@@ -147,7 +148,7 @@ def words_of(path: str, file: str | None) -> str:
 
 
 def _found(task: "Task", words: str) -> Path:
-    path: Path = task.controller.files.path(words)
+    path = file_path(task, words)
     if not path.is_file():
         raise RapidError("ERR_FILNOTFND", words)
     return path
@@ -166,7 +167,7 @@ def module_text(task: "Task", module: LoadedModule) -> str:
             continue
         data = task.program.find_data(module, key)
         cell = task.program.space.get(data.code) if data is not None else None
-        if isinstance(cell, Cell):
+        if isinstance(cell, PersistentCell):
             start = source.starts[declaration.initial.first]
             last = declaration.initial.last
             end = source.starts[last] + len(source.tokens[last])

@@ -13,7 +13,9 @@ import pkgutil
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Any, Literal, TypeAlias, TypeVar
+from typing import Literal, TypeAlias, TypeVar
+
+from rapidgen.runtime.values import Value
 
 Cost: TypeAlias = Literal["call", "string", "socket", "move"]
 COSTS: dict[Cost, int] = {"call": 5_000, "string": 50_000, "socket": 500_000, "move": 1_000_000}
@@ -29,12 +31,12 @@ class Builtin:
     """
 
     name: str
-    function: Callable[..., Any]
+    function: Callable[..., Value]
     cost: Cost
     pure: bool
 
 
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+_Function = TypeVar("_Function", bound=Callable[..., Value])
 _BOUND: dict[str, Builtin] = {}
 
 

@@ -13,9 +13,14 @@ from keyword import iskeyword
 from typing import Any, Literal, TypeAlias
 
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.builtins import signatures
 from rapidgen.runtime.errors import RapidError
 
+Value: TypeAlias = Any
+"""A RAPID value: float, int, bool, str, a record, an array, or the object of a non-value type."""
 Kind: TypeAlias = Literal["num", "dnum", "bool", "string", "record", "nonvalue", "semivalue"]
+ATOMIC = frozenset({"num", "dnum", "bool", "string"})
+"""Kinds of values without parts."""
 STRING_LIMIT = 80
 """Characters of a string [K §2.13]."""
 _EXACT = 1 << 24
@@ -46,10 +51,10 @@ class Type:
     kind: Kind
     components: tuple[tuple[str, "Type"], ...] = ()
     """Of a record, names in lower case."""
-    make: Callable[[], Any] | None = None
+    make: Callable[[], Value] | None = None
     """Makes a fresh datum with its initial value (record, nonvalue, semivalue)."""
 
-    def default(self) -> Any:  # noqa: ANN401 - a RAPID value of this type
+    def default(self) -> Value:
         """The value of an uninitialised datum [K §2.22]."""
         if self.make is not None:
             return self.make()
@@ -78,15 +83,12 @@ class Record:
     """Attribute names in order."""
     rapid_type: Type
 
-    def copy(self) -> Any:  # noqa: ANN401 - the class itself; generated below
-        """A deep copy."""
-        raise NotImplementedError
+    copy: Callable[[], Value]
+    """A deep copy."""
+    assign: Callable[[Value], None]
+    """Takes over every component of another instance, by value."""
 
-    def assign(self, other: Any) -> None:  # noqa: ANN401
-        """Take over every component of another instance, by value."""
-        raise NotImplementedError
-
-    def values(self) -> tuple[Any, ...]:
+    def values(self) -> tuple[Value, ...]:
         """Components in order."""
         return tuple(getattr(self, name) for name in self.fields)
 
@@ -110,7 +112,7 @@ BOOL = Type("bool", "bool")
 STRING = Type("string", "string")
 
 
-def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Any]:
+def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Value]:
     """A record class with the given components; its `Type` is the class attribute `rapid_type`.
 
     Components may be given by position; those left out start at their default value.
@@ -141,21 +143,21 @@ def make_record(name: str, components: Sequence[tuple[str, Type]]) -> type[Any]:
         "    def __ne__(self, o):",
         f"        return {' or '.join(f'self.{f} != o.{f}' for f in fields) or False}",
     ]
-    scope: dict[str, Any] = {"Record": Record, "new": object.__new__, "T": kinds}
+    scope: dict[str, Value] = {"Record": Record, "new": object.__new__, "T": kinds}
     exec("\n".join(lines), scope)
-    cls: type[Any] = scope["cls"]
+    cls: type[Value] = scope["cls"]
     cls.__module__, cls.__name__, cls.__qualname__ = __name__, name, name
     named = tuple((c.lower(), t) for (c, t) in components)
     cls.rapid_type = Type(name.lower(), "record", named, cls)
     return cls
 
 
-# -- predefined records, components in order -----------------------------------------------------
+# -- predefined records: classes of what rapid/builtins/types.rapid declares ---------------------
 
 
-def _predefine(name: str, components: str) -> type[Any]:
-    parts = [c.strip().split() for c in components.split(",")]
-    cls = make_record(name, [(c, TYPES[t]) for t, c in parts])
+def _predefined(name: str) -> type[Value]:
+    declared = signatures.records()[name.lower()]
+    cls = make_record(name, [(c, TYPES[signatures.alias(t) or t]) for t, c in declared.components])
     TYPES[name.lower()] = cls.rapid_type
     return cls
 
@@ -163,43 +165,29 @@ def _predefine(name: str, components: str) -> type[Any]:
 TYPES: dict[str, Type] = {"num": NUM, "dnum": DNUM, "bool": BOOL, "string": STRING}
 """Predefined types by lower-case name. Aliases of num and others are in the signature data."""
 
-Pos = _predefine("Pos", "num x, num y, num z")
-Orient = _predefine("Orient", "num q1, num q2, num q3, num q4")
-Pose = _predefine("Pose", "pos trans, orient rot")
-ConfData = _predefine("ConfData", "num cf1, num cf4, num cf6, num cfx")
-RobJoint = _predefine(
-    "RobJoint", "num rax_1, num rax_2, num rax_3, num rax_4, num rax_5, num rax_6"
-)
-ExtJoint = _predefine(
-    "ExtJoint", "num eax_a, num eax_b, num eax_c, num eax_d, num eax_e, num eax_f"
-)
-JointTarget = _predefine("JointTarget", "robjoint robax, extjoint extax")
-RobTarget = _predefine("RobTarget", "pos trans, orient rot, confdata robconf, extjoint extax")
-SpeedData = _predefine("SpeedData", "num v_tcp, num v_ori, num v_leax, num v_reax")
-ZoneData = _predefine(
-    "ZoneData",
-    "bool finep, num pzone_tcp, num pzone_ori, num pzone_eax, num zone_ori, num zone_leax,"
-    "num zone_reax",
-)
-InposData = _predefine("InposData", "num position, num speed, num mintime, num maxtime")
-StopPointData = _predefine(
-    "StopPointData",
-    "num type, bool progsynch, inposdata inpos, num stoptime, num followtime, string signal,"
-    "num relation, num checkvalue",
-)
-LoadData = _predefine("LoadData", "num mass, pos cog, orient aom, num ix, num iy, num iz")
-ToolData = _predefine("ToolData", "bool robhold, pose tframe, loaddata tload")
-WobjData = _predefine(
-    "WobjData", "bool robhold, bool ufprog, string ufmec, pose uframe, pose oframe"
-)
-ProgDisp = _predefine("ProgDisp", "pose pdisp, extjoint eoffs")
-EgmMinMax = _predefine("Egm_MinMax", "num min, num max")
-Tasks = _predefine("Tasks", "string taskname")
-ListItem = _predefine("ListItem", "string image, string text")
-RmqHeader = _predefine("RmqHeader", "string datatype, num ndim, num dim1, num dim2, num dim3")
+Pos = _predefined("Pos")
+Orient = _predefined("Orient")
+Pose = _predefined("Pose")
+ConfData = _predefined("ConfData")
+RobJoint = _predefined("RobJoint")
+ExtJoint = _predefined("ExtJoint")
+JointTarget = _predefined("JointTarget")
+RobTarget = _predefined("RobTarget")
+SpeedData = _predefined("SpeedData")
+ZoneData = _predefined("ZoneData")
+InposData = _predefined("InposData")
+StopPointData = _predefined("StopPointData")
+LoadData = _predefined("LoadData")
+ToolData = _predefined("ToolData")
+WobjData = _predefined("WobjData")
+ProgDisp = _predefined("ProgDisp")
+EgmMinMax = _predefined("Egm_MinMax")
+Tasks = _predefined("Tasks")
+ListItem = _predefined("ListItem")
+RmqHeader = _predefined("RmqHeader")
 
 
-def register_type(name: str, make: Callable[[], Any], kind: Kind = "nonvalue") -> Type:
+def register_type(name: str, make: Callable[[], Value], kind: Kind = "nonvalue") -> Type:
     """Declare the Python class behind an atomic type that is no value, e.g. `socketdev`."""
     kept = Type(name.lower(), kind, (), make)
     TYPES[name.lower()] = kept
@@ -209,14 +197,14 @@ def register_type(name: str, make: Callable[[], Any], kind: Kind = "nonvalue") -
 # -- arrays --------------------------------------------------------------------------------------
 
 
-def make_array(dims: Sequence[int], element: Callable[[], Any]) -> dict[int, Any]:
+def make_array(dims: Sequence[int], element: Callable[[], Value]) -> dict[int, Value]:
     """An array of the given sizes, `{1: ..}`, nested for more dimensions."""
     if len(dims) == 1:
         return {i: element() for i in range(1, dims[0] + 1)}
     return {i: make_array(dims[1:], element) for i in range(1, dims[0] + 1)}
 
 
-def dimensions(value: Any, degree: int = 3) -> tuple[int, ...]:  # noqa: ANN401
+def dimensions(value: Value, degree: int = 3) -> tuple[int, ...]:
     """Sizes of an array value; `()` for anything else."""
     sizes = []
     while value.__class__ is dict and degree:
@@ -225,7 +213,7 @@ def dimensions(value: Any, degree: int = 3) -> tuple[int, ...]:  # noqa: ANN401
     return tuple(sizes)
 
 
-def copy_value(value: Any) -> Any:  # noqa: ANN401
+def copy_value(value: Value) -> Value:
     """A copy by value: records and arrays deeply, atoms as they are."""
     if value.__class__ is dict:
         first = value[1]
@@ -235,7 +223,7 @@ def copy_value(value: Any) -> Any:  # noqa: ANN401
     return value.copy() if isinstance(value, Record) else value
 
 
-def assign_array(target: dict[int, Any], value: dict[int, Any]) -> None:
+def assign_array(target: dict[int, Value], value: dict[int, Value]) -> None:
     """Write every element of `value` into `target`, which keeps its elements' identity."""
     if target is value:
         return
@@ -255,12 +243,12 @@ def assign_array(target: dict[int, Any], value: dict[int, Any]) -> None:
 # -- references and cells ------------------------------------------------------------------------
 
 
-class Cell(WaitSet):
+class PersistentCell(WaitSet):
     """One PERS: its value and who watches it. `w` is the list of watchers."""
 
     __slots__ = ("dims", "name", "type", "v")
 
-    def __init__(self, name: str, type: Type, dims: tuple[int, ...], value: Any) -> None:  # noqa: ANN401
+    def __init__(self, name: str, type: Type, dims: tuple[int, ...], value: Value) -> None:
         super().__init__()
         self.name = name
         self.type = type
@@ -268,7 +256,7 @@ class Cell(WaitSet):
         self.v = value
 
     @property
-    def cell(self) -> "Cell":
+    def cell(self) -> "PersistentCell":
         """Itself: a cell stands wherever a built-in wants a `Ref`."""
         return self
 
@@ -277,18 +265,18 @@ class Cell(WaitSet):
         """A cell is a whole PERS."""
         return True
 
-    def get(self) -> Any:  # noqa: ANN401
+    def get(self) -> Value:
         """The current value itself, not a copy. As of any `Ref`."""
         return self.v
 
-    def set(self, value: Any) -> None:  # noqa: ANN401
+    def set(self, value: Value) -> None:
         """Store a value (taken over by value) and wake IPers, WaitUntil and whoever waits."""
         store(self, value)
         if self.w:
             self.notify()
 
 
-class SharedVariable(Cell):
+class SharedVariable(PersistentCell):
     """One VAR that all tasks have in common: of a shared module [K §14.2]. No persistent."""
 
     __slots__ = ()
@@ -307,7 +295,7 @@ class Ref:
     """
 
     __slots__ = ("cell", "dims", "name", "type", "whole")
-    v: Any
+    v: Value
 
     def __init__(
         self,
@@ -316,7 +304,7 @@ class Ref:
         name: str = "",
         *,
         whole: bool = True,
-        cell: Cell | None = None,
+        cell: PersistentCell | None = None,
     ) -> None:
         self.type = type
         self.dims = dims
@@ -327,11 +315,11 @@ class Ref:
         self.cell = cell
         """The cell when it is (part of) a PERS."""
 
-    def get(self) -> Any:  # noqa: ANN401
+    def get(self) -> Value:
         """The current value itself, not a copy."""
         return self.v
 
-    def set(self, value: Any) -> None:  # noqa: ANN401
+    def set(self, value: Value) -> None:
         """Store a value."""
         store(self, value)
         if self.cell is not None and self.cell.w:
@@ -343,7 +331,9 @@ class Box(Ref):
 
     __slots__ = ("v",)
 
-    def __init__(self, value: Any, type: Type, dims: tuple[int, ...] = (), name: str = "") -> None:  # noqa: ANN401
+    def __init__(
+        self, value: Value, type: Type, dims: tuple[int, ...] = (), name: str = ""
+    ) -> None:
         super().__init__(type, dims, name)
         self.v = value
 
@@ -355,30 +345,30 @@ class View(Ref):
 
     def __init__(
         self,
-        get: Callable[[], Any],
-        put: Callable[[Any], None],
+        get: Callable[[], Value],
+        put: Callable[[Value], None],
         type: Type,
         dims: tuple[int, ...] = (),
         name: str = "",
         *,
         whole: bool = True,
-        cell: Cell | None = None,
+        cell: PersistentCell | None = None,
     ) -> None:
         super().__init__(type, dims, name, whole=whole, cell=cell)
         self._get = get
         self._put = put
 
     @property
-    def v(self) -> Any:  # noqa: ANN401
+    def v(self) -> Value:
         """The value."""
         return self._get()
 
     @v.setter
-    def v(self, value: Any) -> None:  # noqa: ANN401
+    def v(self, value: Value) -> None:
         self._put(value)
 
 
-def store(target: "Ref | Cell", value: Any) -> None:  # noqa: ANN401
+def store(target: "Ref | PersistentCell", value: Value) -> None:
     """Store by value what a built-in made: rounded, limited, copied."""
     kind = target.type.kind
     if target.dims:

@@ -79,10 +79,10 @@ def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "
 
     Raises DiagnosticError RG701..RG712.
     """
+    from rapidgen.diagnostics import refusal
     from rapidgen.system.backup import is_backup, read_backup
     from rapidgen.system.folder import is_generated, read_folder
     from rapidgen.system.loose import read_files
-    from rapidgen.system.paths import refusal
 
     path = Path(path)
     if path.is_dir():
@@ -91,5 +91,5 @@ def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "
         if is_backup(path):
             return read_backup(path, notes=notes)
     elif not path.exists():
-        raise refusal("RG704", f"there is no {path}", help="check the path for a slip")
+        raise refusal("RG704", None, f"there is no {path}", "check the path for a slip")
     return read_files([path], name=path.resolve().stem)

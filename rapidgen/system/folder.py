@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.diagnostics import DiagnosticError, Span, refusal
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.interpret import (
     crosses_of,
@@ -35,8 +35,8 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     path = inside(folder, MANIFEST)
     try:
         manifest = json.loads(read_limited(path))
-    except (ValueError, RecursionError) as error:
-        raise _bad(path, f"it is not JSON: {error}") from error
+    except (ValueError, RecursionError) as fault:
+        raise _bad(path, f"it is not JSON: {fault}") from fault
     if not isinstance(manifest, dict) or not isinstance(manifest.get("format"), int):
         raise _bad(path, "it has no format number")
     if manifest["format"] != FORMAT:
@@ -106,8 +106,8 @@ def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
             origins[relative] = expand_lines(
                 [(int(a), str(b), int(c)) for a, b, c in lines], data.count(b"\n")
             )
-        except (TypeError, ValueError) as error:
-            raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from error
+        except (TypeError, ValueError) as fault:
+            raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from fault
     return origins
 
 
@@ -122,15 +122,12 @@ def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
 
 
 def _bad(path: Path, label: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG711",
-            Severity.ERROR,
-            "manifest.json is not one that rapidgen wrote",
-            Span(str(path), 1, 1),
-            label,
-            "build the folder again with 'rapidgen build'",
-        )
+    return refusal(
+        "RG711",
+        Span(str(path), 1, 1),
+        "manifest.json is not one that rapidgen wrote",
+        "build the folder again with 'rapidgen build'",
+        label=label,
     )
 
 

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal, cast, get_args
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+from rapidgen.diagnostics import DiagnosticError, Span, refusal, suggest
 from rapidgen.system.cfg import Attribute, CfgText, Instance, Scalar, Section
 from rapidgen.system.model import (
     CrossConnection,
@@ -394,13 +394,10 @@ def _bits(mapped: str) -> tuple[int, ...]:
 
 
 def _fault(cfg: CfgText, instance: Instance, label: str, help: str = "") -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG708",
-            Severity.ERROR,
-            "an instance in a cfg file cannot be understood",
-            Span(cfg.path, max(instance.line, 1), 1),
-            label,
-            help,
-        )
+    return refusal(
+        "RG708",
+        Span(cfg.path, max(instance.line, 1), 1),
+        "an instance in a cfg file cannot be understood",
+        help,
+        label=label,
     )

@@ -18,16 +18,22 @@ from collections.abc import Callable, Coroutine
 from typing import Any, TypeVar
 
 from rapidgen.controller.controller import Deadlock, VirtualController
-from rapidgen.machine.network.interface import BUFFER, Endpoint, Network, NetworkFault, Reason
+from rapidgen.machine.network.interface import (
+    BUFFER,
+    Endpoint,
+    Network,
+    NetworkFault,
+    NetworkReason,
+)
 
 _T = TypeVar("_T")
 HIGH_WATER = BUFFER
 """Bytes that a transport holds before it asks its writer to pause."""
 
-_ERRORS: dict[Reason, type[OSError]] = {
-    Reason.REFUSED: ConnectionRefusedError,
-    Reason.RESET: ConnectionResetError,
-    Reason.CLOSED: BrokenPipeError,
+_ERRORS: dict[NetworkReason, type[OSError]] = {
+    NetworkReason.REFUSED: ConnectionRefusedError,
+    NetworkReason.RESET: ConnectionResetError,
+    NetworkReason.CLOSED: BrokenPipeError,
 }
 
 

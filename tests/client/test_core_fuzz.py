@@ -13,12 +13,12 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from rapidgen.client.checks import piece
-from rapidgen.client.core import Core, Timeouts
+from rapidgen.client.core.checks import piece
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import Phase
+from rapidgen.client.core.robot import Core, Timeouts
+from rapidgen.client.core.stream import PointStream
 from rapidgen.client.errors import ConnectionLost, ProtocolError, RobotTimeout
-from rapidgen.client.group import Group
-from rapidgen.client.motion import Phase
-from rapidgen.client.stream import StreamRun
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import (
     ContentError,
@@ -82,12 +82,12 @@ class CoreMachine(RuleBasedStateMachine):
 
     @property
     def run(self):
-        return self.core.run
+        return self.core.motion
 
     def owner(self):
         """What both clients do whenever something has changed."""
         for port in self.core.blind_stops():
-            assert self.core.talks[port].is_open
+            assert self.core.ports[port].is_open
             self.stops += 1
         for port in (Port.CONTROL, Port.MOTION):
             while (frame := self.core.due(port)) is not None:
@@ -116,7 +116,7 @@ class CoreMachine(RuleBasedStateMachine):
         times = self.time + 0.1 * np.arange(count)
         points = Trajectory(times, np.zeros((count, 6)))
         if self.run is None or self.run.is_over:
-            self.core.run = None
+            self.core.motion = None
             times = 0.1 * np.arange(count)
             points = Trajectory(times, np.zeros((count, 6)))
             checked = piece(points, self.core.known_group, before=None, start=(0.0,) * 10)
@@ -150,7 +150,7 @@ class CoreMachine(RuleBasedStateMachine):
     def refused(self, reason, point, joint, accepted):
         stream, _ = self.waiting.popleft()
         told = messages.PointsRefused(stream, 1, accepted, reason, point, joint)
-        self.cut |= self.core.talks[Port.MOTION].is_open and stream == self.run.stream
+        self.cut |= self.core.ports[Port.MOTION].is_open and stream == self.run.stream
         self.take(Port.MOTION, encode_reply(1302, told))
 
     @precondition(lambda self: self.run is not None)
@@ -198,12 +198,12 @@ class CoreMachine(RuleBasedStateMachine):
         self.take(port, data)
         # what is half received would make garbage of all that follows
         if port is Port.STATE:
-            self.core.tracker._splitter = FrameSplitter()
+            self.core.state_port._splitter = FrameSplitter()
         else:
-            self.core.talks[port].splitter = FrameSplitter()
+            self.core.ports[port].splitter = FrameSplitter()
 
     def take(self, port, data):
-        is_open = self.core.state_open if port is Port.STATE else self.core.talks[port].is_open
+        is_open = self.core.state_open if port is Port.STATE else self.core.ports[port].is_open
         if is_open:
             self.core.received(port, data)
         self.owner()
@@ -221,7 +221,7 @@ class CoreMachine(RuleBasedStateMachine):
     @rule()
     def connect_again(self):
         for port in (Port.STATE, Port.MOTION, Port.CONTROL):
-            is_open = self.core.state_open if port is Port.STATE else self.core.talks[port].is_open
+            is_open = self.core.state_open if port is Port.STATE else self.core.ports[port].is_open
             if not is_open:
                 self.core.opened(port)
                 if port is Port.MOTION:
@@ -235,7 +235,7 @@ class CoreMachine(RuleBasedStateMachine):
         run = self.run if hasattr(self, "core") else None
         if run is None:
             return
-        assert isinstance(run, StreamRun)
+        assert isinstance(run, PointStream)
         progress = run.progress
         assert 0 <= progress.reached <= progress.planned <= self.sent <= progress.total
         assert progress.received <= self.sent
@@ -246,8 +246,8 @@ class CoreMachine(RuleBasedStateMachine):
             blind = ConnectionLost | RobotTimeout | ProtocolError
             if isinstance(run.error, blind):
                 assert self.core.blind_stops() == []
-        assert len(self.core.tracker.messages) <= 32
-        assert len(self.core.tracker.events) <= 64
+        assert len(self.core.state_port.messages) <= 32
+        assert len(self.core.state_port.events) <= 64
 
 
 TestCore = CoreMachine.TestCase

@@ -134,7 +134,7 @@ class ClientAndController(RuleBasedStateMachine):
 
     @property
     def has_control(self):
-        return self.robot._core.talks[Port.CONTROL].is_open
+        return self.robot._core.ports[Port.CONTROL].is_open
 
     @rule(column=st.integers(0, 5), value=st.sampled_from([9.0, -9.0, float("nan")]))
     def execute_what_is_wrong(self, column, value):

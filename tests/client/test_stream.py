@@ -25,7 +25,7 @@ from rapidgen.client import (
     TrajectoryRefused,
 )
 from rapidgen.config import load_config
-from rapidgen.config.model import Signal
+from rapidgen.config.model import ExposedSignal
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 SPEED = 40
@@ -142,7 +142,7 @@ def test_stop_from_another_thread(fake, client):
         # the controller's own word, by the control port
         assert stream.stopped_position == pytest.approx(controller.script.stream.position)
         assert state.joints == pytest.approx(controller.script.stream.position, abs=1e-6)
-        assert robot._core.run.stood is not None
+        assert robot._core.motion.stood is not None
 
 
 def test_closing_stops_a_stream(fake, client):
@@ -250,7 +250,7 @@ def test_pause_speed_and_signals(fake, client):
 
 def test_signals_have_names_and_rights(fake, client):
     config = load_config("irb120")
-    signals = (Signal("gripper", "DO", "write"), Signal("pressure", "AI", "read"))
+    signals = (ExposedSignal("gripper", "DO", "write"), ExposedSignal("pressure", "AI", "read"))
     config = dataclasses.replace(config, signals=signals)
     controller = fake(**streams(), mapping=_mapping(config))
     with client(config, address=controller.address) as robot:
@@ -263,7 +263,7 @@ def test_signals_have_names_and_rights(fake, client):
 
 
 def _mapping(config):
-    from rapidgen.client.group import Group
+    from rapidgen.client.core.group import Group
 
     return Group.of(config, config.groups[0]).mapping
 
@@ -353,7 +353,7 @@ def test_feedback(fake, client):
 
     with client(controller.address, feedback=True) as robot:
         controller.extra = told(999.5)
-        assert comes(lambda: robot._core.tracker.feedbacks == 1)
+        assert comes(lambda: robot._core.state_port.feedbacks == 1)
         controller.extra = told(0.5)
         feedback = robot.next_feedback()
         # where the wire's clock began again, this one goes on

@@ -117,7 +117,7 @@ def test_indices_wrap(monkeypatch):
     # 2^23 points would take too long: fewer bits, the same arithmetic
     import fake_stream
 
-    from rapidgen.client import stream as module
+    from rapidgen.client.core import stream as module
     from rapidgen.wire.simple_message import bulk
 
     for place in (module, bulk):
@@ -137,7 +137,7 @@ def test_indices_wrap(monkeypatch):
 
 
 def test_unwrapping():
-    from rapidgen.client.stream import unwrapped
+    from rapidgen.client.core.stream import unwrapped
 
     wrap = spec.INDEX_WRAP
     assert unwrapped(5, 3) == 5

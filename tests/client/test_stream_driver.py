@@ -17,10 +17,10 @@ from rapidgen.client import (
     Timeouts,
     Trajectory,
     TrajectoryRefused,
-    control_flows,
 )
-from rapidgen.client import checks as client_checks
 from rapidgen.client.address import Address
+from rapidgen.client.core import checks as client_checks
+from rapidgen.client.flows import control
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
@@ -284,7 +284,7 @@ def test_signals_are_read_and_written(monkeypatch):
         assert await robot.read_signal(2) == 0
         with pytest.raises(NotSupported, match="reading only"):
             await robot.write_signal("present", 1)
-        monkeypatch.setattr(control_flows, "_index", lambda core, which, writes: which)
+        monkeypatch.setattr(control, "_index", lambda core, which, writes: which)
         for signal, value, reason in (
             (0, 1, Reason.NO_SIGNAL),
             (1, 0.5, Reason.BAD_VALUE),

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rapidgen.client import InvalidTrajectory, Trajectory
-from rapidgen.client.checks import plan
-from rapidgen.client.group import Group
+from rapidgen.client.core.checks import plan
+from rapidgen.client.core.group import Group
 from rapidgen.config import load_config
 
 HOME = [0.0] * 6

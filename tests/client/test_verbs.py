@@ -149,7 +149,7 @@ def test_the_live_table(controller):
 
     from rapidgen.cli.monitor import _table
     from rapidgen.client import Robot
-    from rapidgen.client.watch import Watcher
+    from rapidgen.view.live import Watcher
 
     with Robot("irb120", address=controller.address, watch=True) as robot:
         watcher = Watcher()
@@ -233,7 +233,7 @@ def many(tmp_path):
 
 
 def mapping_of(name):
-    from rapidgen.client.group import Group
+    from rapidgen.client.core.group import Group
 
     config = load_config(name)
     return Group.of(config, config.groups[0]).mapping
@@ -324,7 +324,7 @@ def test_words_of_a_monitor():
     from types import SimpleNamespace
 
     from rapidgen.client import Event, Status
-    from rapidgen.client.watch import Watcher
+    from rapidgen.view.live import Watcher
     from rapidgen.wire.simple_message.spec import EventType, TrajectoryState
 
     watcher = Watcher()

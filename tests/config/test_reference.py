@@ -12,7 +12,7 @@ from rapidgen.config import load_config, shipped_names
 from rapidgen.config.reference import json_schema, reference
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.rules import core
-from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, Configuration
+from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
 from rapidgen.config.tree import parse, to_python
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -87,12 +87,12 @@ VALUES = [
 def test_pydantic_and_the_loader_judge_alike(value):
     """The loader builds its validator without pydantic's own (slow) classes."""
     try:
-        TypeAdapter(Configuration).validate_python(value)
+        TypeAdapter(ConfigurationKeys).validate_python(value)
         by_pydantic = True
     except ValidationError:
         by_pydantic = False
     try:
-        SchemaValidator(core(Configuration)).validate_python(value)
+        SchemaValidator(core(ConfigurationKeys)).validate_python(value)
         by_loader = True
     except CoreError:
         by_loader = False

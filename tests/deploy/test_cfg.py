@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.deploy import make_plan
-from rapidgen.deploy.folder import FolderTransport
+from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import parse_cfg
 

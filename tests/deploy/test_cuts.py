@@ -13,8 +13,8 @@ import shutil
 import pytest
 
 from rapidgen.deploy import TransportFault, backup_set, make_plan
-from rapidgen.deploy.folder import FolderTransport
 from rapidgen.deploy.session import earlier_set
+from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"

@@ -9,8 +9,8 @@ import threading
 import pytest
 
 from rapidgen.deploy import make_plan
-from rapidgen.deploy.ftp import FtpTransport
 from rapidgen.deploy.secrets import Credentials, Secret
+from rapidgen.deploy.transports.registry import Target
 from rapidgen.diagnostics import DiagnosticError, render
 
 ANSWERS = 10_000 if os.environ.get("RAPIDGEN_LONG") else 1_000
@@ -116,7 +116,7 @@ def outcome(port):
     """Diagnostics of one plan against the server, or none when it went through."""
     transport = None
     try:
-        transport = FtpTransport("127.0.0.1", port, "", LOGIN, timeout=0.5)
+        transport = Target("ftp", "127.0.0.1", port, "").open(LOGIN, 0.5)
         make_plan(transport, None)
     except DiagnosticError as error:
         return error.diagnostics

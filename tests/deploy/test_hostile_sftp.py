@@ -17,7 +17,7 @@ import pytest
 
 from rapidgen.deploy import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
-from rapidgen.deploy.sftp import SftpTransport
+from rapidgen.deploy.transports.registry import Target
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_sftp
 
@@ -47,7 +47,7 @@ def attempt(action, port, login):
     transport = None
     start = time.monotonic()
     try:
-        transport = SftpTransport("127.0.0.1", port, "", login, timeout=TIMEOUT)
+        transport = Target("sftp", "127.0.0.1", port, "").open(login, TIMEOUT)
         action(transport)
         found = ()
     except DiagnosticError as error:

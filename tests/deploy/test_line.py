@@ -15,8 +15,8 @@ from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.deploy import Access, TransportFault, apply, connect, make_plan, parse_target
-from rapidgen.deploy.folder import FolderTransport
 from rapidgen.deploy.session import wanted_set
+from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.faces import serve_ftp, serve_sftp
 from rapidgen.wire.simple_message.spec import TriState

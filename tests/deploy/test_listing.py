@@ -5,8 +5,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rapidgen.deploy import TransportFault
-from rapidgen.deploy.listing import parse_facts, parse_list, parse_names
-from rapidgen.deploy.transport import Entry, safe
+from rapidgen.deploy.transports.listing import parse_facts, parse_list, parse_names
+from rapidgen.deploy.transports.transport import Entry, safe
 
 
 @pytest.mark.parametrize(

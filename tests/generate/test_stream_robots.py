@@ -4,7 +4,7 @@ import struct
 
 import pytest
 
-from rapidgen.wire.simple_message.spec import batch_points
+from rapidgen.wire.simple_message.messages import batch_points
 from tests.generate.bench import STOP, close_to
 from tests.generate.driving import move_well
 from tests.generate.streams import (

@@ -5,7 +5,8 @@ import time
 
 import pytest
 
-from rapidgen.machine.scheduler import MS, Process, Scheduler, WaitSet
+from rapidgen.machine.process import Process
+from rapidgen.machine.scheduler import MS, Scheduler, WaitSet
 
 
 def test_events_come_in_order_of_time_then_of_making() -> None:

@@ -20,8 +20,8 @@ import numpy as np
 from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
+from rapidgen.motion.faults import MotionFault
 from rapidgen.motion.moves import CartesianMove, JointMove, Speed
-from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.task.task import Task
 from tests.motion.cell import Cell, zone
 
@@ -135,7 +135,7 @@ def cartesian_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
                     cell.group.move(
                         task, CartesianMove(target=target, via=via, external=ends, **common)
                     )
-            except (RapidError, FatalError):
+            except MotionFault:
                 continue  # refused before motion: the path is as it was
 
     return program
@@ -148,7 +148,7 @@ def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outco
     moves: list[object] = []
     cell.group.listeners.append(moves.append)
     if kind == "flat":
-        cell.group.kinematics = None
+        cell.group.planner.kinematics = None
     if kind == "cartesian":
         cell.group.jump(HOME)
         disturb(cell, rng, count=6)

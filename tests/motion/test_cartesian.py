@@ -7,9 +7,8 @@ import pytest
 
 from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S
-from rapidgen.motion.events import CIRCLE_UNCERTAIN, NOT_COMPATIBLE, SINGULARITY
+from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.moves import Carrier, CartesianMove, Singularities, Speed
-from rapidgen.runtime.errors import FatalError, RapidError
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))
@@ -139,18 +138,18 @@ def test_an_orientation_that_turns_with_the_path(robot, zones):
 )
 def test_three_points_that_make_no_circle(robot, linear, via, end):
     def program(task):
-        with pytest.raises(FatalError) as error:
+        with pytest.raises(MotionFault) as fault:
             robot.group.move(task, linear(*end, via=via))
-        assert error.value.event == CIRCLE_UNCERTAIN
+        assert fault.value.refusal is Refusal.NO_CIRCLE
 
     robot.run(program)
 
 
 def test_more_than_240_degrees_are_two_instructions(robot, linear):
     def program(task):
-        with pytest.raises(FatalError) as error:
+        with pytest.raises(MotionFault) as fault:
             robot.group.move(task, linear(0, 0.01, 0.0, via=(0.0, 0.005, 0.08)))
-        assert error.value.event == CIRCLE_UNCERTAIN
+        assert fault.value.refusal is Refusal.CIRCLE_TOO_LONG
 
     robot.run(program)
 
@@ -266,16 +265,16 @@ def test_a_stationary_tool_moves_the_object(robot, zones):
 
 
 def test_out_of_reach_and_out_of_range_are_errors_before_motion(robot, linear):
-    names = []
+    found = []
 
     def program(task):
         for target in ((1.0, 0, 0), (-0.3, 0.05, -0.2)):
-            with pytest.raises(RapidError) as error:
+            with pytest.raises(MotionFault) as fault:
                 robot.group.move(task, linear(*target))
-            names.append(error.value.name)
+            found.append(fault.value.refusal)
 
     robot.run(program)
-    assert names == ["ERR_OUTSIDE_REACH", "ERR_ROBLIMIT"]
+    assert found == [Refusal.OUT_OF_REACH, Refusal.OUT_OF_RANGE]
     assert robot.group.positions() == HOME
 
 
@@ -290,9 +289,9 @@ def test_a_line_through_the_wrist_singularity(make_cell, zones):
     )
 
     def program(task):
-        with pytest.raises(FatalError) as error:
+        with pytest.raises(MotionFault) as fault:
             group.move(task, move)
-        assert error.value.event == SINGULARITY
+        assert fault.value.refusal is Refusal.SINGULARITY
 
     cell.run(program)
 
@@ -325,9 +324,9 @@ def test_with_sing_area_wrist_the_line_goes_through_the_singularity(make_cell, z
 
 def test_a_line_that_ends_in_another_configuration(robot, linear):
     def program(task):
-        with pytest.raises(FatalError) as error:
+        with pytest.raises(MotionFault) as fault:
             robot.group.move(task, linear(0, 0.1, 0, wanted=(0, 0, 0, 1)))
-        assert error.value.event == NOT_COMPATIBLE
+        assert fault.value.refusal is Refusal.CONFIGURATION
         robot.group.move(task, linear(0, 0.1, 0, wanted=(0, 0, 0, 0)))
 
     robot.run(program)

@@ -8,7 +8,7 @@ import pytest
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.events import CORNER_PATH_FAILURE, TIME_NOT_MET
-from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.motion.faults import MotionFault, Refusal
 
 MS = 1_000_000
 
@@ -96,7 +96,7 @@ def test_no_successor_in_time_is_a_corner_path_failure(cell, joint):
 def test_a_corner_is_the_parabola_of_its_zone(make_cell, joint):
     """Entry and exit at one radius, tangents along both moves, nothing outside the triangle."""
     cell = make_cell(settings=MotionSettings(lever=1.0))
-    cell.group.kinematics = None  # a lever of 1 m: zones in mm are thousandths of a rad
+    cell.group.planner.kinematics = None  # a lever of 1 m: zones in mm are thousandths of a rad
 
     def program(task):
         cell.group.move(task, joint(math.degrees(0.5), 0, z=100, tcp=0.5))
@@ -113,7 +113,7 @@ def test_a_corner_is_the_parabola_of_its_zone(make_cell, joint):
 
 def test_a_zone_never_exceeds_half_of_the_shorter_move(make_cell, joint):
     cell = make_cell()
-    cell.group.kinematics = None
+    cell.group.planner.kinematics = None
 
     def program(task):
         cell.group.move(task, joint(math.degrees(0.5), 0, z=200, tcp=0.5))
@@ -249,26 +249,27 @@ def test_concurrent_moves_return_at_once_but_five_at_most(cell, joint):
         for k in range(5):
             cell.group.move(task, joint(k + 1, z=1, time=0.5, concurrent=True))
         assert task.scheduler.now == 0
-        with pytest.raises(RapidError) as error:
+        with pytest.raises(MotionFault) as fault:
             cell.group.move(task, joint(9, concurrent=True))
-        refused.append(error.value.name)
+        refused.append(fault.value.refusal)
         cell.group.move(task, joint(6, time=0.5))
 
     cell.run(program)
-    assert refused == ["ERR_CONC_MAX"]
+    assert refused == [Refusal.TOO_MANY_CONCURRENT]
     assert at_rest(cell, 6)
 
 
 def test_a_target_outside_the_range_moves_nothing(make_cell, joint):
-    for settings, kind in (
-        (MotionSettings(), RapidError),
-        (MotionSettings(range_error="fatal"), FatalError),
+    for settings, refusal in (
+        (MotionSettings(), Refusal.OUT_OF_RANGE),
+        (MotionSettings(range_error="fatal"), Refusal.TARGET_OUT_OF_RANGE),
     ):
         cell = make_cell(settings=settings)
 
-        def program(task, cell=cell, kind=kind):
-            with pytest.raises(kind):
+        def program(task, cell=cell, refusal=refusal):
+            with pytest.raises(MotionFault) as fault:
                 cell.group.move(task, joint(166))
+            assert fault.value.refusal is refusal
 
         cell.run(program)
         assert at_rest(cell, 0)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import rapidgen
-from rapidgen.machine.scheduler import Process
+from rapidgen.machine.process import Process
 from tests.rapid.mutants import Mutant, NoProgram, of_functions
 from tests.runtime import test_conformance as core
 from tests.runtime.builtins import test_conformance as builtins

@@ -10,7 +10,7 @@ from hypothesis.extra import numpy as hnp
 
 from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, encode, messages, spec
 from rapidgen.wire.simple_message.bulk import checksums, decode_batches, encode_points
-from rapidgen.wire.simple_message.layout import pair_of, word_of
+from rapidgen.wire.simple_message.packing import pair_of, word_of
 from rapidgen.wire.simple_message.spec import Comm, StreamFlag
 
 # By hand: stream 3, BEGIN, first 0, one point of 0.1 s to joints 1e-6 and -1e-6.
@@ -51,13 +51,13 @@ def _frame(data):
 
 @pytest.mark.parametrize(("axes", "most"), [(1, 123), (6, 30), (7, 30), (8, 24), (10, 20)])
 def test_as_many_as_fit(axes, most):
-    assert spec.batch_points(axes) == most
+    assert messages.batch_points(axes) == most
     frames = encode_points(1, 0, np.ones(most + 1), np.zeros((most + 1, axes)))
     assert [len(frame) for frame in frames] == [
-        4 + spec.points_length(most, axes),
-        4 + spec.points_length(1, axes),
+        4 + messages.points_length(most, axes),
+        4 + messages.points_length(1, axes),
     ]
-    assert len(frames[0]) <= spec.MAX_MESSAGE_BYTES < 4 + spec.points_length(most + 1, axes)
+    assert len(frames[0]) <= spec.MAX_MESSAGE_BYTES < 4 + messages.points_length(most + 1, axes)
 
 
 STEPS = st.integers(1 - spec.PAIR_ZERO, spec.PAIR_ZERO - 1)
@@ -69,7 +69,7 @@ def runs(draw):
     axes = draw(st.integers(1, 10))
     count = draw(st.integers(0, 90))
     steps = draw(hnp.arrays(np.int64, (count, 1 + axes), elements=STEPS))
-    batch = draw(st.integers(1, spec.batch_points(axes)))
+    batch = draw(st.integers(1, messages.batch_points(axes)))
     stream = draw(st.integers(1, spec.INDEX_WRAP - 1))
     first = draw(st.integers(0, spec.INDEX_WRAP - 1))
     return stream, first, steps, batch, draw(st.integers(0, 7))

@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from io import BytesIO
 from typing import Any
 
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.expand import Description
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _NUMBERS = {
@@ -74,8 +73,8 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
     except etree.XMLSyntaxError as fault:
         line, column = fault.position
         span = place if description.expanded else Span(str(description.path), line, column or 1)
-        raise DiagnosticError(
-            error("RG060", f"{description.path.name} is not well-formed XML: {fault.msg}", span)
+        raise refusal(
+            "RG060", span, f"{description.path.name} is not well-formed XML: {fault.msg}"
         ) from None
 
     def span_of(element: Any) -> Span | None:
@@ -84,13 +83,11 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
         return Span(str(description.path), element.sourceline, 1)
 
     if etree.QName(root).localname != "robot":
-        raise DiagnosticError(
-            error(
-                "RG060",
-                f"{description.path.name} is no robot description: its root is <{root.tag}>",
-                span_of(root),
-                help="the root of a URDF is <robot>",
-            )
+        raise refusal(
+            "RG060",
+            span_of(root),
+            f"{description.path.name} is no robot description: its root is <{root.tag}>",
+            "the root of a URDF is <robot>",
         )
     faults = _structure(root, span_of, description.path.name)
     if faults:
@@ -207,15 +204,15 @@ def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
             continue
         own = element.get("name")
         if not own:
-            found.append(error("RG053", f"a <{element.tag}> has no name", span_of(element)))
+            found.append(error("RG053", span_of(element), f"a <{element.tag}> has no name"))
             continue
         if (element.tag, own) in seen:
             found.append(
                 error(
                     "RG051",
-                    f"two {element.tag}s are called '{own}'",
                     span_of(element),
-                    "second time",
+                    f"two {element.tag}s are called '{own}'",
+                    label="second time",
                 )
             )
         seen[element.tag, own] = 1
@@ -225,9 +222,9 @@ def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
         found.append(
             error(
                 "RG031",
-                f"{name} is an empty robot: it has no joints",
                 span_of(root),
-                help="give the top-level file of the description",
+                f"{name} is an empty robot: it has no joints",
+                "give the top-level file of the description",
             )
         )
     return found
@@ -240,18 +237,18 @@ def _joint_structure(element: Any, name: str, span_of: Any) -> list[Diagnostic]:
         found.append(
             error(
                 "RG053",
-                f"joint '{name}' has the unknown type '{kind}'",
                 span_of(element),
-                help=f"a joint is {', '.join(KINDS[:4])}",
+                f"joint '{name}' has the unknown type '{kind}'",
+                f"a joint is {', '.join(KINDS[:4])}",
             )
         )
     for part in ("parent", "child"):
         inner = element.find(part)
         if inner is None or not inner.get("link"):
-            found.append(error("RG053", f"joint '{name}' has no {part} link", span_of(element)))
+            found.append(error("RG053", span_of(element), f"joint '{name}' has no {part} link"))
     mimic = element.find("mimic")
     if mimic is not None and not mimic.get("joint"):
-        found.append(error("RG042", f"joint '{name}' mimics no joint", span_of(element)))
+        found.append(error("RG042", span_of(element), f"joint '{name}' mimics no joint"))
     for part, attributes in (*_NUMBERS.items(), *_VECTORS.items()):
         inner = element.find(part)
         for attribute in attributes if inner is not None else ():
@@ -261,10 +258,10 @@ def _joint_structure(element: Any, name: str, span_of: Any) -> list[Diagnostic]:
                 found.append(
                     error(
                         "RG053",
+                        span_of(inner),
                         f"joint '{name}': {part} {attribute}=\"{text}\" is not "
                         + ("a finite number" if wanted == 1 else "three finite numbers"),
-                        span_of(inner),
-                        help="write a decimal point, not a comma" if "," in text else "",
+                        "write a decimal point, not a comma" if "," in text else "",
                     )
                 )
     return found

@@ -7,16 +7,16 @@ through queues here; all others go straight through.
 
 from collections import deque
 
-from rapidgen.controller.faults import NetworkRule
 from rapidgen.machine.network.interface import (
     BUFFER,
     Address,
     Endpoint,
     Network,
     NetworkFault,
-    Reason,
+    NetworkReason,
     taken,
 )
+from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
 
 
@@ -153,7 +153,7 @@ class FaultyNetwork(Network):
             # The peer is gone: the first send is taken, its answer is a reset.
             line.broken_sends += 1
             if line.broken_sends > 1:
-                raise NetworkFault(Reason.RESET, "half-open")
+                raise NetworkFault(NetworkReason.RESET, "half-open")
             return len(data)
         self._reset_by_plan(endpoint, line, line.lane_out)
         room = BUFFER - line.lane_out.waiting
@@ -267,4 +267,4 @@ class FaultyNetwork(Network):
         if rule is not None and rule.do == "reset" and not lane.pieces:
             self._lines.pop(endpoint, None)
             self._inner.close(endpoint, abort=True)
-            raise NetworkFault(Reason.RESET, "by plan")
+            raise NetworkFault(NetworkReason.RESET, "by plan")

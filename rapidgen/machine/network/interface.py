@@ -17,7 +17,7 @@ BUFFER = 65_536
 """Bytes that one direction of a connection holds before its sender has to wait."""
 
 
-class Reason(StrEnum):
+class NetworkReason(StrEnum):
     """Why a network method failed."""
 
     ADDRESS_IN_USE = "address in use"
@@ -30,9 +30,9 @@ class Reason(StrEnum):
 
 
 class NetworkFault(Exception):
-    """A network method failed for good; `text` is for the log."""
+    """A network method failed for good; the text is for the log."""
 
-    def __init__(self, reason: Reason, text: str = "") -> None:
+    def __init__(self, reason: NetworkReason, text: str = "") -> None:
         super().__init__(text or reason.value)
         self.reason = reason
 
@@ -61,7 +61,7 @@ class Endpoint:
         if self.fault is not None:
             raise self.fault
         if self.closed:
-            raise NetworkFault(Reason.CLOSED)
+            raise NetworkFault(NetworkReason.CLOSED)
 
 
 def taken(buffer: bytearray, count: int, *, exact: bool, peek: bool) -> bytes | None:

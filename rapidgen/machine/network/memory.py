@@ -14,7 +14,7 @@ from rapidgen.machine.network.interface import (
     Endpoint,
     Network,
     NetworkFault,
-    Reason,
+    NetworkReason,
     taken,
 )
 from rapidgen.machine.scheduler import Scheduler
@@ -88,9 +88,9 @@ class MemoryNetwork(Network):
         if port == 0:
             port = self._free_port(datagram)
         elif not 0 < port <= _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         if (datagram, port) in self._ports:
-            raise NetworkFault(Reason.ADDRESS_IN_USE, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_IN_USE, f"port {port}")
         endpoint = MemoryEndpoint((host, port))
         if datagram:
             endpoint.datagrams = deque()
@@ -115,7 +115,7 @@ class MemoryNetwork(Network):
     def connect(self, host: str, port: int) -> MemoryEndpoint:
         """See `Network.connect`."""
         if not 0 < port <= _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         client = MemoryEndpoint((host, self._free_port(False)), (host, port))
         self._open[client] = None
         self._scheduler.after(self._latency, lambda: self._answer(client, port))
@@ -208,14 +208,14 @@ class MemoryNetwork(Network):
         for port in range(_FIRST_EPHEMERAL, _LAST_PORT + 1):
             if port not in used and (datagram, port) not in self._ports:
                 return port
-        raise NetworkFault(Reason.ADDRESS_IN_USE, "no free port")
+        raise NetworkFault(NetworkReason.ADDRESS_IN_USE, "no free port")
 
     def _answer(self, client: MemoryEndpoint, port: int) -> None:
         if client.closed:
             return
         listener = self._ports.get((False, port))
         if listener is None or not listener.listening:
-            self._fail(client, NetworkFault(Reason.REFUSED, f"port {port}"))
+            self._fail(client, NetworkFault(NetworkReason.REFUSED, f"port {port}"))
             return
         if len(listener.backlog) >= BACKLOG:
             # The connection request is repeated, as TCP does, until there is room.
@@ -256,7 +256,7 @@ class MemoryNetwork(Network):
         if pipe.receiver.closed:
             # Nobody is there any more: the sender gets a reset.
             if not pipe.sender.closed:
-                self._fail(pipe.sender, NetworkFault(Reason.RESET))
+                self._fail(pipe.sender, NetworkFault(NetworkReason.RESET))
             return
         pipe.arrived += segment
         pipe.receiver.changed.notify()
@@ -271,7 +271,7 @@ class MemoryNetwork(Network):
 
         def arrive() -> None:
             if not pipe.silent and not pipe.receiver.closed:
-                self._fail(pipe.receiver, NetworkFault(Reason.RESET))
+                self._fail(pipe.receiver, NetworkFault(NetworkReason.RESET))
 
         self._scheduler.after(self._latency, arrive)
 
@@ -283,7 +283,7 @@ class MemoryNetwork(Network):
 
     def _send_datagram(self, own: MemoryEndpoint, data: bytes, to: Address | None) -> int:
         if to is None:
-            raise NetworkFault(Reason.FAILED, "a datagram needs an address")
+            raise NetworkFault(NetworkReason.FAILED, "a datagram needs an address")
         _, port = to
 
         def arrive() -> None:

@@ -18,7 +18,7 @@ from rapidgen.machine.network.interface import (
     Endpoint,
     Network,
     NetworkFault,
-    Reason,
+    NetworkReason,
     taken,
 )
 from rapidgen.machine.scheduler import Scheduler
@@ -31,16 +31,16 @@ _BACKLOG = 16
 _READ = selectors.EVENT_READ
 _WRITE = selectors.EVENT_WRITE
 _REASONS = {
-    errno.EADDRINUSE: Reason.ADDRESS_IN_USE,
-    errno.EADDRNOTAVAIL: Reason.ADDRESS_INVALID,
-    errno.EACCES: Reason.ADDRESS_INVALID,
-    errno.ECONNREFUSED: Reason.REFUSED,
-    errno.ECONNRESET: Reason.RESET,
-    errno.ECONNABORTED: Reason.RESET,
-    errno.EPIPE: Reason.RESET,
-    errno.ETIMEDOUT: Reason.RESET,
-    errno.ENETUNREACH: Reason.UNREACHABLE,
-    errno.EHOSTUNREACH: Reason.UNREACHABLE,
+    errno.EADDRINUSE: NetworkReason.ADDRESS_IN_USE,
+    errno.EADDRNOTAVAIL: NetworkReason.ADDRESS_INVALID,
+    errno.EACCES: NetworkReason.ADDRESS_INVALID,
+    errno.ECONNREFUSED: NetworkReason.REFUSED,
+    errno.ECONNRESET: NetworkReason.RESET,
+    errno.ECONNABORTED: NetworkReason.RESET,
+    errno.EPIPE: NetworkReason.RESET,
+    errno.ETIMEDOUT: NetworkReason.RESET,
+    errno.ENETUNREACH: NetworkReason.UNREACHABLE,
+    errno.EHOSTUNREACH: NetworkReason.UNREACHABLE,
 }
 
 
@@ -83,7 +83,7 @@ class SystemNetwork(Network):
         """See `Network.bind`. Whatever own address the program names, it binds the host's."""
         _check_address(host)
         if any(e.port == port != 0 and e.datagram == datagram for e in self._open):
-            raise NetworkFault(Reason.ADDRESS_IN_USE, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_IN_USE, f"port {port}")
         own = _new_socket(datagram)
         try:
             if not datagram:
@@ -149,7 +149,7 @@ class SystemNetwork(Network):
         try:
             if own.datagram:
                 if to is None:
-                    raise NetworkFault(Reason.FAILED, "a datagram needs an address")
+                    raise NetworkFault(NetworkReason.FAILED, "a datagram needs an address")
                 _check_address(to[0])
                 return own.socket.sendto(data, self._outward(*to, datagram=True))
             return own.socket.send(data)
@@ -208,17 +208,17 @@ class SystemNetwork(Network):
         if port == 0:
             return 0
         if not 0 < port <= _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         if self._map == "auto":
             # A server that closes and comes back is found where it was.
             return self._actual.get((datagram, port), 0)
         if port + self._map > _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port} + {self._map}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port} + {self._map}")
         return port + self._map
 
     def _outward(self, host: str, port: int, *, datagram: bool) -> Address:
         if not 0 < port <= _LAST_PORT:
-            raise NetworkFault(Reason.ADDRESS_INVALID, f"port {port}")
+            raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         if not self._loopback:
             return host, port
         return self._host, self._actual.get((datagram, port), port)
@@ -304,7 +304,7 @@ def _check_address(host: str) -> None:
     try:
         ipaddress.IPv4Address(host)
     except ValueError as error:
-        raise NetworkFault(Reason.ADDRESS_INVALID, f"'{host}' is no IPv4 address") from error
+        raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"'{host}' is no IPv4 address") from error
 
 
 def _mine(endpoint: Endpoint) -> SystemEndpoint:
@@ -314,4 +314,4 @@ def _mine(endpoint: Endpoint) -> SystemEndpoint:
 
 
 def _fault(error: OSError) -> NetworkFault:
-    return NetworkFault(_REASONS.get(error.errno or 0, Reason.FAILED), str(error))
+    return NetworkFault(_REASONS.get(error.errno or 0, NetworkReason.FAILED), str(error))

@@ -11,7 +11,7 @@ from rapidgen.proving.suite.controlling import done, if_there, not_done, stop
 from rapidgen.wire.simple_message import decode, encode, messages, spec
 from rapidgen.wire.simple_message.spec import Reason
 
-_TRAJ = spec.JOINT_TRAJ_PT.number
+_TRAJ = messages.JOINT_TRAJ_PT.number
 
 
 def _control_client_leaves(bench: Bench) -> None:
@@ -67,10 +67,10 @@ def _control_hello(bench: Bench) -> None:
     for byte in encode(messages.Heartbeat(0), spec.Comm.REQUEST):
         control.send(bytes([byte]))
         bench.run(0.003)
-    control.reply(spec.HEARTBEAT.number)
+    control.reply(messages.HEARTBEAT.number)
     # All at once, each answered in turn.
     control.send(STOP + encode(messages.Speed(5), spec.Comm.REQUEST) + STOP)
-    for number in (_TRAJ, spec.SPEED.number, _TRAJ):
+    for number in (_TRAJ, messages.SPEED.number, _TRAJ):
         control.reply(number)
 
 
@@ -96,10 +96,10 @@ def _control_junk(bench: Bench) -> None:
         struct.pack("<i", 1021),
         bytes(topic),
         raw_point(3, bench.position, 1.0, spec.Comm.REQUEST),
-        struct.pack("<5i", 16, spec.PAUSE.number, 1, 0, 1),
-        struct.pack("<6i", 20, spec.PAUSE.number, 2, 0, 1, 1),
-        struct.pack("<4i", 12, spec.SPEED.number, 2, 0),
-        struct.pack("<4i", 12, spec.HEARTBEAT.number, 2, 0),
+        struct.pack("<5i", 16, messages.PAUSE.number, 1, 0, 1),
+        struct.pack("<6i", 20, messages.PAUSE.number, 2, 0, 1, 1),
+        struct.pack("<4i", 12, messages.SPEED.number, 2, 0),
+        struct.pack("<4i", 12, messages.HEARTBEAT.number, 2, 0),
     ]
     link = bench.motion()
     points = bench.wave(40)
@@ -124,7 +124,7 @@ def _signals(bench: Bench) -> None:
     for index in (-1, count, 99):
         control.send(encode(messages.Signal(index, 0, 0.0), spec.Comm.REQUEST))
         if count:
-            told = control.reply(spec.SIGNAL.number)
+            told = control.reply(messages.SIGNAL.number)
             not_done(told, Reason.NO_SIGNAL, f"signal {index} of {count}")
         elif not isinstance(_failure(control), messages.Failure):
             raise Broken("a driver without signals answers SIGNAL")

@@ -129,7 +129,7 @@ def _damaged_beginning(bench: Bench) -> None:
 def _padding(bench: Bench) -> None:
     """Where a point has a place for a joint that the robot lacks that place is zero."""
     joints = len(bench.position)
-    if 2 * spec.point_pairs(joints) == joints + 1:
+    if 2 * messages.point_pairs(joints) == joints + 1:
         return
     stream = Streamer(bench)
     here = bench.position
@@ -195,7 +195,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
     stream.link.send(STOP)
-    stream.link.reply(spec.JOINT_TRAJ_PT.number)
+    stream.link.reply(messages.JOINT_TRAJ_PT.number)
     stream.put(way(bench, 20))
     refusal = stream.refused(Reason.STOPPED, "points behind a STOP")
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
@@ -301,7 +301,7 @@ def _index_wraps(bench: Bench) -> None:
 
 def _unreadable(bench: Bench) -> None:
     """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
-    joints = spec.point_pairs(len(bench.position))
+    joints = messages.point_pairs(len(bench.position))
     # The frame's own and the kind of message; two words of the head, those of two points, the
     # checksum.
     # An error of the former passes through routines without a handler, where errors do that.

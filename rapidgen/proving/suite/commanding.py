@@ -9,7 +9,7 @@ from rapidgen.proving.suite.streaming import way
 from rapidgen.wire.simple_message import encode, messages, spec
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
-_TRAJ = spec.JOINT_TRAJ_PT.number
+_TRAJ = messages.JOINT_TRAJ_PT.number
 _FAILED = TrajectoryState.FAILED
 _PING = encode(messages.Ping(), spec.Comm.REQUEST)
 

@@ -58,7 +58,7 @@ def _state_stream(bench: Bench) -> None:
     bench.run(20)
     frames = link.frames[before:]
     period = bench.config.state_period
-    for number, size in ((spec.JOINT_POSITION.number, 44), (spec.STATUS.number, 28)):
+    for number, size in ((messages.JOINT_POSITION.number, 44), (messages.STATUS.number, 28)):
         stamps = [when for when, f in frames if f.number == number]
         if any(
             f.comm != spec.Comm.TOPIC or f.reply or len(f.data) != size
@@ -71,7 +71,7 @@ def _state_stream(bench: Bench) -> None:
         for i, when in enumerate(stamps):
             if abs(when - (stamps[0] + i * period)) > period:
                 raise Broken(f"message {number} at {when:.3f} s is more than a period off")
-    if {f.number for _, f in frames} != {spec.JOINT_POSITION.number, spec.STATUS.number}:
+    if {f.number for _, f in frames} != {messages.JOINT_POSITION.number, messages.STATUS.number}:
         raise Broken("a client that did not say hello gets messages of ours")
 
 
@@ -90,7 +90,7 @@ def _state_is_true(bench: Bench) -> None:
         raise Broken("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
-    joints = [decode(f) for _, f in link.frames if f.number == spec.JOINT_POSITION.number]
+    joints = [decode(f) for _, f in link.frames if f.number == messages.JOINT_POSITION.number]
     last = joints[-1]
     assert isinstance(last, messages.JointPosition)
     here = bench.position
@@ -113,7 +113,7 @@ def _short_movements_show(bench: Bench) -> None:
         before = len(link.frames)
         motion.send(bench.download([(here, 10.0), (target, 0.1), (target, 0.1)]))
         bench.run(1.0)
-        seen = [decode(f) for _, f in link.frames[before:] if f.number == spec.STATUS.number]
+        seen = [decode(f) for _, f in link.frames[before:] if f.number == messages.STATUS.number]
         if not any(isinstance(s, messages.Status) and s.in_motion == 1 for s in seen):
             raise Broken("a movement between two STATUS messages was in none of them")
 

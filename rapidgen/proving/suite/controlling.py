@@ -13,7 +13,7 @@ from rapidgen.proving.suite.streaming import way
 from rapidgen.wire.simple_message import encode, messages, spec
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
-_TRAJ = spec.JOINT_TRAJ_PT.number
+_TRAJ = messages.JOINT_TRAJ_PT.number
 
 
 def stop(link: Link, seconds: float = 1) -> None:
@@ -392,7 +392,7 @@ def _old_end(bench: Bench) -> None:
     bench.run(patience(bench))
     control = bench.control()
     bench.run(1)
-    if any(f.number == spec.STOPPED.number for f in control.read()):
+    if any(f.number == messages.STOPPED.number for f in control.read()):
         raise Broken("a client is told of a trajectory that had ended before it came")
     link.close()
     bench.run(1.2)

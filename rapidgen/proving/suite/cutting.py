@@ -72,7 +72,7 @@ class _Streams:
     def stop(self) -> None:
         """STOP, and its reply."""
         self.link.send(STOP)
-        self.link.reply(spec.JOINT_TRAJ_PT.number)
+        self.link.reply(messages.JOINT_TRAJ_PT.number)
 
     def shows(self, state: TrajectoryState, counts: tuple[int, ...], reason: int) -> None:
         """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
@@ -153,7 +153,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
 def _said(bench: Bench, reason: Reason) -> None:
     """Broken unless the event log has a refusal for that reason."""
     bench.run(0.05)
-    text = spec.REASON_TEXTS[reason]
+    text = reason.text
     if not any(text in " ".join(event.texts) for event in bench.controller.log):
         raise Broken(f"the event log does not say: {text}")
 
@@ -174,7 +174,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     if not isinstance(stream.last, messages.PointsRefused) or stream.last.stream:
         raise Broken(f"a damaged head is answered by {stream.last}")
     # Nor does a beginning that cannot be read end anything.
-    last = _HEAD + 2 + 2 * spec.point_pairs(len(bench.position))
+    last = _HEAD + 2 + 2 * messages.point_pairs(len(bench.position))
     for after in (_HEAD + 2, _HEAD + 3, last):
         other = Streamer(bench, stream.link, number=9)
         recovers = bench.fails("ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
@@ -191,7 +191,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
 def _odd_batches(bench: Bench) -> None:
     """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
     streams = _Streams(bench)
-    pairs = spec.point_pairs(len(bench.position))
+    pairs = messages.point_pairs(len(bench.position))
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
@@ -320,7 +320,7 @@ def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
-    here, most = bench.position, spec.batch_points(len(bench.position))
+    here, most = bench.position, messages.batch_points(len(bench.position))
     there = bench.wave(2, size=0.01)[1][0]
     goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]
     streams.begin(goal[:3], FLUSH)

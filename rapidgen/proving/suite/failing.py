@@ -9,7 +9,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Broken, Case
 from rapidgen.runtime.builtins.clocks import Clock
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
 from rapidgen.wire.simple_message.spec import Reason
 
 _COUNTERS = (
@@ -111,7 +111,7 @@ def _move_fails(bench: Bench) -> None:
             raise Broken(f"a move ended with {error}, PROGRESS says {told}")
         if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
             raise Broken(f"a move ended with {error}, STATUS says {status}")
-        said = [text for text in _errors(bench)[len(errors) :] if spec.REASON_TEXTS[reason] in text]
+        said = [text for text in _errors(bench)[len(errors) :] if reason.text in text]
         if len(said) != 1 or f"point {told.planned - 1}" not in said[0]:
             raise Broken(f"a move to point {told.planned - 1} failed, the event log says {said}")
         bench.moves_through(link, bench.wave(3))
@@ -228,7 +228,7 @@ def _state_for_hours(bench: Bench) -> None:
     """Messages keep their schedule while clocks and counters of the server start anew."""
     link = bench.state()
     bench.run(1050)
-    stamps = [when for when, f in link.frames if f.number == spec.STATUS.number]
+    stamps = [when for when, f in link.frames if f.number == messages.STATUS.number]
     period = bench.config.state_period
     for i, when in enumerate(stamps):
         if abs(when - (stamps[0] + i * period)) > period:

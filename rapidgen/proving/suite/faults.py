@@ -9,7 +9,7 @@ from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
-from rapidgen.runtime.values import Cell
+from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile, System
 from rapidgen.wire.simple_message.spec import TrajectoryState
 
@@ -189,7 +189,7 @@ def _stale_data(bench: Bench) -> None:
             other.close()
 
 
-def _fill(cell: Cell, bench: Bench, chance: random.Random) -> None:
+def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
     if "ring" in cell.name.lower() and cell.dims:
         for point in cell.v.values():
             point.session, point.index = chance.randrange(0, 300), chance.randrange(1, 9)

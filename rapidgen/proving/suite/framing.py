@@ -5,7 +5,7 @@ import random
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import raw_point
 from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
 
 ROUNDS = 60
 """Malformed openings of one run; `campaign` has more."""
@@ -111,7 +111,7 @@ def _malformed(bench: Bench, chance: random.Random) -> bytes:
         return b"".join(map(_word, fields)) + chance.randbytes(chance.randrange(0, 70))
     data = bytearray(bench.download(bench.wave(4)))
     # The end frame is always lost, so nothing may move whatever is left.
-    del data[-spec.JOINT_TRAJ_PT.length - 4 :]
+    del data[-messages.JOINT_TRAJ_PT.length - 4 :]
     for _ in range(chance.randrange(1, 5)):
         at = chance.randrange(len(data))
         match chance.randrange(3):

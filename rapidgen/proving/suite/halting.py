@@ -18,7 +18,7 @@ from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _PROMPT = 0.055
 """s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
-_TRAJ = spec.JOINT_TRAJ_PT.number
+_TRAJ = messages.JOINT_TRAJ_PT.number
 
 
 def _prompt(bench: Bench, asked: float, what: str) -> None:
@@ -137,7 +137,7 @@ def _why_it_ended(bench: Bench) -> None:
         if seen != wanted:
             raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
         said = [e.texts[0] for e in _warnings(bench, last)]
-        if said != ([spec.REASON_TEXTS[reason]] if action == "leaves" else []):
+        if said != ([reason.text] if action == "leaves" else []):
             raise Broken(f"after {action} the event log says {said}")
         if action == "leaves":
             bench.run(0.3)

@@ -15,10 +15,10 @@ from rapidgen.proving.suite.failing import set_counters
 from rapidgen.proving.suite.moving import at_call, begins, datum, patience, unit_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
-from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
-_TRAJ = spec.JOINT_TRAJ_PT.number
+_TRAJ = messages.JOINT_TRAJ_PT.number
 
 
 def _ended(bench: Bench, watcher: Link, reason: Reason, what: str) -> messages.Progress:

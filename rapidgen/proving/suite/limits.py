@@ -11,6 +11,7 @@ from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import Link, Position, raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.wire.simple_message import decode, messages
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Comm, Reason
 
 _SAID = {
@@ -136,7 +137,7 @@ class _Cell:
         return told
 
 
-def _answer(link: Link, others: Position, axis: int, value: float) -> messages.Content:
+def _answer(link: Link, others: Position, axis: int, value: float) -> Content:
     """The reply to a point with that value. Its trajectory gets no end, so nothing moves."""
     link.send(raw_point(-1, (*others[:axis], value, *others[axis + 1 :]), 1.0, Comm.REQUEST))
     return decode(link.expect_reply(2, "a point is answered"))

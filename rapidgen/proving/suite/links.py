@@ -105,7 +105,7 @@ def _pings(bench: Bench, link: Link, seconds: float = 0.1, *, slowly: bool = Fal
         link.send(bytes([byte]))
         bench.run(0.012)
     link.send(data[-1:] if slowly else data)
-    if not isinstance(link.reply(spec.PING.number, seconds), messages.Acknowledged):
+    if not isinstance(link.reply(messages.PING.number, seconds), messages.Acknowledged):
         raise Broken("PING is not confirmed")
 
 

@@ -313,7 +313,7 @@ def _speed_at_the_start(bench: Bench) -> None:
     link.send(bench.download(points))
     bench.wait_until_moving()
     begun = bench.now
-    told = control.reply(spec.SPEED.number, SOON)
+    told = control.reply(messages.SPEED.number, SOON)
     if told != messages.Acknowledged():
         raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
     bench.wait_until_at(points[2][0], 10 * unit)
@@ -445,7 +445,7 @@ def _gives_up(bench: Bench) -> None:
         bench.wait_until_standing(1)
         said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
         if len(said) != 1 or said[0].texts[:2] != (
-            spec.REASON_TEXTS[reason],
+            reason.text,
             f"At point {planned - 1}.",
         ):
             raise Broken(f"{reason.name}, the event log says {[str(e) for e in said]}")

@@ -5,7 +5,7 @@ from functools import partial
 from itertools import pairwise
 
 from rapidgen import __version__
-from rapidgen.client.group import Group
+from rapidgen.client.core.group import Group
 from rapidgen.generate.hello import features
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, Link, Point
@@ -46,7 +46,7 @@ def _hello_tells_all(bench: Bench) -> None:
         "control_port": bench.group.ports.control,
         "ring": policy.ring - 1,
         "preload": _float32(policy.preload),
-        "batch": spec.batch_points(len(joints)),
+        "batch": messages.batch_points(len(joints)),
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
     for name, value in wanted.items():
@@ -76,12 +76,12 @@ def _other_versions(bench: Bench) -> None:
     if told.protocol != spec.PROTOCOL_VERSION:
         raise Broken(f"an older HELLO is answered by version {told.protocol}")
     bench.run(1)
-    if any(f.number == spec.PROGRESS.number for f in link.read()):
+    if any(f.number == messages.PROGRESS.number for f in link.read()):
         raise Broken("PROGRESS comes although HELLO was refused")
     link.send(encode(HELLO._replace(subscribe=2), spec.Comm.REQUEST))
     link.expect(messages.HelloReply, 2, "the next HELLO on the same link is answered")
     bench.run(1)
-    if any(f.number == spec.PROGRESS.number for f in link.read()):
+    if any(f.number == messages.PROGRESS.number for f in link.read()):
         raise Broken("PROGRESS comes although it was not asked for")
 
 
@@ -101,7 +101,7 @@ def _state_port_takes_nothing_else(bench: Bench) -> None:
     words = struct.unpack(f"<{len(good) // 4}i", good)
     wrong = {
         "another length": (words[0] - 1, *words[1:]),
-        "another type": (words[0], spec.PING.number, *words[2:]),
+        "another type": (words[0], messages.PING.number, *words[2:]),
         "a topic": (*words[:2], 1, *words[3:]),
         "a reply": (*words[:2], 3, *words[3:]),
     }
@@ -193,7 +193,7 @@ def _is_consistent(told: messages.Progress, number: int, count: int) -> None:
 def _progress_of_a_download(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     frames = bench.download(bench.wave(6))
-    size = spec.JOINT_TRAJ_PT.length + 4
+    size = messages.JOINT_TRAJ_PT.length + 4
     for sent in range(1, 5):
         motion.send(frames[(sent - 1) * size : sent * size])
         told = _newest(bench, link)

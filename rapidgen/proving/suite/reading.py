@@ -43,7 +43,7 @@ def rounds(link: Link, since: float) -> list[Round]:
     for when, frame in link.frames:
         if when < since or frame.comm == spec.Comm.REPLY:
             continue
-        if frame.number == spec.JOINT_POSITION.number or not found:
+        if frame.number == messages.JOINT_POSITION.number or not found:
             found.append(Round(when, []))
         found[-1].frames.append(frame)
     return found
@@ -79,11 +79,11 @@ def _pause(bench: Bench, link: Link) -> float:
     return bench.now
 
 
-PLAIN = [spec.JOINT_POSITION.number, spec.STATUS.number]
+PLAIN = [messages.JOINT_POSITION.number, messages.STATUS.number]
 """Messages of a round for those who asked for nothing."""
 _FOLLOW = {
-    Feature.PROGRESS: spec.PROGRESS.number,
-    Feature.FEEDBACK: spec.JOINT_FEEDBACK.number,
+    Feature.PROGRESS: messages.PROGRESS.number,
+    Feature.FEEDBACK: messages.JOINT_FEEDBACK.number,
 }
 
 

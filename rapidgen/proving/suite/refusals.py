@@ -19,7 +19,7 @@ def refused(
     """
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
-    bench.stays(3, f"it had to be refused: {spec.REASON_TEXTS[reasons[0]]}")
+    bench.stays(3, f"it had to be refused: {reasons[0].text}")
     status, told = bench.status(state), bench.progress(state)
     reason, wrong = spec.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
@@ -157,7 +157,7 @@ def _padding(bench: Bench) -> None:
 def _no_end(bench: Bench) -> None:
     points = bench.wave(5)
     link = bench.motion()
-    link.send(bench.download(points)[: -spec.JOINT_TRAJ_PT.length - 4])
+    link.send(bench.download(points)[: -messages.JOINT_TRAJ_PT.length - 4])
     bench.stays(5, "its end frame has not come")
 
 

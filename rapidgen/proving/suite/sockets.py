@@ -12,14 +12,16 @@ _PING = encode(messages.Ping(), spec.Comm.REQUEST)
 
 
 def _pings(link: Link, what: str) -> None:
-    if not isinstance(link.reply(spec.PING.number, 0.3), messages.Acknowledged):
+    if not isinstance(link.reply(messages.PING.number, 0.3), messages.Acknowledged):
         raise Broken(f"{what}: PING is not confirmed")
 
 
 def _whole_headers(bench: Bench) -> None:
     """A length out of bounds, whatever type comes with it, and wherever it lies."""
     lengths = (-(2**31), -1024, -16, -1, 0, 11, 1021, 100_000)
-    for length, number in product(lengths, (spec.PING.number, spec.JOINT_TRAJ_PT.number, 1399)):
+    for length, number in product(
+        lengths, (messages.PING.number, messages.JOINT_TRAJ_PT.number, 1399)
+    ):
         for before in (b"", _PING):
             link = bench.motion()
             head = struct.pack("<4i", length, number, spec.Comm.REQUEST, 0)

@@ -4,7 +4,7 @@ from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import raw_point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.stream import BEGIN, Streamer
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 
@@ -41,7 +41,7 @@ def _power_returns(bench: Bench) -> None:
             stream = Streamer(bench, link)
             stream.put(bench.wave(2), BEGIN)
         else:
-            link.send(bench.download(bench.wave(5))[: 3 * (spec.JOINT_TRAJ_PT.length + 4)])
+            link.send(bench.download(bench.wave(5))[: 3 * (messages.JOINT_TRAJ_PT.length + 4)])
         bench.run(0.2)
         number = bench.progress(watcher).trajectory
         bench.controller.perform("power-loss")
@@ -57,7 +57,7 @@ def _power_returns(bench: Bench) -> None:
             raise Broken(f"trajectory {number} was there when the power failed: {told}")
         if status.motion_possible != 1 or status.in_motion:
             raise Broken(f"the power came back, STATUS says {status}")
-        link.send(bench.download(bench.wave(5))[3 * (spec.JOINT_TRAJ_PT.length + 4) :])
+        link.send(bench.download(bench.wave(5))[3 * (messages.JOINT_TRAJ_PT.length + 4) :])
         bench.stays(0.5, "half of it came before the power failed")
         bench.moves_through(link, bench.wave(2))
         link.close()

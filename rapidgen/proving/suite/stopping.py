@@ -4,7 +4,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
-from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.wire.simple_message import decode, messages
 
 
 def _stops_on_the_path(bench: Bench) -> None:
@@ -133,7 +133,7 @@ def _state_tells_of_the_stop(bench: Bench) -> None:
     status = bench.status(state)
     if (status.in_error, status.in_motion, status.motion_possible) != (0, 0, 1):
         raise Broken(f"after a STOP STATUS says {status}")
-    joints = [decode(f) for f in state.read() if f.number == spec.JOINT_POSITION.number]
+    joints = [decode(f) for f in state.read() if f.number == messages.JOINT_POSITION.number]
     if any(not isinstance(j, messages.JointPosition) for j in joints):
         raise Broken("JOINT cannot be read")
 

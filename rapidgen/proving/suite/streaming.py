@@ -7,7 +7,7 @@ from rapidgen.proving.link import STOP, Link, Point
 from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import distance
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
 
 _NONE = StreamFlag(0)
@@ -282,7 +282,7 @@ def _early_end(bench: Bench) -> None:
         bench.run(0.6)
         if action == "STOP":
             stream.link.send(STOP)
-            stream.link.reply(spec.JOINT_TRAJ_PT.number)
+            stream.link.reply(messages.JOINT_TRAJ_PT.number)
         elif action == "download":
             stream.link.send(bench.download(bench.wave(4))[:68])
         elif action == "stream":

@@ -10,6 +10,7 @@ from rapidgen.proving.model import Broken, Case
 from rapidgen.proving.positions import changed, small_unit
 from rapidgen.proving.suite.moving import datum
 from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 _BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
@@ -28,11 +29,9 @@ class Table:
         self.watcher = bench.watcher()
         self.number = bench.progress(self.watcher).trajectory
         """Of the newest trajectory, as far as the rows say."""
-        self._rows: list[tuple[bytes, messages.Content, str]] = []
+        self._rows: list[tuple[bytes, Content, str]] = []
 
-    def row(
-        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.Content
-    ) -> None:
+    def row(self, sequence: int, joints: Sequence[float], seconds: float, wanted: Content) -> None:
         """One more point. A trajectory begins with -1."""
         if sequence == _BEGIN:
             self.number += 1
@@ -57,7 +56,7 @@ class Table:
         """STOP, here or over another connection, and its reply."""
         chosen = link if link is not None else self.link
         chosen.send(STOP)
-        told = chosen.reply(spec.JOINT_TRAJ_PT.number)
+        told = chosen.reply(messages.JOINT_TRAJ_PT.number)
         if not isinstance(told, messages.Acknowledged):
             raise Broken(f"STOP is answered by {told}")
 
@@ -208,7 +207,7 @@ def _each_number(bench: Bench) -> None:
     """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
     table, here = Table(bench), bench.position
 
-    def row(sequence: int, wanted: messages.Content, joints: Position = here) -> None:
+    def row(sequence: int, wanted: Content, joints: Position = here) -> None:
         table.row(sequence, joints, _SLOW, wanted)
 
     alone = messages.Refused(Reason.NO_START, 0, 0)
@@ -341,7 +340,7 @@ def _one_more(bench: Bench) -> None:
         table.ask()
         bench.run(1.05)
         said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
-        text = spec.REASON_TEXTS[reason]
+        text = reason.text
         if said != [f"{text} Point 0. {place} {more}".split()]:
             raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
         if lines != [f"ROS refused: {text}"]:

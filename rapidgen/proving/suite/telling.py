@@ -4,7 +4,6 @@ from rapidgen.machine.log import Event, EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import Link, point_frame, raw_point
 from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import spec
 from rapidgen.wire.simple_message.spec import Reason
 
 
@@ -31,7 +30,7 @@ class _Pendant:
     def says(self, reason: Reason, point: int, joint: int, *, after: str) -> None:
         """One line and one warning with the reason's text, and the place where there is one."""
         lines, events = self.take()
-        text = spec.REASON_TEXTS[reason]
+        text = reason.text
         place = f"Point {point}. " if point >= 0 else ""
         place += f"Joint {joint}. " if joint else ""
         if lines != [f"ROS refused: {text}"]:

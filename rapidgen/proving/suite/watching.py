@@ -69,7 +69,7 @@ def _fill(bench: Bench, link: Link, room: int = 0) -> None:
     while left:
         size = left if left <= 1024 else min(1024, left - 16)
         # A reply, as nobody has asked for: it is in no round.
-        frame = struct.pack("<4i", size - 4, spec.PING.number, spec.Comm.REPLY, 0)
+        frame = struct.pack("<4i", size - 4, messages.PING.number, spec.Comm.REPLY, 0)
         while len(pipe.waiting) + size > BUFFER:
             bench.run(0.001)
         try:
@@ -141,7 +141,7 @@ def _does_not_read(bench: Bench) -> None:
     bench.until(lambda: bool(_events_of(reader, since)), 1, "an event is told")
     bench.run(0.01)
     times = max(1, round(0.1 / bench.config.state_period))
-    size = spec.JOINT_POSITION.length + spec.STATUS.length + 8
+    size = messages.JOINT_POSITION.length + messages.STATUS.length + 8
     _fill(bench, silent, room=times * size + 50)
     _write(bench, 2, "Second")
     _is_dropped(bench, silent, reader)
@@ -188,7 +188,7 @@ def _feedback(bench: Bench) -> None:
         if len(told) < 20:
             raise Broken(f"{len(told)} JOINT_FEEDBACK came")
         _is_motion(bench, told[2:])
-    joints = [decode(f) for _, f in link.frames if f.number == spec.JOINT_POSITION.number]
+    joints = [decode(f) for _, f in link.frames if f.number == messages.JOINT_POSITION.number]
     seen = {j.joints for j in joints if isinstance(j, messages.JointPosition)}
     if any(told.positions not in seen for _, told in _feedback_of(link)):
         raise Broken("JOINT_FEEDBACK tells other joints than JOINT")

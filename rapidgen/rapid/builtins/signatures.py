@@ -4,15 +4,26 @@
 the parser, on demand and once. Sources: 3HAC050917 (RobotWare 6) for the arguments, [K §11-12]
 for what belongs to the language, public code for names.
 
-Marks behind a header: `!since 6.10`, `!until 7.0` (RobotWare versions that have it) and `!open`
-(the name is certain, its arguments are not known well enough to check). Alternatives of
+Marks behind a header say what its parameters do not:
+
+    !since 6.10  !until 7.0   RobotWare versions that have it
+    !open                     the name is certain, its arguments are not well enough to check them
+    !ends                     it never comes back
+    !steps                    it changes the number in its first argument, where that stands
+    !inline                   so small, or so much about the program itself, that it becomes code
+    !inplace                  looks at its arguments where they stand: needs no reference to them
+    !whole                    gives a whole number from 0
+    !lazy Cond                looks at this argument again and again, not at its first value
+    !index FromIndex          the place of a byte in raw data
+
+and a line `!readonly ERRNO` beside data names those that a program cannot write. Alternatives of
 *required* parameters (`VAR signaldi Signal | PERS bool PersBool`) exist in built-ins only, and so
 does an optional one in place of a required one (`string Message | \\string MsgArray{*}`).
 """
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache
 from importlib.resources import files
 from types import MappingProxyType
@@ -36,7 +47,8 @@ from rapidgen.rapid.syntax.parser import ModuleParser
 
 TypeClass = Literal["value", "nonvalue", "semivalue"]
 Version = tuple[int, int]
-Value = float | bool | str | tuple["Value", ...] | None
+Value = float | bool | str | tuple["Value", ...]
+"""A RAPID value that is known before the run: records and arrays are tuples."""
 
 _ROUTINE_FILES: Final = ("communication", "io", "motion", "options", "tasks", "values")
 _HEADER: Final = re.compile(
@@ -44,7 +56,10 @@ _HEADER: Final = re.compile(
 )
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
 _NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
-_MARK: Final = re.compile(r"(since|until) (\d+)\.(\d+)|(open)")
+_MARKS: Final = frozenset(
+    ("since", "until", "open", "ends", "steps", "inline", "inplace", "whole", "lazy", "index")
+)
+_READ_ONLY: Final = re.compile(r"^!readonly (.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,7 +68,7 @@ class Signature:
 
     `parameters` are in the order of the call. Of parameters with the same `group` >= 0 at most
     one has an argument, and exactly one when they are required (then it is the one whose mode
-    and type the argument fits). `checked` is False where the arguments are not known.
+    and type the argument fits).
     """
 
     name: str
@@ -62,11 +77,17 @@ class Signature:
     parameters: tuple[Parameter, ...]
     since: Version | None = None
     until: Version | None = None
-    checked: bool = True
+    marks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """What stands behind the header: each mark with the lower-case names that follow it."""
+
+    @property
+    def checked(self) -> bool:
+        """Whether its arguments are known."""
+        return "open" not in self.marks
 
 
 @dataclass(frozen=True, slots=True)
-class Record:
+class PredefinedRecord:
     """A predefined record: (type, name) of each component in order."""
 
     name: str
@@ -77,13 +98,15 @@ class Record:
 class Predefined:
     """A predefined constant, persistent or variable.
 
-    `value` is a float (int when whole), bool, str or nested tuples; None = the type's default.
+    `value` is a number (int when whole), bool, str or nested tuples; None = the type's default.
     """
 
     name: str
     kind: DataKind
     type: str
-    value: Value
+    value: Value | None
+    readonly: bool
+    """No program can write it."""
 
 
 def _read(name: str) -> str:
@@ -109,18 +132,37 @@ def routine(name: str) -> Signature | None:
     proper, type_name, text, marks = header
     tokens = lexer.tokenize(text, f"<{proper}>", "utf-8", radix=False)
     parameters, _ = ModuleParser(tokens, builtin=True).parameters(1)
-    since: Version | None = None
-    until: Version | None = None
-    checked = True
-    for word, major, minor, is_open in _MARK.findall(marks or ""):
-        if is_open:
-            checked = False
-        elif word == "since":
-            since = int(major), int(minor)
-        else:
-            until = int(major), int(minor)
+    known = _marks(marks or "")
+    since, until = (_version(known.pop(word, ())) for word in ("since", "until"))
     kind: Literal["PROC", "FUNC"] = "FUNC" if type_name else "PROC"
-    return Signature(proper, kind, type_name, tuple(parameters), since, until, checked)
+    return Signature(proper, kind, type_name, tuple(parameters), since, until, known)
+
+
+def _marks(text: str) -> dict[str, tuple[str, ...]]:
+    """Each mark with what follows it up to the next one."""
+    found: dict[str, tuple[str, ...]] = {}
+    last = ""
+    for word in text.split():
+        if word in _MARKS:
+            last = word
+            found[word] = ()
+        else:
+            found[last] += (word.lower(),)
+    return found
+
+
+def _version(words: tuple[str, ...]) -> Version | None:
+    if not words:
+        return None
+    major, _, minor = words[0].partition(".")
+    return int(major), int(minor)
+
+
+@cache
+def marked(mark: str) -> frozenset[str]:
+    """Lower-case names of the built-in routines with a mark behind their header."""
+    headers = _headers().items()
+    return frozenset(name for name, header in headers if mark in _marks(header[3] or ""))
 
 
 @cache
@@ -147,7 +189,7 @@ class _Types:
     classes: Mapping[str, TypeClass]
     names: Mapping[str, str]
     aliases: Mapping[str, str]
-    records: Mapping[str, Record]
+    records: Mapping[str, PredefinedRecord]
 
 
 def _declarations(
@@ -168,7 +210,7 @@ def _types() -> _Types:
     classes: dict[str, TypeClass] = {}
     names: dict[str, str] = {}
     aliases: dict[str, str] = {}
-    records: dict[str, Record] = {}
+    records: dict[str, PredefinedRecord] = {}
     for kind, listed in _CLASSES.findall(text):
         for name in listed.split():
             classes[name] = kind
@@ -181,7 +223,7 @@ def _types() -> _Types:
             aliases[key] = declaration.type
         elif isinstance(declaration, RecordDeclaration):
             components = tuple((c.type, c.name) for c in declaration.components)
-            records[key] = Record(declaration.name, components)
+            records[key] = PredefinedRecord(declaration.name, components)
     return _Types(classes, names, aliases, records)
 
 
@@ -205,12 +247,12 @@ def aliases() -> Mapping[str, str]:
     return _types().aliases
 
 
-def record(name: str) -> Record | None:
+def record(name: str) -> PredefinedRecord | None:
     """The predefined record of that name (any case), or None."""
     return _types().records.get(name.lower())
 
 
-def records() -> Mapping[str, Record]:
+def records() -> Mapping[str, PredefinedRecord]:
     """All predefined records by lower-case name."""
     return _types().records
 
@@ -219,12 +261,13 @@ def records() -> Mapping[str, Record]:
 def predefined() -> Mapping[str, Predefined]:
     """All predefined constants, persistents and variables by lower-case name."""
     found: dict[str, Predefined] = {}
-    for declaration in _declarations(_read("constants") + _read("data")):
-        if isinstance(declaration, DataDeclaration):
-            value = None if declaration.initial is None else _value(declaration.initial)
-            found[declaration.name.lower()] = Predefined(
-                declaration.name, declaration.kind, declaration.type, value
-            )
+    text = _read("constants") + _read("data")
+    read_only = {name for names in _READ_ONLY.findall(text) for name in names.split()}
+    for d in _declarations(text):
+        if isinstance(d, DataDeclaration):
+            value = None if d.initial is None else _value(d.initial)
+            readonly = d.kind == "CONST" or d.name in read_only
+            found[d.name.lower()] = Predefined(d.name, d.kind, d.type, value, readonly)
     return MappingProxyType(found)
 
 

@@ -51,8 +51,9 @@ class Source:
         ends = accumulate(map(len, chain.from_iterable(pairs)), initial=start)
         self._starts = list(islice(ends, 0, 2 * len(pairs), 2))
 
-    def position(self, offset: int) -> tuple[int, int]:
-        """Line and column (from 1, code points) of an offset. Ends of line: LF, CRLF or CR."""
+    @property
+    def lines(self) -> list[int]:
+        """Offset of each line. Ends of line: LF, CRLF or CR."""
         if not self._lines:
             self._lines.append(0)
             text, at = self.text, 0
@@ -65,8 +66,18 @@ class Source:
                 else:
                     break
                 self._lines.append(at)
-        line = bisect_right(self._lines, offset)
-        return line, offset - self._lines[line - 1] + 1
+        return self._lines
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column (from 1, code points) of an offset."""
+        lines = self.lines
+        line = bisect_right(lines, offset)
+        return line, offset - lines[line - 1] + 1
+
+    def offset(self, line: int, column: int) -> int:
+        """Offset of a line and column; that of the end of the text behind the last line."""
+        lines = self.lines
+        return lines[line - 1] + column - 1 if 0 < line <= len(lines) else len(self.text)
 
     def line(self, token: int) -> int:
         """Line (from 1) on which a token starts."""

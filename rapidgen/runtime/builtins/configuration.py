@@ -6,8 +6,8 @@ of the next one. How they are counted: switch `list_number`.
 """
 
 from rapidgen.machine.configuration import Configuration
-from rapidgen.machine.files import FileSystem
 from rapidgen.runtime.anytype import target_of, value_of
+from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import EndOfRun, RapidError
 from rapidgen.runtime.loading import words_of
 from rapidgen.runtime.registry import builtin
@@ -75,10 +75,9 @@ def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
     if domain.upper() not in configuration.domains:
         raise RapidError("ERR_CFG_ILL_DOMAIN", domain)
     text = configuration.text(domain.upper())
-    files: FileSystem = task.controller.files
-    files.spend(len(text))
+    spend(task, len(text))
     try:
-        files.path(words_of(path, file)).write_text(text, encoding="latin-1")
+        file_path(task, words_of(path, file)).write_text(text, encoding="latin-1")
     except OSError as error:
         raise RapidError("ERR_CFG_WRITEFILE", str(error.strerror)) from error
 

@@ -12,9 +12,10 @@ from typing import Any, BinaryIO
 
 from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
-from rapidgen.machine.files import Directory, FileSystem, IODevice
+from rapidgen.machine.files import Directory, IODevice
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.builtins.operator import appended
+from rapidgen.runtime.disks import disks_of, file_path, hold, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
@@ -25,11 +26,6 @@ from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, dimens
 _EOF_TEXT = "EOF"
 _EOF_NUM = 9.999e36
 _EOF_BIN = -1
-
-
-def _files(task: Task) -> FileSystem:
-    files: FileSystem = task.controller.files
-    return files
 
 
 # -- opening ------------------------------------------------------------------------------------
@@ -47,9 +43,8 @@ def open_file(
     binary: bool | None,
 ) -> None:
     """Open a file."""
-    files = _files(task)
-    path = files.path(object_, file or "")
-    files.release(device)
+    path = file_path(task, object_, file or "")
+    disks_of(task).release(device)
     if path.exists() and not path.is_file():
         raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''} is no regular file")
     if read:
@@ -68,7 +63,7 @@ def open_file(
     except OSError as error:
         raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''}: {error.strerror}") from error
     try:
-        files.hold(device, task.name)
+        hold(task, device)
     except RapidError:
         opened.close()
         raise
@@ -84,7 +79,7 @@ def open_file(
 def close_file(task: Task, device: IODevice) -> None:
     """Close a file; nothing when it is closed."""
     was_written = device.file is not None and device.writable
-    _files(task).release(device)
+    disks_of(task).release(device)
     _stamp(task, device.path, written=was_written)
 
 
@@ -124,7 +119,7 @@ def _put(task: Task, device: IODevice, data: bytes, *, binary: bool = False) -> 
     file = _opened(device)
     if not device.writable or (binary and not device.binary):
         raise RapidError("ERR_FILEACC", "the file is not open for this kind of writing")
-    _files(task).spend(len(data))
+    spend(task, len(data))
     try:
         file.write(data)
         file.flush()
@@ -330,14 +325,14 @@ def read_raw_bytes(_task: Task, device: IODevice, raw: RawBytes, _time: float | 
 @builtin("MakeDir", cost="socket")
 def make_dir(task: Task, path: str) -> None:
     """Make a folder."""
-    _disk(_files(task).path(path).mkdir, path)
+    _disk(file_path(task, path).mkdir, path)
 
 
 @builtin("RemoveDir", cost="socket")
 def remove_dir(task: Task, path: str) -> None:
     """Remove an empty folder; a disk itself stays."""
-    place = _files(task).path(path)
-    if place.parent == _files(task).folder:
+    place = file_path(task, path)
+    if place.parent == disks_of(task).folder:
         raise RapidError("ERR_FILEACC", f"{path} is a disk")
     _disk(place.rmdir, path)
 
@@ -345,7 +340,7 @@ def remove_dir(task: Task, path: str) -> None:
 @builtin("RemoveFile", cost="socket")
 def remove_file(task: Task, path: str) -> None:
     """Remove a file."""
-    _disk(_files(task).path(path).unlink, path)
+    _disk(file_path(task, path).unlink, path)
 
 
 @builtin("RenameFile", cost="socket")
@@ -361,7 +356,7 @@ def copy_file(task: Task, old: str, new: str) -> None:
     source, target = _pair(task, old, new)
     try:
         data = source.read_bytes()
-        _files(task).spend(len(data))
+        spend(task, len(data))
         target.write_bytes(data)
     except OSError as error:
         raise RapidError("ERR_FILEACC", f"{old}: {error.strerror}") from error
@@ -369,7 +364,7 @@ def copy_file(task: Task, old: str, new: str) -> None:
 
 
 def _pair(task: Task, old: str, new: str) -> tuple[Path, Path]:
-    source, target = _files(task).path(old), _files(task).path(new)
+    source, target = file_path(task, old), file_path(task, new)
     if not source.is_file():
         raise RapidError("ERR_FILEACC", f"there is no file {old}")
     if target.exists():
@@ -395,7 +390,7 @@ def is_file(
     char: bool | None,
 ) -> bool:
     """Whether there is such a file, of that kind if one is named."""
-    place = _files(task).path(path)
+    place = file_path(task, path)
     if directory:
         return place.is_dir()
     if regular:
@@ -421,9 +416,8 @@ def fs_size(
     megabytes: bool | None,
 ) -> float:
     """Size of a disk, or what is free on it."""
-    files = _files(task)
-    files.path(name)
-    size = DISK if total else files.room
+    file_path(task, name)
+    size = DISK if total else disks_of(task).room
     return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
 
 
@@ -449,7 +443,7 @@ def file_time(
 
 def _status(task: Task, path: str) -> os.stat_result:
     try:
-        return _files(task).path(path).stat()
+        return file_path(task, path).stat()
     except OSError as error:
         raise RapidError("ERR_FILEACC", f"there is no file {path}") from error
 
@@ -457,16 +451,15 @@ def _status(task: Task, path: str) -> os.stat_result:
 @builtin("OpenDir", cost="socket")
 def open_dir(task: Task, device: Directory, path: str) -> None:
     """Begin to read a folder's names."""
-    files = _files(task)
-    files.release(device)
-    place = files.path(path)
+    disks_of(task).release(device)
+    place = file_path(task, path)
     if not place.is_dir():
         raise RapidError("ERR_FILEACC", f"there is no folder {path}")
-    files.hold(device, task.name)
+    hold(task, device)
     try:
         names = sorted(os.listdir(place))
     except OSError as error:
-        files.release(device)
+        disks_of(task).release(device)
         raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
     shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
     device.names = [".", "..", *shown]
@@ -486,4 +479,4 @@ def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
 @builtin("CloseDir", cost="socket")
 def close_dir(task: Task, device: Directory) -> None:
     """End reading a folder."""
-    _files(task).release(device)
+    disks_of(task).release(device)

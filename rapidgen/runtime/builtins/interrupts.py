@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 
-from rapidgen.machine.io import AnySignal
 from rapidgen.machine.log import Event
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.interrupts import Interrupt
 from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Cell, Ref, copy_value, register_type
+from rapidgen.runtime.values import PersistentCell, Ref, copy_value, register_type
 
 SHORTEST_TIMER = 0.1
 SHORTEST_SINGLE_TIMER = 0.01
@@ -106,7 +106,7 @@ def i_pers(
     _watch(cell, order, lambda: task.interrupts.happen(order))
 
 
-def _watch(cell: Cell, order: Interrupt, fire: Callable[[], None]) -> None:
+def _watch(cell: PersistentCell, order: Interrupt, fire: Callable[[], None]) -> None:
     seen = copy_value(cell.v)
 
     def look() -> None:

@@ -6,9 +6,10 @@ Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \
 
 from collections.abc import Callable
 
-from rapidgen.machine.io import AnySignal, IOSystem, Signal, SignalAlias
+from rapidgen.machine.io import IOSystem, Signal
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal, SignalAlias
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, single
 

@@ -1,6 +1,7 @@
 """Load to ModTime: modules at run time. See `loading.py` for sources."""
 
 from rapidgen.runtime.compiler.missing import missing_routines
+from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.loading import ModuleTable, words_of
 from rapidgen.runtime.registry import builtin
@@ -54,7 +55,7 @@ def start_load(
     session.words = words_of(path, file)
     session.dynamic = bool(dynamic)
     try:
-        size = task.controller.files.path(session.words).stat().st_size
+        size = file_path(task, session.words).stat().st_size
     except (OSError, RapidError):
         size = 0
     session.ready_at = task.scheduler.now + size * 1_000_000_000 // _LOAD_RATE

@@ -9,12 +9,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from rapidgen.machine.io import AnySignal
 from rapidgen.machine.log import EventLog, EventType
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.errors import RapidError, errnum
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import DNUM_DIGITS, number_text, value_text
 from rapidgen.runtime.values import STRING_LIMIT, Ref

@@ -6,11 +6,17 @@ finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switc
 `refused_connect`, `failed_connect`, `receive_timeout`, `send_attends`, `sockets_limited`.
 """
 
-from rapidgen.machine.network.device import SocketDevice, SocketStatus, SocketTable
-from rapidgen.machine.network.interface import BUFFER, Endpoint, Network, NetworkFault, Reason
+from rapidgen.machine.network.interface import (
+    BUFFER,
+    Endpoint,
+    Network,
+    NetworkFault,
+    NetworkReason,
+)
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.sockets import SocketDevice, SocketStatus, SocketTable
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import STRING_LIMIT, Ref
 
@@ -24,13 +30,13 @@ _REFUSED = {
     "closed": "ERR_SOCK_CLOSED",
 }
 _ERRORS = {
-    Reason.ADDRESS_IN_USE: "ERR_SOCK_ADDR_INUSE",
-    Reason.ADDRESS_INVALID: "ERR_SOCK_ADDR_INVALID",
-    Reason.UNREACHABLE: "ERR_SOCK_NET_UNREACH",
-    Reason.REFUSED: "ERR_SOCK_TIMEOUT",
-    Reason.RESET: "ERR_SOCK_CLOSED",
-    Reason.CLOSED: "ERR_SOCK_CLOSED",
-    Reason.FAILED: "ERR_SOCK_UNSPEC",
+    NetworkReason.ADDRESS_IN_USE: "ERR_SOCK_ADDR_INUSE",
+    NetworkReason.ADDRESS_INVALID: "ERR_SOCK_ADDR_INVALID",
+    NetworkReason.UNREACHABLE: "ERR_SOCK_NET_UNREACH",
+    NetworkReason.REFUSED: "ERR_SOCK_TIMEOUT",
+    NetworkReason.RESET: "ERR_SOCK_CLOSED",
+    NetworkReason.CLOSED: "ERR_SOCK_CLOSED",
+    NetworkReason.FAILED: "ERR_SOCK_UNSPEC",
 }
 
 
@@ -50,7 +56,7 @@ def _error(fault: NetworkFault) -> RapidError:
 
 def _lost(task: Task, socket: SocketDevice, fault: NetworkFault) -> RapidError:
     """The connection is gone: from now on the program sees a closed socket."""
-    if fault.reason in (Reason.RESET, Reason.CLOSED):
+    if fault.reason in (NetworkReason.RESET, NetworkReason.CLOSED):
         _table(task).release(socket, abort=True)
     return _error(fault)
 
@@ -191,7 +197,7 @@ def socket_connect(
             timeout=_seconds(time),
         )
     except NetworkFault as fault:
-        if fault.reason is Reason.REFUSED:
+        if fault.reason is NetworkReason.REFUSED:
             raise RapidError(_REFUSED[task.controller.dialect.refused_connect]) from fault
         raise _error(fault) from fault
     else:
@@ -322,7 +328,7 @@ def _wait_for_bytes(
             network.receive(endpoint, limit)
         raise RapidError("ERR_SOCK_TIMEOUT")
     if not result and not socket.udp:
-        raise _lost(task, socket, NetworkFault(Reason.CLOSED, "the peer has closed"))
+        raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
     return result
 
 
@@ -371,7 +377,7 @@ def socket_peek(task: Task, socket: SocketDevice) -> int:
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if waiting == b"" and not socket.udp:
-        raise _lost(task, socket, NetworkFault(Reason.CLOSED, "the peer has closed"))
+        raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
     return len(waiting or b"")
 
 

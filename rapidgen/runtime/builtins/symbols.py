@@ -12,13 +12,15 @@ from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
-from rapidgen.runtime.compiler.program import LoadedModule
+from rapidgen.runtime.builtins.motion.access import data_of
+from rapidgen.runtime.builtins.motion.arguments import frame
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Box, Cell, Ref, copy_value, register_type
+from rapidgen.runtime.values import Box, PersistentCell, Ref, copy_value, register_type
 
 _ELEMENT = re.compile(r"(\w+)\{([\d,\s]+)\}")
 
@@ -43,7 +45,7 @@ def _modules(task: Task) -> ModuleTable:
 # -- one datum ----------------------------------------------------------------------------------
 
 
-def _datum(task: Task, module: LoadedModule | None, name: str) -> tuple[Data, Ref | Cell]:
+def _datum(task: Task, module: LoadedModule | None, name: str) -> tuple[Data, Ref | PersistentCell]:
     """A datum of a task by name, or ERR_SYM_ACCESS."""
     program = task.program
     data = program.find_data(module, name.lower())
@@ -52,7 +54,7 @@ def _datum(task: Task, module: LoadedModule | None, name: str) -> tuple[Data, Re
     if data.storage == "inline":
         return data, Box(data.value, data.type, (), data.name)
     if data.storage == "cell":
-        cell: Cell = program.space[data.code]
+        cell: PersistentCell = program.space[data.code]
         return data, cell
     reference: Ref = program.space[program.global_ref(data)]
     return data, reference
@@ -65,7 +67,7 @@ def _indices(name: str) -> tuple[str, tuple[int, ...]]:
     return match[1], tuple(int(part) for part in match[2].split(","))
 
 
-def _check_type(source: Ref | Cell, degree: int, target: Ref | Cell) -> None:
+def _check_type(source: Ref | PersistentCell, degree: int, target: Ref | PersistentCell) -> None:
     if source.type is not target.type:
         raise RapidError("ERR_SYMBOL_TYPE", f"{source.name} is a {source.type.name}")
     if source.dims[degree:] != target.dims:
@@ -151,7 +153,7 @@ def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterat
     for key, datum in signatures.predefined().items():
         if type_ and datum.type.lower() != type_.lower():
             continue
-        if (kinds and datum.kind not in kinds) or key in task.program.globals:
+        if (kinds and datum.kind not in kinds) or key in task.program.names.globals:
             continue
         if pattern and re.fullmatch(pattern, datum.name, re.IGNORECASE) is None:
             continue
@@ -237,7 +239,8 @@ def get_sys_data(
     group = task.controller.motion.of_task(owner.name)
     active = None
     if group is not None and kind != "loaddata":
-        active = group.tool if kind == "tooldata" else group.work_object
+        data = data_of(owner, group)
+        active = data.tool if kind == "tooldata" else data.work_object
     _, default = _datum(owner, None, _ACTIVE[kind])
     value = default.get() if active is None else active
     target.set(copy_value(value))
@@ -268,7 +271,9 @@ def set_sys_data(task: Task, source: Ref, name: str | None) -> None:
     group = task.controller.motion.of_task(task.name)
     if group is None:
         return
+    data = data_of(task, group)
     if kind == "tooldata":
-        group.use(chosen.get(), group.work_object)
+        data.use(chosen.get(), data.work_object)
+        group.planner.tool = frame(chosen.get().tframe)
     elif kind == "wobjdata":
-        group.use(group.tool, chosen.get())
+        data.use(data.tool, chosen.get())

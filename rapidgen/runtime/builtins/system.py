@@ -4,8 +4,8 @@ Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the for
 remembered only [mem].
 """
 
-from rapidgen.config.model import MotionGroup
-from rapidgen.machine.files import FileSystem
+from rapidgen.config.model import GroupConfig
+from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin
@@ -44,7 +44,7 @@ def get_sys_info(
         return f"{major}.{minor:02d}.00.00"
     if robot_type:
         groups = task.controller.motion.groups.values()
-        configs: list[MotionGroup] = [group.config for group in groups]
+        configs: list[GroupConfig] = [group.config for group in groups]
         return limited(configs[0].model if configs else "")
     if controller_id or system_name:
         return limited(system.name)
@@ -84,9 +84,8 @@ def _tables(task: Task) -> TextTables:
 @builtin("TextTabInstall", cost="socket")
 def text_tab_install(task: Task, file: str) -> None:
     """Install the tables of a file."""
-    files: FileSystem = task.controller.files
     try:
-        _tables(task).install(files.path(file).read_text(encoding="latin-1"))
+        _tables(task).install(file_path(task, file).read_text(encoding="latin-1"))
     except OSError as error:
         raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
     except ValueError as error:

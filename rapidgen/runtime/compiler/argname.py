@@ -8,8 +8,10 @@ from collections.abc import Iterator
 from types import FrameType
 from typing import TYPE_CHECKING
 
+from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
@@ -62,11 +64,11 @@ def _places(task: "Recovery", frame: FrameType | None) -> Iterator[tuple[Routine
     while frame is not None:
         compiled = codes.get(frame.f_code.co_filename)
         if compiled is not None:
-            part = frame.f_code.co_name.startswith(("_a", "_h", "_u"))
+            inner = compiled.role(frame.f_code) is not Role.ROUTINE
             if inside is not compiled.routine:
                 yield compiled.routine, compiled.tokens[frame.f_lineno]
             # A handler's or a deep part's own frame comes before that of its routine.
-            inside = compiled.routine if part else None
+            inside = compiled.routine if inner else None
         frame = frame.f_back
 
 
@@ -75,11 +77,10 @@ def _argument(caller: Routine, token: int, routine: Routine, at: int) -> n.Expre
     for call in _calls(caller, token):
         if not isinstance(call, n.LateCall) and call.name.lower() != routine.name.lower():
             continue
-        required = iter([i for i, p in enumerate(routine.parameters) if not p.optional])
-        for argument in call.arguments:
-            named = routine.by_name.get(argument.name.lower()) if argument.name else None
-            if (named if argument.name else next(required, None)) == at:
-                return argument.value
+        matching = match(routine.parameters, call.arguments, lambda _, among: among[0])
+        for pair in matching.pairs:
+            if pair.parameter == at:
+                return pair.argument.value
     return None
 
 

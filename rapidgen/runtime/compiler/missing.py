@@ -9,7 +9,8 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.program import Program
 
 _BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
 _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})

@@ -5,18 +5,21 @@ started [S4 overview 3-23]. The routine is compiled once more, beginning there: 
 statement list around, and loops from their next pass on.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.base import Options
-from rapidgen.runtime.compiler.loops import loop_variable
-from rapidgen.runtime.compiler.routine import Compiled, RoutineCompiler
+from rapidgen.runtime.compiler.compiled import Compiled
+from rapidgen.runtime.compiler.context import CannotCompile, Options
+from rapidgen.runtime.compiler.loops import loop_bound, loop_variable
+from rapidgen.runtime.compiler.routine import RoutineCompiler
+from rapidgen.runtime.compiler.statements import compile_statement
 from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.values import Value
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import LoadedModule, Program
+    from rapidgen.runtime.compiler.program import Program
 
 Path = list[tuple[list[n.Statement], int]]
 """Statement lists from the routine's own inwards, and the place in each."""
@@ -28,7 +31,7 @@ class Standing:
 
     routine: Routine
     path: Path
-    values: dict[str, Any]
+    values: dict[str, Value]
     """Python locals of the frame."""
 
 
@@ -60,7 +63,7 @@ def _lists(statement: n.Statement) -> Iterator[list[n.Statement]]:
             yield statement.default or []
 
 
-def after(values: Any, current: float) -> Iterator[float]:  # noqa: ANN401 - any iterable of numbers
+def after(values: Iterable[float], current: float) -> Iterator[float]:
     """Values of a FOR variable behind the current one."""
     rest: Iterator[float] = iter(values)
     for value in rest:
@@ -69,99 +72,80 @@ def after(values: Any, current: float) -> Iterator[float]:  # noqa: ANN401 - any
     return rest
 
 
-class ResumingCompiler(RoutineCompiler):
-    """Compiles the rest of a routine. CannotCompile: not from there."""
+class _Rest:
+    """Writes the rest of a routine. CannotCompile: not from there.
+
+    `calls`: the statement is a call that is under way, and its routine goes on, too.
+    `alone`: nothing follows it.
+    """
 
     def __init__(
-        self,
-        program: "Program",
-        module: "LoadedModule",
-        standing: Standing,
-        options: Options,
-        *,
-        calls: bool,
-        alone: bool,
+        self, compiler: RoutineCompiler, standing: Standing, *, calls: bool, alone: bool
     ) -> None:
-        """`calls`: the statement is a call that is under way, and its routine goes on, too.
-
-        `alone`: nothing follows it.
-        """
-        super().__init__(program, module, standing.routine, options)
-        self.entry = f"{self.routine.code}_rest"
+        if compiler.facts.goto:
+            raise CannotCompile(
+                "a routine with GOTO cannot go on in the middle", compiler.unit.node
+            )
+        self._emitter = compiler.emitter
         self._standing = standing
         self._calls = calls
         self._alone = alone
-        if self.goto:
-            self.fault("a routine with GOTO cannot go on in the middle", self.node)
+        declare = compiler.variables
+        compiler.parameters = "F"
+        compiler.variables = lambda: self._take_over(declare)
+        compiler.body = lambda: self._rest(standing.path)
 
-    def head(self) -> None:
-        """Take the variables over."""
-        w = self.w
-        w.emit(f"def {self.entry}(F):")
-        w.depth = 1
-        w.emit("@GLOBALS")
-        w.emit("b = R.b")
-        mark = len(w.lines)
-        self.variables()
-        del w.lines[mark:]
-        for name in sorted({d.code for d in self.locals.values()} & self._standing.values.keys()):
-            w.emit(f"{name} = F[{name!r}]")
-
-    def statements(self, body: Sequence[n.Statement]) -> None:
-        """The routine's own list begins where it stands."""
-        if body is self.node.body:
-            self._rest(self._standing.path)
-        else:
-            super().statements(body)
+    def _take_over(self, declare: Callable[[], None]) -> None:
+        """Take the values of the variables over."""
+        emitter, values = self._emitter, self._standing.values
+        mark = len(emitter.w.lines)
+        declare()
+        emitter.w.cut(mark)
+        for name in sorted({d.code for d in emitter.unit.locals.values()} & values.keys()):
+            emitter.w.emit(f"{name} = F[{name!r}]")
 
     def _rest(self, path: Path) -> None:
+        emitter, w = self._emitter, self._emitter.w
         (body, i), *deeper = path
         if deeper:
             self._into(body[i], deeper)
+        elif self._calls:
+            w.token = body[i].first
+            w.close()
+            w.emit("R.go_on_below()")
+            compile_statement(emitter, body[i])  # which is under way: no trace tells of it again
+            w.close()
+            w.emit("R.not_below()")
         else:
-            if self._calls:
-                self.w.token = body[i].first
-                self.w.close()
-                self.w.emit("R.go_on_below()")
-                self.one(body[i])  # which is under way: no trace tells of it again
-                self.w.close()
-                self.w.emit("R.not_below()")
-            else:
-                self.statement(body[i])
-        if self._alone:
-            return
-        for statement in body[i + 1 :]:
-            self.statement(statement)
+            emitter.statement(body[i])
+        if not self._alone:
+            for statement in body[i + 1 :]:
+                emitter.statement(statement)
 
     def _into(self, statement: n.Statement, deeper: Path) -> None:
-        match statement:
-            case n.While():
-                self._rest(deeper)
-                if not self._alone:
-                    self.statement(statement)
-            case n.For():
-                self._into_for(statement, deeper)
-            case _:
-                self._rest(deeper)
+        if isinstance(statement, n.For):
+            self._into_for(statement, deeper)
+            return
+        self._rest(deeper)
+        if isinstance(statement, n.While) and not self._alone:
+            self._emitter.statement(statement)
 
     def _into_for(self, node: n.For, deeper: Path) -> None:
-        name = loop_variable(node)
+        emitter, name = self._emitter, loop_variable(node)
         if name not in self._standing.values:
-            self.fault("a FOR whose variable is lost cannot go on", node)
-        self.w.emit(f"{name} = F[{name!r}]")
-        hidden = self.bind_loop(node, name, whole=False, limits=None)
-        self._rest(deeper)
-        self.unbind_loop(node, hidden)
-        if self._alone:
-            return
-        self.w.close()
-        self.resumed.add(node.first)
-        self.statement(node)
+            raise CannotCompile("a FOR whose variable is lost cannot go on", node)
+        emitter.w.emit(f"{name} = F[{name!r}]")
+        with loop_bound(emitter.unit, node, whole=False, limits=None):
+            self._rest(deeper)
+        if not self._alone:
+            emitter.w.close()
+            emitter.resumed.add(node.first)
+            emitter.statement(node)
 
 
 def compile_backward(
     program: "Program", routine: Routine, options: Options
-) -> tuple[Callable[..., Any], Compiled, str]:
+) -> tuple[Callable[..., object], Compiled, str]:
     """The BACKWARD handler of a procedure, with its parameters and variables [K §6.1].
 
     Errors in it are not for the procedure's own ERROR [K §7.1].
@@ -171,25 +155,26 @@ def compile_backward(
     assert node.backward is not None
     assert module is not None
     body = replace(node, body=node.backward.body, backward=None, error=None)
-    compiler = RoutineCompiler(program, module, replace(routine, node=body), options)
-    compiler.entry = f"{routine.code}_back"
-    compiler.file = f"{program.code_name(routine)} backward"
+    entry, file = f"{routine.code}_back", f"{program.code_name(routine)} backward"
+    changed = replace(routine, node=body)
+    compiler = RoutineCompiler(program, module, changed, options, entry, file)
     code, compiled = compiler.compile()
     exec(code, program.space)
-    return program.space[compiler.entry], compiled, compiler.file
+    return program.space[entry], compiled, file
 
 
 def compile_rest(
     program: "Program", standing: Standing, options: Options, *, calls: bool, alone: bool
-) -> tuple[Callable[[dict[str, Any]], Any], Compiled, str]:
+) -> tuple[Callable[[dict[str, Value]], object], Compiled, str]:
     """A function that goes on with a routine, given the values; and its Python file name."""
-    module = standing.routine.module
+    routine = standing.routine
+    module = routine.module
     assert module is not None
-    compiler = ResumingCompiler(program, module, standing, options, calls=calls, alone=alone)
     at = "".join(f" {i}" for _, i in standing.path)
-    only = " alone" if alone else ""
-    compiler.file = f"{program.code_name(standing.routine)} from{at}{only}"
+    entry = f"{routine.code}_rest"
+    file = f"{program.code_name(routine)} from{at}{' alone' if alone else ''}"
+    compiler = RoutineCompiler(program, module, routine, options, entry, file)
+    _Rest(compiler, standing, calls=calls, alone=alone)
     code, compiled = compiler.compile()
-    space = program.space
-    exec(code, space)
-    return space[compiler.entry], compiled, compiler.file
+    exec(code, program.space)
+    return program.space[entry], compiled, file

@@ -2,19 +2,20 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import Any, NoReturn
+from typing import NoReturn
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import (
     STRING_LIMIT,
     Box,
-    Cell,
     Orient,
+    PersistentCell,
     Pos,
     Record,
     Ref,
     Type,
+    Value,
     assign_array,
     copy_value,
     single,
@@ -81,27 +82,27 @@ def concat(left: str, right: str) -> str:
     return joined
 
 
-def pos_add(a: Any, b: Any) -> Any:  # noqa: ANN401 - Pos is made at run time
+def pos_add(a: Value, b: Value) -> Value:
     """pos + pos."""
     return Pos(single(a.x + b.x), single(a.y + b.y), single(a.z + b.z))
 
 
-def pos_subtract(a: Any, b: Any) -> Any:  # noqa: ANN401
+def pos_subtract(a: Value, b: Value) -> Value:
     """pos - pos."""
     return Pos(single(a.x - b.x), single(a.y - b.y), single(a.z - b.z))
 
 
-def pos_negate(a: Any) -> Any:  # noqa: ANN401
+def pos_negate(a: Value) -> Value:
     """-pos."""
     return Pos(-a.x, -a.y, -a.z)
 
 
-def pos_scale(a: Any, k: float) -> Any:  # noqa: ANN401
+def pos_scale(a: Value, k: float) -> Value:
     """pos * num."""
     return Pos(single(a.x * k), single(a.y * k), single(a.z * k))
 
 
-def pos_cross(a: Any, b: Any) -> Any:  # noqa: ANN401
+def pos_cross(a: Value, b: Value) -> Value:
     """pos * pos, the cross product [S4 overview 4-26]."""
     return Pos(
         single(a.y * b.z - a.z * b.y),
@@ -110,7 +111,7 @@ def pos_cross(a: Any, b: Any) -> Any:  # noqa: ANN401
     )
 
 
-def orient_multiply(a: Any, b: Any) -> Any:  # noqa: ANN401
+def orient_multiply(a: Value, b: Value) -> Value:
     """orient * orient, first b then a in a's frame."""
     return Orient(
         single(a.q1 * b.q1 - a.q2 * b.q2 - a.q3 * b.q3 - a.q4 * b.q4),
@@ -215,19 +216,19 @@ class GlobalRef(Ref):
     __slots__ = ("key", "space")
 
     def __init__(
-        self, space: dict[str, Any], key: str, type: Type, dims: tuple[int, ...], name: str
+        self, space: dict[str, Value], key: str, type: Type, dims: tuple[int, ...], name: str
     ) -> None:
         super().__init__(type, dims, name)
         self.space = space
         self.key = key
 
     @property
-    def v(self) -> Any:  # noqa: ANN401
+    def v(self) -> Value:
         """The value."""
         return self.space[self.key]
 
     @v.setter
-    def v(self, value: Any) -> None:  # noqa: ANN401
+    def v(self, value: Value) -> None:
         self.space[self.key] = value
 
 
@@ -238,11 +239,11 @@ class ItemRef(Ref):
 
     def __init__(
         self,
-        array: dict[int, Any],
+        array: dict[int, Value],
         index: int,
         type: Type,
         name: str,
-        cell: Cell | None = None,
+        cell: PersistentCell | None = None,
     ) -> None:
         super().__init__(type, (), name, whole=False, cell=cell)
         array[index]
@@ -250,12 +251,12 @@ class ItemRef(Ref):
         self.index = index
 
     @property
-    def v(self) -> Any:  # noqa: ANN401
+    def v(self) -> Value:
         """The value."""
         return self.array[self.index]
 
     @v.setter
-    def v(self, value: Any) -> None:  # noqa: ANN401
+    def v(self, value: Value) -> None:
         self.array[self.index] = value
 
 
@@ -265,44 +266,49 @@ class MemberRef(Ref):
     __slots__ = ("attribute", "record")
 
     def __init__(
-        self, record: Record, attribute: str, type: Type, name: str, cell: Cell | None = None
+        self,
+        record: Record,
+        attribute: str,
+        type: Type,
+        name: str,
+        cell: PersistentCell | None = None,
     ) -> None:
         super().__init__(type, (), name, whole=False, cell=cell)
         self.record = record
         self.attribute = attribute
 
     @property
-    def v(self) -> Any:  # noqa: ANN401
+    def v(self) -> Value:
         """The value."""
         return getattr(self.record, self.attribute)
 
     @v.setter
-    def v(self, value: Any) -> None:  # noqa: ANN401
+    def v(self, value: Value) -> None:
         setattr(self.record, self.attribute, value)
 
 
-def as_variable(ref: Any) -> Any:  # noqa: ANN401
+def as_variable(ref: Value) -> Value:
     """An INOUT parameter passed on as VAR: ERR_ARGNOTVAR when it is a PERS [K §5.1]."""
     if ref is not None and ref.cell is not None:
         raise RapidError("ERR_ARGNOTVAR")
     return ref
 
 
-def as_persistent(ref: Any) -> Any:  # noqa: ANN401
+def as_persistent(ref: Value) -> Value:
     """An INOUT parameter passed on as PERS: ERR_ARGNOTPER when it is a variable [K §5.1]."""
     if ref is not None and ref.cell is None:
         raise RapidError("ERR_ARGNOTPER")
     return ref
 
 
-def present(value: Any) -> Any:  # noqa: ANN401
+def present(value: Value) -> Value:
     """The value of an optional parameter; ERR_NOTPRES when it is absent [K §5.1]."""
     if value is None:
         raise RapidError("ERR_NOTPRES")
     return value
 
 
-def array_size(array: Any, number: float) -> int:  # noqa: ANN401
+def array_size(array: Value, number: float) -> int:
     """Dim(array, number) [K §11]."""
     if array.__class__ is not dict:
         raise RapidError("ERR_NOTARR")
@@ -315,7 +321,7 @@ def array_size(array: Any, number: float) -> int:  # noqa: ANN401
     return len(array)
 
 
-def only_one(value: Any, *others: Any) -> Any:  # noqa: ANN401
+def only_one(value: Value, *others: Value) -> Value:
     """Alternatives passed on conditionally: ERR_ARGDUPCND when two are present [K §3.10]."""
     if value is not None and any(other is not None for other in others):
         raise RapidError("ERR_ARGDUPCND")
@@ -323,10 +329,10 @@ def only_one(value: Any, *others: Any) -> Any:  # noqa: ANN401
 
 
 def part(
-    value: Any,  # noqa: ANN401
+    value: Value,
     type: Type,
     name: str,
-    cell: Cell | None = None,
+    cell: PersistentCell | None = None,
     dims: tuple[int, ...] = (),
 ) -> Box:
     """A reference to a record or array inside a datum."""
@@ -341,11 +347,11 @@ class LateArgument:
     """An argument whose parameter is known only when the call is made."""
 
     name: str | None
-    read: Callable[[], Any] | None
+    read: Callable[[], Value] | None
     """By value; None for a switch."""
-    refer: Callable[[], Any] | None
+    refer: Callable[[], Value] | None
     type: Type | None = None
-    itself: Callable[[], Any] | None = None
+    itself: Callable[[], Value] | None = None
     """The object itself, for VAR parameters of record, array and non-value types."""
 
 
@@ -362,7 +368,7 @@ class Condition:
         return self.look()
 
 
-NAMESPACE: dict[str, Callable[..., Any]] = {
+NAMESPACE: dict[str, Callable[..., Value]] = {
     "FAIL": fail,
     "RND": single,
     "DIV": div,

@@ -1,24 +1,24 @@
 """What names in RAPID stand for, and how compiled code reaches it."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.registry import Builtin
-from rapidgen.runtime.values import Type
+from rapidgen.runtime.values import Type, Value
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import LoadedModule
+    from rapidgen.runtime.compiler.linking import LoadedModule
 
 Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", "object"]
 """How a datum is kept:
 
 inline  the value itself stands in the code (atomic CONST, ERR_ numbers)
 global  a global of the task's namespace
-cell    a global `Cell` (PERS)
+cell    a global `PersistentCell` (PERS)
 local   a Python local
 box     a Python local that holds a `Box` (a variable that is passed by reference)
-ref     a Python local that holds a `Ref` or `Cell` (VAR, INOUT and PERS parameters)
+ref     a Python local that holds a `Ref` or `PersistentCell` (VAR, INOUT and PERS parameters)
 object  a Python local that is the record, array or non-value object of a VAR parameter
 """
 
@@ -40,13 +40,13 @@ class Data:
     whole: bool = False
     """Always a whole number, kept as int."""
     range: tuple[int, int] | None = None
-    value: Any = None
+    value: Value = None
     """Of `inline` data."""
     readonly: bool = False
 
 
 @dataclass(slots=True, eq=False)
-class Parameter:
+class FormalParameter:
     """One formal parameter."""
 
     name: str
@@ -60,6 +60,12 @@ class Parameter:
     switch: bool
 
 
+def formal(p: n.Parameter, kind: Type | None) -> FormalParameter:
+    """A declared parameter with its type."""
+    switch = p.type.lower() == "switch"
+    return FormalParameter(p.name, p.mode, kind, p.type, p.dimensions, p.optional, p.group, switch)
+
+
 @dataclass(slots=True, eq=False)
 class Routine:
     """A routine of the program, or a built-in."""
@@ -67,7 +73,7 @@ class Routine:
     name: str
     kind: Literal["PROC", "FUNC", "TRAP"]
     type: Type | None
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[FormalParameter, ...]
     code: str
     """Python expression of the function."""
     node: n.RoutineDeclaration | None = None
@@ -75,18 +81,9 @@ class Routine:
     builtin: Builtin | None = None
     missing: bool = False
     """A built-in that exists on controllers but not here."""
+    lazy: tuple[str, ...] = ()
+    """Parameters of a built-in that looks at their arguments again and again, lower case."""
     by_name: dict[str, int] = field(default_factory=dict)
-    type_name: str = ""
 
     def __post_init__(self) -> None:
         self.by_name = {p.name.lower(): i for i, p in enumerate(self.parameters)}
-
-
-@dataclass(frozen=True, slots=True)
-class Pending:
-    """Module data that are not evaluated yet."""
-
-    module: "LoadedModule"
-
-
-Symbol: TypeAlias = Data | Routine | Type | Pending

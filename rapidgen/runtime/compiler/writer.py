@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 INDENT = " "
 _BUDGET_LINES = frozenset({"b = R.b", "R.b = b", "else: b = R.b", "b += @REFUND@"})
 """What nobody needs without accounting."""
+_FILLED = frozenset({"b += @REFUND@", "b -= @OWN@", "b = R.recharge(b, @REST@)"})
+"""Lines with a cost that is known when the block is."""
 
 
 @dataclass(slots=True, eq=False)
@@ -21,7 +23,7 @@ class Block:
 
 
 @dataclass(slots=True, eq=False)
-class Line:
+class CodeLine:
     """One line of Python."""
 
     depth: int
@@ -43,7 +45,7 @@ class Writer:
     """Collects lines."""
 
     def __init__(self, accounting: str) -> None:
-        self.lines: list[Line] = []
+        self.lines: list[CodeLine] = []
         self.depth = 0
         self.token = 0
         self.synced = False
@@ -56,9 +58,21 @@ class Writer:
         """Add one line at the current depth."""
         if self._accounting == "none" and text in _BUDGET_LINES:
             return
+        self.reserve(text)
+
+    def reserve(self, text: str = "") -> CodeLine:
+        """Add one line whose text may be given later; left empty it vanishes."""
         block = self._block
         paid = len(block.costs) if block is not None else 0
-        self.lines.append(Line(self.depth, text, self.token, block, paid, synced=self.synced))
+        line = CodeLine(self.depth, text, self.token, block, paid, synced=self.synced)
+        self.lines.append(line)
+        return line
+
+    def cut(self, mark: int) -> list[CodeLine]:
+        """Take off the lines from a place on."""
+        lines = self.lines[mark:]
+        del self.lines[mark:]
+        return lines
 
     def cost(self, amount: int) -> None:
         """The next lines belong to a statement of this cost."""
@@ -66,7 +80,7 @@ class Writer:
             return
         if self._block is None or self._accounting == "statement":
             self._block = Block()
-            line = Line(self.depth, "", self.token, self._block, charge=True, leave=self.leave)
+            line = CodeLine(self.depth, "", self.token, self._block, charge=True, leave=self.leave)
             self.lines.append(line)
         self._block.costs.append(amount)
 
@@ -106,7 +120,7 @@ class Writer:
             code = line.text
             rest = tuple(block.costs[line.paid :]) if block is not None else ()
             refund = sum(rest)
-            if "@" in code:
+            if code in _FILLED:
                 code = code.replace("@REFUND@", str(refund))
                 code = code.replace("@REST@", repr(rest) if rest else "()")
                 own = block.costs[line.paid - 1] if block is not None and line.paid else 0

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, Posture
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.task.recovery import Place
 from rapidgen.runtime.task.task import Task
 
@@ -61,6 +62,7 @@ class StepHistory:
     def _note(self, move: Move) -> None:
         self._begun.append((move, self._group.path_target))
 
+    @planned
     def drive(self, task: Task, statement: Place, start: Callable[[], None]) -> bool:
         """Drive back over the move of a statement; False: not known, the robot stays.
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from greenlet import GreenletExit
 
 from rapidgen.diagnostics import Span
-from rapidgen.machine.scheduler import Process, Scheduler
+from rapidgen.machine.process import Process
+from rapidgen.machine.scheduler import Scheduler
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,

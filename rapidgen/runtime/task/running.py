@@ -5,8 +5,9 @@ from collections.abc import Callable
 from typing import Any, Literal
 
 from rapidgen.machine.scheduler import Scheduler
-from rapidgen.runtime.compiler.base import CannotCompile
-from rapidgen.runtime.compiler.program import Program, Shared
+from rapidgen.runtime.compiler.context import CannotCompile
+from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import (
@@ -299,7 +300,7 @@ class RapidTask(Stepping):
         self.attend()
         self.charge(self.controller.costs.statement)
         self._run_events()
-        entry = self._routine or self.program.globals.get(self.spec.entry.lower())
+        entry = self._routine or self.program.find_routine(None, self.spec.entry.lower())
         self.program.function(entry)()  # type: ignore[arg-type]
         return self._next_cycle()
 

@@ -14,8 +14,8 @@ from typing import Any
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.base import CannotCompile
-from rapidgen.runtime.compiler.program import LoadedModule
+from rapidgen.runtime.compiler.context import CannotCompile
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.task.driving_back import StepHistory
 from rapidgen.runtime.task.pointer import Pointer, standing

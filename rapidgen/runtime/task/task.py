@@ -6,9 +6,10 @@ from typing import Any
 
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import Parameter, Routine
+from rapidgen.runtime.compiler.symbols import FormalParameter, Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, FatalError, RapidError
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.task.interrupts import Interrupts
@@ -248,9 +249,9 @@ class Task(Recovery):
         key = proper.lower()
         if colon and where:
             inside = program.modules.get(where.lower())
-            found = inside.symbols.get(key) if inside is not None else None
+            found = inside.routines.get(key) if inside is not None else None
         elif colon:
-            found = program.globals.get(key)
+            found = program.routine(program.names.globals.get(key))
         else:
             found = program.find_routine(module, key)
         if found is None:
@@ -289,7 +290,9 @@ class Task(Recovery):
             raise RapidError("ERR_CALLPROC", routine.name)
         return positional, named
 
-    def _late_value(self, parameter: Parameter, argument: LateArgument, *, builtin: bool) -> Any:  # noqa: ANN401
+    def _late_value(
+        self, parameter: FormalParameter, argument: LateArgument, *, builtin: bool
+    ) -> Any:  # noqa: ANN401
         if argument.read is None:
             return True
         kind = parameter.type

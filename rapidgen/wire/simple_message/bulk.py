@@ -8,7 +8,8 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message.declaration import Wire
 from rapidgen.wire.simple_message.frames import ContentError
 from rapidgen.wire.simple_message.spec import (
     CHECKSUM_MODULUS,
@@ -22,20 +23,19 @@ from rapidgen.wire.simple_message.spec import (
     ReplyCode,
     Sequence,
     StreamFlag,
-    Wire,
 )
 
 Words = npt.NDArray[np.uint64]
 
 _TYPES = {Wire.INT32: "<i4", Wire.FLOAT32: "<f4"}
-FRAME_BYTES = spec.PREFIX_BYTES + spec.JOINT_TRAJ_PT.length
+FRAME_BYTES = spec.PREFIX_BYTES + messages.JOINT_TRAJ_PT.length
 
 
 def _frame_type() -> np.dtype[Any]:
     head: list[Any] = [(name, "<i4") for name in ("length", "number", "comm", "reply")]
     fields: list[Any] = [
         (f.name, _TYPES[f.type], (f.count,)) if f.count > 1 else (f.name, _TYPES[f.type])
-        for f in spec.JOINT_TRAJ_PT.fields
+        for f in messages.JOINT_TRAJ_PT.fields
     ]
     return np.dtype(head + fields)
 
@@ -57,8 +57,8 @@ def encode_trajectory(
     if count < 2 or axes > spec.MAX_JOINTS:
         raise ValueError(f"{count} points of {axes} joints")
     frames = np.zeros(count, dtype=POINT_FRAME)
-    frames["length"] = spec.JOINT_TRAJ_PT.length
-    frames["number"] = spec.JOINT_TRAJ_PT.number
+    frames["length"] = messages.JOINT_TRAJ_PT.length
+    frames["number"] = messages.JOINT_TRAJ_PT.number
     frames["comm"] = Comm.TOPIC
     frames["reply"] = ReplyCode.NONE
     frames["sequence"] = np.arange(count)
@@ -84,7 +84,7 @@ _MODULUS = np.uint64(CHECKSUM_MODULUS)
 _SQUARE = PAIR_BASE**2
 _POINTS_HEAD = Struct("<8i")
 _CHECKSUM = Struct("<Q")
-_POINTS = spec.POINTS.number
+_POINTS = messages.POINTS.number
 _REQUEST, _TOPIC, _NONE = int(Comm.REQUEST), int(Comm.TOPIC), int(ReplyCode.NONE)
 _HEAD = (spec.PREFIX_BYTES + spec.HEADER_BYTES) // _WORD.itemsize
 """Words before the data."""
@@ -136,7 +136,7 @@ def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
     count, axes = values.shape
     if not 1 <= axes <= spec.MAX_JOINTS:
         raise ValueError(f"points of {axes} joints")
-    numbers = np.zeros((count, 2 * spec.point_pairs(axes)))
+    numbers = np.zeros((count, 2 * messages.point_pairs(axes)))
     numbers[:, 0] = durations
     numbers[:, 1 : 1 + axes] = values
     # Written so that NaN does not pass.
@@ -170,7 +170,7 @@ def encode_points(
     goes to the first frame, END and FLUSH to the last.
     """
     words = pack_points(durations, joints)
-    size = spec.batch_points(2 * words.shape[1] - 1) if batch is None else batch
+    size = messages.batch_points(2 * words.shape[1] - 1) if batch is None else batch
     starts = range(0, len(words), size) if len(words) else range(1)
     every = [0] * len(starts)
     every[0] |= flags & StreamFlag.BEGIN
@@ -185,7 +185,7 @@ def encode_points(
 
 def _unsealed(stream: int, first: int, words: Words, flags: int, request: bool) -> bytes:
     """A POINTS frame without its checksum."""
-    length = spec.POINTS.length + words.nbytes
+    length = messages.POINTS.length + words.nbytes
     if length > spec.MAX_LENGTH:
         raise ValueError(f"{len(words)} points do not fit in one message")
     comm = _REQUEST if request else _TOPIC
@@ -223,10 +223,10 @@ def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
 
 
 def _batches(frames: Words, axes: int) -> list[Batch]:
-    pairs = spec.point_pairs(axes)
+    pairs = messages.point_pairs(axes)
     count, rest = divmod(frames.shape[1] - _PAIRS - 1, pairs)
-    length = spec.points_length(count, axes)
-    if rest or np.any(frames[:, 0] != (length | spec.POINTS.number << 32)):
+    length = messages.points_length(count, axes)
+    if rest or np.any(frames[:, 0] != (length | messages.POINTS.number << 32)):
         raise ContentError(f"no POINTS of {axes} joints")
     if np.any(frames[:, _HEAD + 1] >> _UPPER != count):
         raise ContentError("the count does not fit the length")

@@ -1,45 +1,37 @@
-"""Messages to bytes and back, derived from the specification. No sockets."""
+"""Messages to bytes and back, derived from their declarations. No sockets."""
 
-from typing import cast
-
-from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import ContentError, Frame
-from rapidgen.wire.simple_message.layout import Layout, OpenLayout, Value
-from rapidgen.wire.simple_message.messages import Content
+from rapidgen.wire.simple_message.messages import MESSAGES
+from rapidgen.wire.simple_message.packing import OpenPacking, Packing
 from rapidgen.wire.simple_message.spec import Comm, ReplyCode
 
-_LAYOUTS = {m.number: Layout(m.fields) for m in spec.MESSAGES if m.is_fixed}
-_OPEN = {m.number: OpenLayout(m.fields) for m in spec.MESSAGES if not m.is_fixed}
-_BY_CLASS = {
-    kind: (number, _LAYOUTS.get(number) or _OPEN[number])
-    for number, kind in messages.CONTENTS.items()
+_NAMES = {m.number: m.name for m in MESSAGES}
+_FIXED = {m.number: (m.size, Packing(m.fields), m.kind) for m in MESSAGES if m.is_fixed}
+_OPEN = {m.number: (OpenPacking(m.fields), m.kind) for m in MESSAGES if not m.is_fixed}
+_BY_CLASS: dict[type[Content], tuple[int, Packing | OpenPacking]] = {
+    **{kind: (number, packing) for number, (_, packing, kind) in _FIXED.items()},
+    **{kind: (number, packing) for number, (packing, kind) in _OPEN.items()},
 }
-_DECODERS = {
-    number: (layout.size, layout, messages.CONTENTS[number]) for number, layout in _LAYOUTS.items()
+_REPLIES = {
+    (message.number, int(reply.code), reply.size): (Packing(reply.fields), reply.kind)
+    for message in MESSAGES
+    for reply in message.replies
+    if reply.fields
 }
+"""Replies with data: those of one message differ in code or length."""
+_REPLY_BY_CLASS = {
+    (number, kind): (code, packing) for (number, code, _), (packing, kind) in _REPLIES.items()
+}
+_HELLO = messages.HELLO.number
+_HELLO_VERSION = Packing(messages.HELLO.reply(ReplyCode.FAILURE).fields)
 
 # The path of every message: no enum is asked there.
 _REPLY = int(Comm.REPLY)
 _ASKING = (int(Comm.TOPIC), int(Comm.REQUEST))
 _NO_REPLY = int(ReplyCode.NONE)
-
-
-def _reply_layouts() -> dict[tuple[int, int, int], tuple[Layout, type[Content]]]:
-    found = {}
-    for message in spec.MESSAGES:
-        for reply in message.replies:
-            if reply.fields:
-                layout = Layout(reply.fields)
-                kind = messages.REPLIES[message.number, reply.code, len(reply.fields)]
-                found[message.number, int(reply.code), layout.size] = (layout, kind)
-    return found
-
-
-_REPLIES = _reply_layouts()
-_REPLY_BY_CLASS = {
-    (number, kind): (code, layout) for (number, code, _), (layout, kind) in _REPLIES.items()
-}
-_HELLO_VERSION = Layout(spec.HELLO.replies[0].fields[:1])
+_make = tuple.__new__
 
 
 def number_of(content: Content) -> int:
@@ -49,8 +41,8 @@ def number_of(content: Content) -> int:
 
 def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
     """A topic or request as one frame. Raises ContentError for a value its field cannot hold."""
-    number, layout = _BY_CLASS[type(content)]
-    return Frame(number, comm, ReplyCode.NONE, layout.pack(_values(content))).to_bytes()
+    number, packing = _BY_CLASS[type(content)]
+    return Frame(number, comm, ReplyCode.NONE, packing.pack(content)).to_bytes()
 
 
 def encode_reply(number: int, content: Content) -> bytes:
@@ -62,12 +54,12 @@ def encode_reply(number: int, content: Content) -> bytes:
     known = _REPLY_BY_CLASS.get((number, type(content)))
     if known is None:
         raise ContentError(f"{type(content).__name__} does not answer message {number}")
-    code, layout = known
-    return Frame(number, Comm.REPLY, code, layout.pack(_values(content))).to_bytes()
+    code, packing = known
+    return Frame(number, Comm.REPLY, code, packing.pack(content)).to_bytes()
 
 
 def decode(frame: Frame) -> Content:
-    """The content of a frame.
+    """The content of a frame: a value of one of the classes of `messages`.
 
     Raises ContentError for an unknown number, comm_type or reply_code, and for data whose
     length does not fit; values are not judged (a float may be NaN).
@@ -75,7 +67,7 @@ def decode(frame: Frame) -> Content:
     number, comm, reply, data = frame
     if comm == _REPLY:
         return _decode_reply(frame)
-    known = _DECODERS.get(number)
+    known = _FIXED.get(number)
     if known is None and number not in _OPEN:
         raise ContentError(f"message type {number} is not known")
     if comm not in _ASKING:
@@ -84,44 +76,32 @@ def decode(frame: Frame) -> Content:
         raise ContentError(f"reply_code of a topic or request is {reply}, must be 0")
     if known is None:
         return _decode_open(frame)
-    size, layout, kind = known
+    size, packing, kind = known
     if len(data) != size:
-        name = spec.BY_NUMBER[number].name
-        raise ContentError(f"{name} has {len(data)} bytes of data, must have {size}")
-    return _make(kind, layout.unpack(data))
+        raise ContentError(f"{_NAMES[number]} has {len(data)} bytes of data, must have {size}")
+    return _make(kind, packing.unpack(data))
 
 
 def _decode_open(frame: Frame) -> Content:
-    number, _, _, data = frame
-    layout = _OPEN[number]
-    if not layout.fits(len(data)):
-        raise ContentError(f"{spec.BY_NUMBER[number].name} has {len(data)} bytes of data")
-    return _make(messages.CONTENTS[number], layout.unpack(data))
+    packing, kind = _OPEN[frame.number]
+    if not packing.fits(len(frame.data)):
+        raise ContentError(f"{_NAMES[frame.number]} has {len(frame.data)} bytes of data")
+    return _make(kind, packing.unpack(frame.data))
 
 
 def _decode_reply(frame: Frame) -> Content:
     number, _, reply, data = frame
-    message = spec.BY_NUMBER.get(number)
-    if message is None:
+    if number not in _NAMES:
         raise ContentError(f"reply to message type {number}, which is not known")
     if reply not in (ReplyCode.SUCCESS, ReplyCode.FAILURE):
         raise ContentError(f"reply_code of a reply is {reply}, must be 1 or 2")
     if not data:
         return messages.Acknowledged() if reply == ReplyCode.SUCCESS else messages.Failure()
     known = _REPLIES.get((number, reply, len(data)))
-    if known is None and message is spec.HELLO and len(data) >= _HELLO_VERSION.size:
+    if known is None and number == _HELLO and len(data) >= _HELLO_VERSION.size:
         # Of another version, which its first field still tells.
         return _make(messages.HelloRefusal, _HELLO_VERSION.unpack(data))
     if known is None:
-        raise ContentError(f"reply to {message.name} has {len(data)} bytes of data")
-    layout, kind = known
-    return _make(kind, layout.unpack(data))
-
-
-def _values(content: Content) -> tuple[Value, ...]:
-    return cast("tuple[Value, ...]", tuple(content))
-
-
-def _make(kind: type[Content], values: tuple[Value, ...]) -> Content:
-    # The classes' fields are the specification's, which no type checker can know.
-    return tuple.__new__(kind, values)
+        raise ContentError(f"reply to {_NAMES[number]} has {len(data)} bytes of data")
+    packing, kind = known
+    return _make(kind, packing.unpack(data))

@@ -1,4 +1,4 @@
-"""docs/develop/protocol.md, written from the specification.
+"""docs/develop/protocol.md, written from the declarations.
 
 `python -m rapidgen.wire.simple_message.document > docs/develop/protocol.md`; a test compares.
 """
@@ -7,12 +7,13 @@ import sys
 from collections.abc import Iterable, Sequence
 from enum import IntEnum, IntFlag
 
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
+from rapidgen.wire.simple_message.declaration import ANY, Field, MessageType
 
 _INTRODUCTION = """\
 # The wire
 
-Written from `rapidgen/wire/simple_message/spec.py` by
+Written from `rapidgen/wire/simple_message/` by
 `python -m rapidgen.wire.simple_message.document`.
 
 A rapidgen driver speaks ROS-Industrial's simple_message, so that its C++ nodes work unchanged,
@@ -44,8 +45,8 @@ _STREAMS = f"""\
   round(b * 1e6) + 2^25`: steps of 1e-6 s, rad or m, magnitudes up to {spec.PAIR_LIMIT}. It is
   below 2^52 and cannot be NaN.
 - A point is its duration and its joints, two numbers a pair; with an even number of joints the
-  last second number is 0. A message holds {spec.batch_points(6)} points of six or seven axes,
-  {spec.batch_points(10)} of ten.
+  last second number is 0. A message holds {messages.batch_points(6)} points of six or seven axes,
+  {messages.batch_points(10)} of ten.
 - The checksum goes over the uint64 words of the data before it, stream and flags being the first,
   first and points the second: `c := 0`, then for each word `c := (2 * c + word) MOD (2^51 - 129)`.
   Every step is exact in 64-bit floats.
@@ -82,7 +83,7 @@ def protocol_markdown() -> str:
         _enum_section("reply_code", spec.ReplyCode),
         _ports(),
         "## Messages\n\n" + _overview(),
-        *(_message(message) for message in sorted(spec.MESSAGES, key=lambda m: m.number)),
+        *(_message(message) for message in messages.MESSAGES),
         _reserved(),
         _RULES,
         _STREAMS,
@@ -138,12 +139,12 @@ def _overview() -> str:
             message.length if message.is_fixed else f"{message.length} and more",
             message.since or "standard",
         )
-        for message in sorted(spec.MESSAGES, key=lambda m: m.number)
+        for message in messages.MESSAGES
     ]
     return _table(("number", "name", "sender", "ports", "length field", "since version"), rows)
 
 
-def _message(message: spec.Message) -> str:
+def _message(message: MessageType) -> str:
     text = f"### {message.number} {message.name}\n\n{message.text}\n"
     if message.fields:
         text += "\n" + _fields(message.fields)
@@ -154,16 +155,16 @@ def _message(message: spec.Message) -> str:
     return text
 
 
-def _fields(fields: Sequence[spec.Field]) -> str:
+def _fields(fields: Sequence[Field]) -> str:
     rows = []
     more = ""
     at = spec.PREFIX_BYTES + spec.HEADER_BYTES
     for field in fields:
-        count = "n" if field.count == spec.ANY else str(field.count)
+        count = "n" if field.count == ANY else str(field.count)
         kind = field.type.value if count == "1" else f"{count} x {field.type.value}"
         rows.append((f"{at}{more}", field.name, kind, field.unit, field.text))
         at += field.size
-        if field.count == spec.ANY:
+        if field.count == ANY:
             more = f" + {field.type.size} n"
     return _table(("byte", "field", "type", "unit", "meaning"), rows)
 
@@ -178,7 +179,7 @@ def _reserved() -> str:
 
 
 def _reasons() -> str:
-    rows = [(int(reason), reason.name, spec.REASON_TEXTS[reason]) for reason in spec.Reason]
+    rows = [(int(reason), reason.name, reason.text) for reason in spec.Reason]
     return (
         "## Reasons\n\nWhy a trajectory was refused (1 to 39) or ended early (40 and above). "
         "STATUS carries reason + 100 x joint number in error_code (joint 0: none), so 203 is "
@@ -186,13 +187,17 @@ def _reasons() -> str:
     )
 
 
+def _new(version: int) -> str:
+    return ", ".join(m.name for m in messages.MESSAGES if m.since == version)
+
+
 def _versions() -> str:
     rows = [
-        ("1", "HELLO, PROGRESS, data in the replies to an end frame", "none"),
+        ("1", f"{_new(1)}, data in the replies to an end frame", "none"),
         (
             "2",
-            "POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT; HELLO on the control port; "
-            "JOINT_FEEDBACK; reasons 15 to 19 and 27, states 7 and 8",
+            f"{_new(2)}; HELLO on the control port; JOINT_FEEDBACK; reasons 15 to 19 and 27, "
+            "states 7 and 8",
             "the reply to HELLO is longer: a driver refuses a client of version 1, a client of "
             "version 2 a driver of version 1",
         ),

@@ -1,237 +1,40 @@
-"""The messages as typed values. Their fields are the specification's (a test compares)."""
+"""The messages: each is declared here once, as a class with its fields and a row under it.
 
-from typing import NamedTuple
+What needs more than a declaration is the driver's answer (templates/) and who asks (client/).
+"""
 
-from rapidgen.wire.simple_message import spec
+from typing import Annotated, NamedTuple
+
+from rapidgen.wire.simple_message.declaration import (
+    ANY,
+    Field,
+    MessageType,
+    Reply,
+    Wire,
+    chars,
+    float32,
+    int32,
+)
+from rapidgen.wire.simple_message.spec import MAX_JOINTS, MAX_LENGTH, Port, ReplyCode
 
 Joints = tuple[float, ...]
 """Ten controller axis values in wire order, rad or m, padded with zeros."""
-
-
-class TrajectoryPoint(NamedTuple):
-    """JOINT_TRAJ_PT: `duration` is s from the point before; `velocity` is not used."""
-
-    sequence: int
-    joints: Joints
-    velocity: float
-    duration: float
-
-
-class JointPosition(NamedTuple):
-    """JOINT_POSITION: where the controller axes are, rad or m."""
-
-    sequence: int
-    joints: Joints
-
-
-class Status(NamedTuple):
-    """STATUS: what the robot is doing, as the numbers of the wire."""
-
-    drives_powered: int
-    e_stopped: int
-    error_code: int
-    in_error: int
-    in_motion: int
-    mode: int
-    motion_possible: int
-
-
-class Ping(NamedTuple):
-    """PING has no data."""
-
-
-class TrajectoryPointFull(NamedTuple):
-    """JOINT_TRAJ_PT_FULL."""
-
-    robot_id: int
-    sequence: int
-    valid_fields: int
-    time: float
-    positions: Joints
-    velocities: Joints
-    accelerations: Joints
-
-
-class JointFeedback(NamedTuple):
-    """JOINT_FEEDBACK."""
-
-    robot_id: int
-    valid_fields: int
-    time: float
-    positions: Joints
-    velocities: Joints
-    accelerations: Joints
-
-
-class Hello(NamedTuple):
-    """HELLO as the client asks it."""
-
-    protocol: int
-    client: tuple[int, int, int]
-    subscribe: int
-
-
-class HelloReply(NamedTuple):
-    """HELLO as a rapidgen driver answers it; limits are those of the controller axes."""
-
-    protocol: int
-    driver: tuple[int, int, int]
-    build_id: str
-    mapping: str
-    features: int
-    capacity: int
-    joint_count: int
-    prismatic: int
-    state_period: float
-    min_segment: float
-    start_tolerance: float
-    start_tolerance_linear: float
-    lower: Joints
-    upper: Joints
-    speed: Joints
-    control_port: int
-    ring: int
-    preload: float
-    batch: int
-    signals: int
-
-    def same_driver(self, other: "HelloReply") -> bool:
-        """Whether both are of one driver: the same build for the same joints."""
-        return (self.build_id, self.mapping) == (other.build_id, other.mapping)
-
-
-class HelloRefusal(NamedTuple):
-    """HELLO answered by a driver whose protocol version does not fit."""
-
-    protocol: int
-
-
-class Progress(NamedTuple):
-    """PROGRESS of the newest trajectory; `point` from 0, `joint` from 1 (0: none)."""
-
-    trajectory: int
-    state: int
-    received: int
-    planned: int
-    reached: int
-    reason: int
-    point: int
-    joint: int
-
-
-class Points(NamedTuple):
-    """POINTS: a batch of a stream; `bulk` makes and reads whole ones.
-
-    `pairs` are the numbers of all points in turn (s, rad or m), an even count of each.
-    """
-
-    stream: int
-    flags: int
-    first: int
-    points: int
-    pairs: tuple[float, ...]
-    checksum: int
-
-
-class Stopped(NamedTuple):
-    """STOPPED: where the robot stands after a halt."""
-
-    trajectory: int
-    reached: int
-    reason: int
-    joints: Joints
-
-
-class Pause(NamedTuple):
-    """PAUSE: 1 hold, 0 go on."""
-
-    paused: int
-
-
-class Speed(NamedTuple):
-    """SPEED: percent of the programmed speed, 1 to 100."""
-
-    percent: float
-
-
-class Heartbeat(NamedTuple):
-    """HEARTBEAT: s until the next one must come; 0 ends the watch."""
-
-    timeout: float
-
-
-class Signal(NamedTuple):
-    """SIGNAL: read, or with `write` 1 write, the configuration's signal, from 0."""
-
-    signal: int
-    write: int
-    value: float
-
-
-class Event(NamedTuple):
-    """EVENT of the controller's log."""
-
-    domain: int
-    number: int
-    type: int
-    title: str
-
-
-class PointsAccepted(NamedTuple):
-    """Reply to POINTS: all of them are in; counts of points are modulo 2^23."""
-
-    stream: int
-    trajectory: int
-    accepted: int
-    room: int
-    planned: int
-    reached: int
-    state: int
-
-
-class PointsRefused(NamedTuple):
-    """Reply to POINTS: those from `accepted` on are not executed; `joint` from 1."""
-
-    stream: int
-    trajectory: int
-    accepted: int
-    reason: int
-    point: int
-    joint: int
-
-
-class NotDone(NamedTuple):
-    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL: it was not done."""
-
-    reason: int
-
-
-class HeartbeatReply(NamedTuple):
-    """Reply to HEARTBEAT: the newest trajectory and its state."""
-
-    trajectory: int
-    state: int
-
-
-class SignalReply(NamedTuple):
-    """Reply to SIGNAL: the value as it was read, after any writing."""
-
-    signal: int
-    value: float
-
-
-class Accepted(NamedTuple):
-    """Reply to an end frame: the trajectory was taken under this number."""
-
-    trajectory: int
-
-
-class Refused(NamedTuple):
-    """Reply to an end frame: nothing moves; `point` from 0 (-1: none), `joint` from 1."""
-
-    reason: int
-    point: int
-    joint: int
+Version = tuple[int, int, int]
+"""Major, minor, patch."""
+
+_CLIENT, _CONTROLLER = "client", "controller"
+_TRAJECTORY = int32("its number, as in PROGRESS")
+_STATE = int32("see the table of trajectory states")
+_REASON = int32("see the table of reasons")
+_REFUSAL = int32("number of the refusal, see the table of reasons")
+_POINT = int32("point at fault, from 0; -1 none")
+_JOINT = int32("joint at fault, from 1; 0 none")
+_ACCEPTED = int32("points accepted, modulo 2^23")
+_REACHED = int32("points that the robot has reached")
+_VALID = int32("bits: 1 time, 2 position, 4 velocity, 8 acceleration")
+_POSITIONS = float32("rad, m", count=MAX_JOINTS)
+_VELOCITIES = float32("rad/s, m/s", count=MAX_JOINTS)
+_ACCELERATIONS = float32("rad/s2, m/s2", count=MAX_JOINTS)
 
 
 class Acknowledged(NamedTuple):
@@ -242,66 +45,367 @@ class Failure(NamedTuple):
     """A failure reply without data."""
 
 
-Content = (
-    TrajectoryPoint
-    | JointPosition
-    | Status
-    | Ping
-    | TrajectoryPointFull
-    | JointFeedback
-    | Hello
-    | HelloReply
-    | HelloRefusal
-    | Progress
-    | Points
-    | Stopped
-    | Pause
-    | Speed
-    | Heartbeat
-    | Signal
-    | Event
-    | PointsAccepted
-    | PointsRefused
-    | NotDone
-    | HeartbeatReply
-    | SignalReply
-    | Accepted
-    | Refused
-    | Acknowledged
-    | Failure
+class NotDone(NamedTuple):
+    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL: it was not done."""
+
+    reason: Annotated[int, _REASON]
+
+
+_DONE = Reply(ReplyCode.SUCCESS, Acknowledged)
+_NOT_DONE = Reply(ReplyCode.FAILURE, NotDone, "it was not done")
+
+
+class Ping(NamedTuple):
+    """Asks for a sign of life. abb_driver does not take it."""
+
+
+PING = MessageType("PING", 1, Ping, _CLIENT, (Port.MOTION,), replies=(_DONE,))
+
+
+class JointPosition(NamedTuple):
+    """Where the controller axes are."""
+
+    sequence: Annotated[int, int32("0 from abb_driver")]
+    joints: Annotated[Joints, _POSITIONS]
+
+
+JOINT_POSITION = MessageType("JOINT_POSITION", 10, JointPosition, _CONTROLLER, (Port.STATE,))
+
+
+class TrajectoryPoint(NamedTuple):
+    """One point of a trajectory. As a topic it is not answered. On the control port only STOP
+    is taken."""
+
+    sequence: Annotated[int, int32("1, 2, 3, ... or a special sequence number")]
+    joints: Annotated[
+        Joints,
+        float32("rad, m", "controller axes in wire order, padded with zeros", MAX_JOINTS),
+    ]
+    velocity: Annotated[float, float32("1", "not used")]
+    duration: Annotated[float, float32("s", "time from the point before to this one")]
+
+
+class Accepted(NamedTuple):
+    """Reply to an end frame: the trajectory was taken under this number."""
+
+    trajectory: Annotated[int, int32("number of the accepted trajectory, as in PROGRESS")]
+
+
+class Refused(NamedTuple):
+    """Reply to an end frame: nothing moves; `point` from 0 (-1: none), `joint` from 1."""
+
+    reason: Annotated[int, _REFUSAL]
+    point: Annotated[int, _POINT]
+    joint: Annotated[int, _JOINT]
+
+
+JOINT_TRAJ_PT = MessageType(
+    "JOINT_TRAJ_PT",
+    11,
+    TrajectoryPoint,
+    _CLIENT,
+    (Port.MOTION, Port.CONTROL),
+    replies=(
+        Reply(ReplyCode.SUCCESS, Acknowledged, "the reply to STOP, and every reply of abb_driver"),
+        Reply(
+            ReplyCode.SUCCESS,
+            Accepted,
+            "the reply of a rapidgen driver to an end frame that is a request",
+        ),
+        Reply(ReplyCode.FAILURE, Refused, "the trajectory was refused; nothing moves"),
+    ),
 )
 
-CONTENTS: dict[int, type[Content]] = {
-    spec.PING.number: Ping,
-    spec.JOINT_POSITION.number: JointPosition,
-    spec.JOINT_TRAJ_PT.number: TrajectoryPoint,
-    spec.STATUS.number: Status,
-    spec.JOINT_TRAJ_PT_FULL.number: TrajectoryPointFull,
-    spec.JOINT_FEEDBACK.number: JointFeedback,
-    spec.HELLO.number: Hello,
-    spec.PROGRESS.number: Progress,
-    spec.POINTS.number: Points,
-    spec.STOPPED.number: Stopped,
-    spec.PAUSE.number: Pause,
-    spec.SPEED.number: Speed,
-    spec.HEARTBEAT.number: Heartbeat,
-    spec.SIGNAL.number: Signal,
-    spec.EVENT.number: Event,
-}
-"""Topics and requests by message number."""
 
-REPLIES: dict[tuple[int, spec.ReplyCode, int], type[Content]] = {
-    (spec.JOINT_TRAJ_PT.number, spec.ReplyCode.SUCCESS, 1): Accepted,
-    (spec.JOINT_TRAJ_PT.number, spec.ReplyCode.FAILURE, 3): Refused,
-    (spec.HELLO.number, spec.ReplyCode.SUCCESS, 20): HelloReply,
-    (spec.HELLO.number, spec.ReplyCode.FAILURE, 1): HelloRefusal,
-    (spec.POINTS.number, spec.ReplyCode.SUCCESS, 7): PointsAccepted,
-    (spec.POINTS.number, spec.ReplyCode.FAILURE, 6): PointsRefused,
-    (spec.PAUSE.number, spec.ReplyCode.FAILURE, 1): NotDone,
-    (spec.SPEED.number, spec.ReplyCode.FAILURE, 1): NotDone,
-    (spec.HEARTBEAT.number, spec.ReplyCode.SUCCESS, 2): HeartbeatReply,
-    (spec.HEARTBEAT.number, spec.ReplyCode.FAILURE, 1): NotDone,
-    (spec.SIGNAL.number, spec.ReplyCode.SUCCESS, 2): SignalReply,
-    (spec.SIGNAL.number, spec.ReplyCode.FAILURE, 1): NotDone,
-}
-"""Replies with data by message number, reply code and number of fields."""
+class Status(NamedTuple):
+    """What the robot is doing. It carries no sequence number."""
+
+    drives_powered: Annotated[int, int32("tri-state")]
+    e_stopped: Annotated[int, int32("tri-state")]
+    error_code: Annotated[int, int32("reason + 100 x joint; abb_driver: an ERRNO")]
+    in_error: Annotated[int, int32("tri-state")]
+    in_motion: Annotated[int, int32("tri-state")]
+    mode: Annotated[int, int32("1 manual, 2 automatic, -1 unknown")]
+    motion_possible: Annotated[int, int32("tri-state")]
+
+
+STATUS = MessageType("STATUS", 13, Status, _CONTROLLER, (Port.STATE,))
+
+
+class TrajectoryPointFull(NamedTuple):
+    """A point with derivatives. Neither abb_driver nor a rapidgen driver takes it."""
+
+    robot_id: Annotated[int, int32()]
+    sequence: Annotated[int, int32()]
+    valid_fields: Annotated[int, _VALID]
+    time: Annotated[float, float32("s")]
+    positions: Annotated[Joints, _POSITIONS]
+    velocities: Annotated[Joints, _VELOCITIES]
+    accelerations: Annotated[Joints, _ACCELERATIONS]
+
+
+JOINT_TRAJ_PT_FULL = MessageType(
+    "JOINT_TRAJ_PT_FULL", 14, TrajectoryPointFull, _CLIENT, (Port.MOTION,)
+)
+
+
+class JointFeedback(NamedTuple):
+    """Where the axes are, with time and derivatives. Only on connections that asked for it in
+    HELLO."""
+
+    robot_id: Annotated[int, int32("0")]
+    valid_fields: Annotated[int, _VALID]
+    time: Annotated[float, float32("s", "of the controller's clock, 0 to 1000, then again from 0")]
+    positions: Annotated[Joints, _POSITIONS]
+    velocities: Annotated[Joints, _VELOCITIES]
+    accelerations: Annotated[Joints, _ACCELERATIONS]
+
+
+JOINT_FEEDBACK = MessageType("JOINT_FEEDBACK", 15, JointFeedback, _CONTROLLER, (Port.STATE,))
+
+
+class Hello(NamedTuple):
+    """Who is there? Sent as a request on the state port, where abb_driver reads nothing and so
+    is not disturbed; no reply within a second means a plain simple_message driver. On the control
+    port it tells whose port that is. A reply of another length is one of another version: its
+    first field still says which."""
+
+    protocol: Annotated[int, int32("newest protocol version of the client")]
+    client: Annotated[Version, int32("version of the client: major, minor, patch", 3)]
+    subscribe: Annotated[int, int32("features that the client wants on this connection, as bits")]
+
+
+class HelloReply(NamedTuple):
+    """HELLO as a rapidgen driver answers it; limits are those of the controller axes."""
+
+    protocol: Annotated[int, int32("protocol version of the driver")]
+    driver: Annotated[
+        Version, int32("version of rapidgen that generated it: major, minor, patch", 3)
+    ]
+    build_id: Annotated[str, chars(12, "12 hexadecimal digits")]
+    mapping: Annotated[str, chars(12, "hash of the joint map, 12 digits")]
+    features: Annotated[int, int32("bits")]
+    capacity: Annotated[int, int32("points of one trajectory")]
+    joint_count: Annotated[int, int32("joints of the group, 1 to 10")]
+    prismatic: Annotated[int, int32("bit i: joint i is in m")]
+    state_period: Annotated[float, float32("s")]
+    min_segment: Annotated[float, float32("s", "shortest duration that the planner follows")]
+    start_tolerance: Annotated[float, float32("rad", "of the first point, rotary axes")]
+    start_tolerance_linear: Annotated[float, float32("m", "of the first point, linear axes")]
+    lower: Annotated[Joints, float32("rad, m", "limits of the controller axes", MAX_JOINTS)]
+    upper: Annotated[Joints, _POSITIONS]
+    speed: Annotated[Joints, _VELOCITIES]
+    control_port: Annotated[int, int32("TCP port of the control connection, 0 none")]
+    ring: Annotated[int, int32("points of a stream that the driver takes ahead")]
+    preload: Annotated[float, float32("s", "that it likes to have before it starts")]
+    batch: Annotated[int, int32("points of one POINTS, 0 when it does not stream")]
+    signals: Annotated[int, int32("signals that SIGNAL reaches")]
+
+    def same_driver(self, other: "HelloReply") -> bool:
+        """Whether both are of one driver: the same build for the same joints."""
+        return (self.build_id, self.mapping) == (other.build_id, other.mapping)
+
+
+class HelloRefusal(NamedTuple):
+    """HELLO answered by a driver whose protocol version does not fit."""
+
+    protocol: Annotated[int, int32("protocol version of the driver")]
+
+
+HELLO = MessageType(
+    "HELLO",
+    1300,
+    Hello,
+    _CLIENT,
+    (Port.STATE, Port.CONTROL),
+    since=1,
+    replies=(
+        Reply(ReplyCode.SUCCESS, HelloReply, "a rapidgen driver of a version that fits"),
+        Reply(ReplyCode.FAILURE, HelloRefusal, "the versions do not fit"),
+    ),
+)
+
+
+class Progress(NamedTuple):
+    """How far the newest trajectory is. Only on connections that asked for it in HELLO."""
+
+    trajectory: Annotated[int, int32("number of the newest trajectory, from 1; 0 follows 2^22 - 1")]
+    state: Annotated[int, _STATE]
+    received: Annotated[int, int32("points received")]
+    planned: Annotated[int, int32("points given to the path planner")]
+    reached: Annotated[int, _REACHED]
+    reason: Annotated[int, _REFUSAL]
+    point: Annotated[int, _POINT]
+    joint: Annotated[int, _JOINT]
+
+
+PROGRESS = MessageType("PROGRESS", 1301, Progress, _CONTROLLER, (Port.STATE,), since=1)
+
+
+class Points(NamedTuple):
+    """Points of a trajectory without end. As a topic it is not answered."""
+
+    # `bulk` makes and reads whole ones.
+    stream: Annotated[int, int32("the client's number of the stream, 1 to 2^23 - 1")]
+    flags: Annotated[int, int32("bits: 1 BEGIN, 2 END, 4 FLUSH")]
+    first: Annotated[int, int32("index of the first point, from 0, modulo 2^23")]
+    points: Annotated[int, int32("how many follow, from 0")]
+    pairs: Annotated[
+        tuple[float, ...],
+        Field(Wire.PAIR, ANY, "s, rad, m", "per point: duration, joints, then 0 if odd"),
+    ]
+    checksum: Annotated[int, Field(Wire.UINT64, 1, "", "of all words before it, see below")]
+
+
+class PointsAccepted(NamedTuple):
+    """Reply to POINTS: all of them are in."""
+
+    stream: Annotated[int, int32()]
+    trajectory: Annotated[int, _TRAJECTORY]
+    accepted: Annotated[int, _ACCEPTED]
+    room: Annotated[int, int32("points that may follow")]
+    planned: Annotated[int, int32("points given to the path planner, modulo 2^23")]
+    reached: Annotated[int, int32("points that the robot has reached, modulo 2^23")]
+    state: Annotated[int, _STATE]
+
+
+class PointsRefused(NamedTuple):
+    """Reply to POINTS: those from `accepted` on are not executed."""
+
+    stream: Annotated[int, int32()]
+    trajectory: Annotated[int, int32("its number, as in PROGRESS; 0 when there is none")]
+    accepted: Annotated[int, _ACCEPTED]
+    reason: Annotated[int, _REFUSAL]
+    point: Annotated[int, _POINT]
+    joint: Annotated[int, _JOINT]
+
+
+POINTS = MessageType(
+    "POINTS",
+    1302,
+    Points,
+    _CLIENT,
+    (Port.MOTION,),
+    since=2,
+    replies=(
+        Reply(ReplyCode.SUCCESS, PointsAccepted, "all points of the batch are accepted"),
+        Reply(
+            ReplyCode.FAILURE,
+            PointsRefused,
+            "points from `accepted` on are refused, and so is what follows them",
+        ),
+    ),
+)
+
+
+class Stopped(NamedTuple):
+    """Where the robot stands after a halt, when its path is gone. Sent by itself."""
+
+    trajectory: Annotated[int, int32("as in PROGRESS")]
+    reached: Annotated[int, _REACHED]
+    reason: Annotated[int, _REASON]
+    joints: Annotated[Joints, float32("rad, m", "where the axes stand", MAX_JOINTS)]
+
+
+STOPPED = MessageType("STOPPED", 1303, Stopped, _CONTROLLER, (Port.CONTROL,), since=2)
+
+
+class Pause(NamedTuple):
+    """Holds a motion on its path, or lets it go on."""
+
+    paused: Annotated[int, int32("1 stop on the path and keep it, 0 go on")]
+
+
+PAUSE = MessageType("PAUSE", 1304, Pause, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
+
+
+class Speed(NamedTuple):
+    """Speed override; 100 again with every new trajectory."""
+
+    percent: Annotated[float, float32("1", "1 to 100 % of the programmed speed")]
+
+
+SPEED = MessageType("SPEED", 1305, Speed, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
+
+
+class Heartbeat(NamedTuple):
+    """A sign of life of the client. When the next one is late, or the connection breaks while one
+    is awaited, the robot is stopped (CLIENT_LOST)."""
+
+    timeout: Annotated[
+        float, float32("s", "until the next one must come; 0: none is awaited any more")
+    ]
+
+
+class HeartbeatReply(NamedTuple):
+    """Reply to HEARTBEAT: the newest trajectory and its state."""
+
+    trajectory: Annotated[int, int32("number of the newest trajectory")]
+    state: Annotated[int, _STATE]
+
+
+HEARTBEAT = MessageType(
+    "HEARTBEAT",
+    1306,
+    Heartbeat,
+    _CLIENT,
+    (Port.CONTROL,),
+    since=2,
+    replies=(Reply(ReplyCode.SUCCESS, HeartbeatReply), _NOT_DONE),
+)
+
+
+class Signal(NamedTuple):
+    """Reads or writes one of the signals that the configuration exposes."""
+
+    signal: Annotated[int, int32("of the configuration, from 0")]
+    write: Annotated[int, int32("1 write `value`, 0 read")]
+    value: Annotated[float, float32("1")]
+
+
+class SignalReply(NamedTuple):
+    """Reply to SIGNAL: the value as it was read, after any writing."""
+
+    signal: Annotated[int, int32()]
+    value: Annotated[float, float32("1", "as it was read, after any writing")]
+
+
+SIGNAL = MessageType(
+    "SIGNAL",
+    1307,
+    Signal,
+    _CLIENT,
+    (Port.CONTROL,),
+    since=2,
+    replies=(Reply(ReplyCode.SUCCESS, SignalReply), _NOT_DONE),
+)
+
+
+class Event(NamedTuple):
+    """An event of the controller's log. Only on connections that asked for it in HELLO."""
+
+    domain: Annotated[int, int32("of the event's number: 1 to 14; 0: so many were not told")]
+    number: Annotated[int, int32("within the domain")]
+    type: Annotated[int, int32("1 state change, 2 warning, 3 error")]
+    title: Annotated[str, chars(80, "in the controller's language")]
+
+
+EVENT = MessageType("EVENT", 1308, Event, _CONTROLLER, (Port.STATE,), since=2)
+
+MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
+"""All of them, by number."""
+
+
+def point_pairs(joint_count: int) -> int:
+    """PAIRs of one point in POINTS: a duration and the joints, two by two."""
+    return (2 + joint_count) // 2
+
+
+def points_length(count: int, joint_count: int) -> int:
+    """Value of the length field of a POINTS with so many points."""
+    return POINTS.length + count * point_pairs(joint_count) * Wire.PAIR.size
+
+
+def batch_points(joint_count: int) -> int:
+    """Points that fit in one POINTS: 30 for six axes, 20 for ten."""
+    return (MAX_LENGTH - POINTS.length) // (point_pairs(joint_count) * Wire.PAIR.size)

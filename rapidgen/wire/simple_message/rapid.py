@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from rapidgen.wire.simple_message import spec
+from rapidgen.wire.simple_message import messages, spec
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +29,7 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
         RapidConstant("ROS_PAIR_SCALE", spec.PAIR_SCALE, "steps of a pair in 1", "dnum"),
         RapidConstant("ROS_CHECKSUM_MODULUS", spec.CHECKSUM_MODULUS, "of a checksum", "dnum"),
     ]
-    for message in spec.MESSAGES:
+    for message in messages.MESSAGES:
         name = message.name
         found.append(RapidConstant(f"ROS_MSG_{name}", message.number, "message type"))
         found.append(RapidConstant(f"ROS_LEN_{name}", message.length, "its length field"))
@@ -45,5 +45,5 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
     ]
     found += [RapidConstant(f"ROS_STREAM_{f.name}", f, "flag of POINTS") for f in spec.StreamFlag]
     found += [RapidConstant(f"ROS_EVENT_{e.name}", e, "type of an event") for e in spec.EventType]
-    found += [RapidConstant(f"ROS_REASON_{r.name}", r, spec.REASON_TEXTS[r]) for r in spec.Reason]
+    found += [RapidConstant(f"ROS_REASON_{r.name}", r, r.text) for r in spec.Reason]
     return tuple(RapidConstant(c.name, int(c.value), c.text, c.type) for c in found)

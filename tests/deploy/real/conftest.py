@@ -21,7 +21,7 @@ from typing import NoReturn
 import pytest
 
 from rapidgen.deploy import Access, connect, parse_target
-from rapidgen.deploy.target import Target
+from rapidgen.deploy.transports.registry import Target
 from rapidgen.faces import serve_ftp, serve_sftp
 
 ROOT = Path(__file__).parents[3]

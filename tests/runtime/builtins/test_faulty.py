@@ -2,13 +2,14 @@
 
 import pytest
 
-from rapidgen.controller.faults import ControllerRule, NetworkRule, read_plan
+from rapidgen.controller.faults import ControllerRule, read_plan
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.machine.network.device import SocketDevice
 from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
+from rapidgen.runtime.sockets import SocketDevice
 
 
 @pytest.fixture

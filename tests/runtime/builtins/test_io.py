@@ -3,8 +3,9 @@
 import pytest
 
 from rapidgen.controller.controller import VirtualController
-from rapidgen.machine.io import STATUSES, SignalAlias, status_name
+from rapidgen.machine.io import STATUSES, status_name
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.signals import SignalAlias
 from rapidgen.runtime.switches import Dialect
 from rapidgen.system.model import (
     CrossConnection,

@@ -7,7 +7,7 @@ from rapidgen.machine.log import Domain, EventLog, EventType
 from rapidgen.machine.operator import Answer, read_answers
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.runtime.errors import RapidError, errnum
-from rapidgen.runtime.values import Cell, ListItem, Orient, Pos, single
+from rapidgen.runtime.values import ListItem, Orient, PersistentCell, Pos, single
 from rapidgen.system.model import SignalSpec, System
 
 
@@ -119,7 +119,7 @@ def test_a_dialog_is_broken_off_by_a_signal_even_if_it_is_high_already(waiting):
 def test_breaks_in_time(waiting):
     io = waiting.controller.io
     flag = waiting.box(0)
-    cell = Cell("stop", waiting.box(False).type, (), False)
+    cell = PersistentCell("stop", waiting.box(False).type, (), False)
 
     def body(task):
         seen = []

@@ -5,11 +5,11 @@ import threading
 
 import pytest
 
-from rapidgen.machine.network.device import SocketDevice, SocketStatus
-from rapidgen.machine.network.interface import NetworkFault, Reason
+from rapidgen.machine.network.interface import NetworkFault, NetworkReason
 from rapidgen.machine.network.system import SystemNetwork
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
+from rapidgen.runtime.sockets import SocketDevice, SocketStatus
 
 
 @pytest.fixture
@@ -101,7 +101,7 @@ def test_a_port_that_another_process_has_is_in_use(make_bench):
         bench = make_bench(clock="real", network=SystemNetwork)
         with pytest.raises(NetworkFault) as caught:
             bench.controller.network.bind("127.0.0.1", port)
-    assert caught.value.reason is Reason.ADDRESS_IN_USE
+    assert caught.value.reason is NetworkReason.ADDRESS_IN_USE
 
 
 def test_a_client_that_resets_and_one_that_ends(real):

@@ -6,10 +6,12 @@ from functools import partial
 from types import FrameType
 from typing import Any
 
-from rapidgen.motion import events
+from rapidgen.axes.kinematics import Kinematics
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import NO_MOTION_TASK, NO_UNIT, planned
+from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.task import Task
 
 
@@ -35,18 +37,26 @@ def group_of(task: Task) -> MotionGroup:
     """The group that the task moves or is connected to. FatalError: there is none."""
     group = motion_of(task).of_task(task.name)
     if group is None:
-        raise FatalError(
-            events.NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot"
-        )
+        raise FatalError(NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot")
     return group
+
+
+def data_of(task: Task, group: MotionGroup) -> RobotData:
+    """What programs have set for a robot."""
+    data: RobotData = task.controller.robot_data[group.name]
+    return data
+
+
+@planned
+def geometry_of(group: MotionGroup) -> Kinematics:
+    """The kinematics of a robot. FatalError: its model has none."""
+    return group.geometry()
 
 
 def moving_group(task: Task) -> MotionGroup:
     """The same for move instructions, which only a motion task may execute."""
     if not motion_of(task).is_motion_task(task.name):
-        raise FatalError(
-            events.NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves"
-        )
+        raise FatalError(NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves")
     if task.interrupts.process_error is not None:
         task.raise_process_error(task.interrupts.process_error)
     return group_of(task)

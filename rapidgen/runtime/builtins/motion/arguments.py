@@ -9,9 +9,12 @@ from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import Posture, Speed, Zone
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, single
 
 RAD = pi / 180
+Offsets: TypeAlias = tuple[float, ...]
+"""Of the external axes eax_a to eax_f, deg and mm."""
 Data: TypeAlias = Any
 """A RAPID record of `values`."""
 STOP_TIME = 2
@@ -67,20 +70,20 @@ def target_of(
     data: Data,
     axes: JointMap,
     default: Posture,
-    offsets: tuple[float, ...] = (0.0,) * 6,
+    offsets: Offsets = NO_OFFSETS,
 ) -> Posture:
     """A jointtarget as controller values. `offsets` shift external axes; 9E9 keeps `default`."""
     return axes.from_rapid(data.robax.values(), external_values(data.extax, offsets), default)
 
 
-def external_values(data: Data, offsets: tuple[float, ...]) -> tuple[float, ...]:
+def external_values(data: Data, offsets: Offsets) -> tuple[float, ...]:
     """extjoint with offsets added where an axis is used."""
     return tuple(
         v if v > ABSENT / 2 else v + o for v, o in zip(data.values(), offsets, strict=True)
     )
 
 
-def joint_target(axes: JointMap, posture: Posture, offsets: tuple[float, ...] = (0.0,) * 6) -> Data:
+def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS) -> Data:
     """A posture as a fresh jointtarget."""
     robot, external = axes.to_rapid(posture)
     return JointTarget(
@@ -89,7 +92,7 @@ def joint_target(axes: JointMap, posture: Posture, offsets: tuple[float, ...] = 
     )
 
 
-def external_target(external: tuple[float, ...], offsets: tuple[float, ...]) -> Data:
+def external_target(external: tuple[float, ...], offsets: Offsets) -> Data:
     """External axes in RAPID units as a fresh extjoint, without the offsets."""
     return ExtJoint(
         *(

@@ -6,7 +6,7 @@ FitSphere and Rand's largest value; FitSphere's optional arguments [mem].
 
 from typing import TYPE_CHECKING, Any, TypeAlias
 
-from rapidgen.runtime.builtins.motion.access import group_of
+from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import target_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
@@ -91,8 +91,8 @@ def m_tool_tcp_calib(
     import numpy as np
 
     group = group_of(task)
-    kinematics = group.geometry()
-    offsets = group.modal.external_offset
+    kinematics = geometry_of(group)
+    offsets = data_of(task, group).external_offset
     rows, ends = [], []
     for joints in (one, two, three, four):
         posture = target_of(joints, group.map, group.positions(), offsets)

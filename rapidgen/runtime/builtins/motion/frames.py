@@ -11,7 +11,7 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.mapping import ABSENT
-from rapidgen.runtime.builtins.motion.access import group_of
+from rapidgen.runtime.builtins.motion.access import data_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import quaternion
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
@@ -112,17 +112,18 @@ def o_rob_t(task: Task, point: Data, in_displacement: bool | None, in_offsets: b
 
     \\InPDisp takes off only the offsets, \\InEOffs only the displacement (S4 datasys 3-ORobT).
     """
-    modal = group_of(task).modal
+    group = group_of(task)
     moved = point.copy()
     if not in_displacement:
-        (x, y, z), q = modal.displacement
+        (x, y, z), q = group.modal.displacement
         shown = frames.compose(((x * 1000, y * 1000, z * 1000), q), _frame(point))
         moved.trans, moved.rot = _pos(shown[0]), _orient(shown[1])
     if not in_offsets:
+        offsets = data_of(task, group).external_offset
         moved.extax = ExtJoint(
             *(
                 v if v > ABSENT / 2 else single(v + o)
-                for v, o in zip(point.extax.values(), modal.external_offset, strict=True)
+                for v, o in zip(point.extax.values(), offsets, strict=True)
             )
         )
     return moved

@@ -2,7 +2,7 @@
 
 Sources: 3HAC050917 for arguments; ETH's and Gramazio Kohler's cells [code] for lists with empty
 names; the rest of MultiMove [mem]. Between SyncMoveOn and SyncMoveOff moves of one \\ID begin and
-end together (`motion/together.py`).
+end together (`together.py`).
 """
 
 from collections.abc import Iterable
@@ -11,7 +11,7 @@ from typing import Any
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.builtins.control import wait_standing
-from rapidgen.runtime.builtins.motion.access import group_of, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.running import RapidTask
@@ -90,23 +90,23 @@ def wait_sync_task(
 
 
 def _partners(task: RapidTask) -> frozenset[str]:
-    partners: frozenset[str] = group_of(task).modal.partners
-    return partners
+    return data_of(task, group_of(task)).partners
 
 
 def _synchronised(task: RapidTask) -> bool:
     motion = task.controller.motion
     if not motion.is_motion_task(task.name):
         return False
-    return bool(_partners(task)) and not group_of(task).modal.suspended
+    data = data_of(task, group_of(task))
+    return bool(data.partners) and not data.suspended
 
 
 def _forget(task: RapidTask, names: Iterable[str]) -> None:
     motion = task.controller.motion
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() in names and motion.is_motion_task(other.name):
-            modal = motion.of_task(other.name).modal
-            modal.partners, modal.suspended = frozenset(), False
+            data = data_of(task, motion.of_task(other.name))
+            data.partners, data.suspended = frozenset(), False
 
 
 @builtin("SyncMoveOn")
@@ -118,7 +118,7 @@ def sync_move_on(task: RapidTask, identity: Ref, tasks: Ref, time_out: float | N
     members = _members(task, tasks)
     wait_standing(task)
     _meet(task, ("on", _point(task, identity)), members, time_out, "ERR_SYNCMOVEON")
-    group.modal.partners = members
+    data_of(task, group).partners = members
 
 
 @builtin("SyncMoveOff")
@@ -154,12 +154,13 @@ def sync_move_resume(task: RapidTask) -> None:
 
 def _pause(task: RapidTask, *, suspended: bool) -> None:
     group = moving_group(task)
-    members = _partners(task)
+    data = data_of(task, group)
+    members = data.partners
     name = "SyncMoveSuspend" if suspended else "SyncMoveResume"
-    if not members or group.path_level == 1 or group.modal.suspended == suspended:
+    if not members or group.path_level == 1 or data.suspended == suspended:
         raise FatalError(_REFUSED, name, "it belongs to synchronised movement behind StorePath")
     _meet(task, name, members, None, "ERR_SYNCMOVEON")
-    group.modal.suspended = suspended
+    data.suspended = suspended
 
 
 @builtin("TasksInSync")

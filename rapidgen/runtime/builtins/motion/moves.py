@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 
 from rapidgen.motion.moves import Carrier, From, JointMove, PathEvent
 from rapidgen.runtime.builtins.io import fitting
-from rapidgen.runtime.builtins.motion.access import here, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import (
     dwell_of,
     speed_of,
@@ -26,16 +26,18 @@ from rapidgen.runtime.builtins.motion.targets import carrier_of
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.interrupts import Interrupt
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
 
 Data: TypeAlias = Any
-_NO_OFFSETS = (0.0,) * 6
 
 
 @builtin("MoveAbsJ", cost="move")
+@planned
 def move_abs_j(
     task: Task,
     concurrent: bool | None,
@@ -55,13 +57,15 @@ def move_abs_j(
     """Displacement does not count here, offsets of external axes do (S4 datasys 2-MoveAbsJ-3)."""
     group = moving_group(task)
     modal = group.modal
-    offsets = _NO_OFFSETS if no_offsets else modal.external_offset
+    data = data_of(task, group)
+    offsets = NO_OFFSETS if no_offsets else data.external_offset
     tool_data = tool.get()
     object_data = work_object.get() if work_object is not None else None
     carrier = Carrier()
     if group.kinematics is not None:
         carrier = carrier_of(group, tool_data, object_data)
-    group.use(tool_data, object_data)
+    data.use(tool_data, object_data)
+    group.planner.tool = carrier.tool
     move = JointMove(
         target=group.with_active(target_of(to, group.map, group.path_target, offsets)),
         speed=speed_of(speed, tcp_speed, modal),
@@ -76,6 +80,7 @@ def move_abs_j(
 
 
 @builtin("MoveExtJ", cost="move")
+@planned
 def move_ext_j(
     task: Task,
     concurrent: bool | None,
@@ -91,7 +96,8 @@ def move_ext_j(
     group = moving_group(task)
     modal = group.modal
     ends = group.path_target
-    target = target_of(to, group.map, ends, modal.external_offset if use_offsets else _NO_OFFSETS)
+    offsets = data_of(task, group).external_offset if use_offsets else NO_OFFSETS
+    target = target_of(to, group.map, ends, offsets)
     target = group.with_active(
         tuple(
             new if joint.axis.startswith("eax") else old
@@ -124,7 +130,7 @@ def _setting(task: Task, given: Given) -> tuple[PathEvent]:
 def _calling(task: Task, given: Given) -> tuple[PathEvent]:
     """The procedure runs when the task next attends, as a trap would; not inside a trap."""
     name = given["ProcName"]
-    routine = task.program.globals.get(name.lower())
+    routine = task.program.find_routine(None, name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":
         raise RapidError("ERR_REFUNKPRC", name)
 

@@ -6,10 +6,10 @@ Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-St
 
 from collections.abc import Iterable
 
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import group_of, motion_of
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import NOT_ALLOWED, planned
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 
@@ -28,9 +28,7 @@ def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
     if not all_tasks:
         return (group_of(task),)
     if motion_of(task).is_motion_task(task.name):
-        raise FatalError(
-            events.NOT_ALLOWED, "Not allowed", "\\AllMotionTasks is for non-motion tasks"
-        )
+        raise FatalError(NOT_ALLOWED, "Not allowed", "\\AllMotionTasks is for non-motion tasks")
     return motion_of(task).groups.values()
 
 
@@ -99,6 +97,7 @@ def store_path(task: Task, _keep_sync: bool | None) -> None:
 
 
 @builtin("RestoPath", cost="call")
+@planned
 def resto_path(task: Task) -> None:
     """Brings the stored path back; StartMove sets the robot going on it."""
     group_of(task).restore_path(_reason(task))

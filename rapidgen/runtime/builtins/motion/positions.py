@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
-from rapidgen.runtime.builtins.motion.access import group_of, named_group
+from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import (
     external_values,
     frame,
@@ -47,23 +47,32 @@ def _identity() -> Data:
     return Pose(Pos(0, 0, 0), Orient(1, 0, 0, 0))
 
 
-def carrier_for(group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Carrier:
+def carrier_for(
+    task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None
+) -> Carrier:
     """Frames of the given tool and object; those left out are the active ones.
 
     With a tool given, a work object left out is still the active one (S4 datasys 3-CRobT-1).
     """
+    data = data_of(task, group)
     return carrier_of(
         group,
-        tool.get() if tool is not None else group.tool or tool0(),
-        work_object.get() if work_object is not None else group.work_object,
+        tool.get() if tool is not None else data.tool or tool0(),
+        work_object.get() if work_object is not None else data.work_object,
     )
+
+
+def here_of(task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Data:
+    """The TCP now as a robtarget, in the displaced frame of an object."""
+    carrier = carrier_for(task, group, tool, work_object)
+    return rob_target(group, group.positions(), carrier, data_of(task, group).external_offset)
 
 
 @builtin("CJointT")
 def c_joint_t(task: Task, reference: Data, name: str | None) -> Data:
     """Arm-side angles and external axes now; external axes in the shifted frame."""
     group = named_group(task, reference, name)
-    return joint_target(group.map, group.positions(), group.modal.external_offset)
+    return joint_target(group.map, group.positions(), data_of(task, group).external_offset)
 
 
 @builtin("CRobT")
@@ -72,22 +81,22 @@ def c_rob_t(
 ) -> Data:
     """The TCP now, in the displaced object frame."""
     group = named_group(task, reference, name)
-    return rob_target(group, group.positions(), carrier_for(group, tool, work_object))
+    return here_of(task, group, tool, work_object)
 
 
 @builtin("CPos")
 def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Data:
     """Position of `CRobT`."""
-    group = group_of(task)
-    return rob_target(group, group.positions(), carrier_for(group, tool, work_object)).trans
+    return here_of(task, group_of(task), tool, work_object).trans
 
 
 @builtin("CalcRobT")
 def calc_rob_t(task: Task, joints: Data, tool: Ref, work_object: Ref | None) -> Data:
     """The robtarget of a jointtarget."""
     group = group_of(task)
-    posture = target_of(joints, group.map, group.positions(), group.modal.external_offset)
-    return rob_target(group, posture, _carrier(group, tool, work_object))
+    offsets = data_of(task, group).external_offset
+    posture = target_of(joints, group.map, group.positions(), offsets)
+    return rob_target(group, posture, _carrier(group, tool, work_object), offsets)
 
 
 @builtin("CalcJointT")
@@ -105,7 +114,8 @@ def calc_joint_t(
     """
     group = group_of(task)
     here = group.positions()
-    external = external_values(target.extax, group.modal.external_offset)
+    offsets = data_of(task, group).external_offset
+    external = external_values(target.extax, offsets)
     asked = group.map.from_rapid((0.0,) * 6, external, here)
     near = tuple(
         new if joint.axis.startswith("eax") else old
@@ -117,15 +127,15 @@ def calc_joint_t(
     flange = placed.flange(frame(target))
     try:
         check = group.settings.configuration_check
-        posture = joints_for(group.geometry(), flange, near, wanted, check)
+        posture = joints_for(geometry_of(group), flange, near, wanted, check)
     except RapidError as error:
         if number is None:
             raise
         number.set(error.number)
-        return joint_target(group.map, here, group.modal.external_offset)
+        return joint_target(group.map, here, offsets)
     if number is not None:
         number.set(0)
-    return joint_target(group.map, posture, group.modal.external_offset)
+    return joint_target(group.map, posture, offsets)
 
 
 def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
@@ -135,12 +145,13 @@ def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
 @builtin("CTool")
 def c_tool(task: Task, reference: Data, name: str | None) -> Data:
     """Tool of the last move."""
-    tool: Data = named_group(task, reference, name).tool or tool0()
+    tool: Data = data_of(task, named_group(task, reference, name)).tool or tool0()
     return tool.copy()
 
 
 @builtin("CWObj")
 def c_wobj(task: Task, reference: Data, name: str | None) -> Data:
     """Work object of the last move."""
-    work_object: Data = named_group(task, reference, name).work_object or wobj0()
+    data = data_of(task, named_group(task, reference, name))
+    work_object: Data = data.work_object or wobj0()
     return work_object.copy()

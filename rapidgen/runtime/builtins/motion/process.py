@@ -7,11 +7,11 @@ TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 
 from typing import Any
 
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError, errnum
+from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.process_errors import ProcessError
 from rapidgen.runtime.task.running import RapidTask
@@ -30,7 +30,7 @@ def procerr_recovery(
     """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
     if not task.in_trap or origin == last:
         raise FatalError(
-            events.NOT_ALLOWED,
+            NOT_ALLOWED,
             "ProcerrRecovery",
             "in a trap, with \\SyncOrg- or \\SyncLastMoveInst",
         )
@@ -60,7 +60,7 @@ def _axis(group: MotionGroup, number: float) -> int:
 def mech_unit_load(task: RapidTask, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
     """Payload of an external mechanical unit."""
     group = group_of(task)
-    group.modal.extra[f"load of axis {int(axis)}"] = load.get().copy()
+    data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 
 @builtin("GetMotorTorque")
@@ -91,7 +91,7 @@ def define_test_signal(
     unit_axis(task, unit, axis)
     if signal != _TORQUE and signal not in _FORCES:
         raise FatalError(
-            events.NOT_SIMULATED,
+            NOT_SIMULATED,
             f"Test signal {signal:g} is not simulated",
             "torques (9) and force sensors (201 to 212) are, and are 0",
         )

@@ -6,7 +6,7 @@ from typing import Any, TypeAlias
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
 from rapidgen.rapid.builtins.signatures import routine
-from rapidgen.runtime.builtins.motion.access import here, moving_group
+from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import dwell_of, frame, speed_of, time_of, zone_of
 from rapidgen.runtime.builtins.motion.targets import (
     carrier_of,
@@ -15,6 +15,7 @@ from rapidgen.runtime.builtins.motion.targets import (
     joints_for,
 )
 from rapidgen.runtime.builtins.motion.together import together
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 
@@ -27,7 +28,8 @@ def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
     carrier = carrier_of(group, tool, work_object)
-    group.use(tool, work_object)
+    data_of(task, group).use(tool, work_object)
+    group.planner.tool = carrier.tool
     stop = given.get("Inpos")
     return {
         "speed": speed_of(given["Speed"], given.get("V"), group.modal),
@@ -45,10 +47,10 @@ def joint_move(
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget with all axes together."""
     group = moving_group(task)
-    kinematics = group.geometry()
+    kinematics = geometry_of(group)
     common = _common(task, group, given)
     target = given["ToPoint"]
-    near = external_posture(group, target.extax)
+    near = external_posture(group, target.extax, data_of(task, group).external_offset)
     flange = common["carrier"].at(near).flange(frame(target))
     wanted = configuration_of(target.robconf) if group.modal.check_joint else None
     check = group.settings.configuration_check
@@ -61,13 +63,13 @@ def cartesian_move(
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
-    group.geometry()
+    geometry_of(group)
     common = _common(task, group, given)
     target, via = given["ToPoint"], given.get("CirPoint")
     wanted = configuration_of(target.robconf) if group.modal.check_linear else None
     return group, CartesianMove(
         target=frame(target),
-        external=external_posture(group, target.extax),
+        external=external_posture(group, target.extax, data_of(task, group).external_offset),
         via=None if via is None else frame(via),
         wanted=wanted,
         singularities=group.modal.singularities,
@@ -90,6 +92,7 @@ def bind(
     names = parameter_names(name)
 
     @builtin(name, cost="move")
+    @planned
     def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
         given = dict(zip(names, arguments, strict=True))
         group, move = make(task, given, events_of(task, given))

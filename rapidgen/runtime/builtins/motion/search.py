@@ -10,15 +10,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from rapidgen.machine.io import AnySignal
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move, Posture
+from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.request import Given, cartesian_move, parameter_names
 from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
 
@@ -125,13 +127,15 @@ def _search(task: Task, group: MotionGroup, move: Move, given: Given) -> None:
         if task.stepping:
             raise FatalError(_NO_HIT, "Search was not successful", f"{len(hits.found)} hits")
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
-    given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier))
+    offsets = data_of(task, group).external_offset
+    given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier, offsets))
 
 
 def _bind(name: str) -> None:
     names = parameter_names(name)
 
     @builtin(name, cost="move")
+    @planned
     def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
         given = dict(zip(names, arguments, strict=True))
         group, move = cartesian_move(task, given)

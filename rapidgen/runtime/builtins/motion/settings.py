@@ -10,21 +10,20 @@ from typing import Any, TypeAlias
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import CircleMode, Singularities
-from rapidgen.runtime.builtins.motion.access import group_of, named_group
-from rapidgen.runtime.builtins.motion.arguments import RAD, frame
-from rapidgen.runtime.builtins.motion.positions import carrier_for, load0
-from rapidgen.runtime.builtins.motion.targets import rob_target
+from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
+from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
+from rapidgen.runtime.builtins.motion.positions import here_of, load0
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, single
 
 Data: TypeAlias = Any
-_NO_OFFSETS = (0.0,) * 6
 _LEAST_ACCELERATION = 0.1
 
 
@@ -129,7 +128,7 @@ def world_acc_lim(task: Task, limit: float | None, _off: bool | None) -> None:
         return
     if limit < _LEAST_ACCELERATION:
         raise RapidError("ERR_ARGVALERR", f"WorldAccLim {limit:g}")
-    group.geometry()
+    geometry_of(group)
     group.modal.world_acceleration = limit
 
 
@@ -148,7 +147,7 @@ def cir_path_mode(
     FatalError: circles made by two wrist axes are not simulated.
     """
     if wrist45 or wrist46 or wrist56:
-        raise FatalError(events.NOT_SIMULATED, "CirPathMode by wrist axes is not simulated")
+        raise FatalError(NOT_SIMULATED, "CirPathMode by wrist axes is not simulated")
     modal = group_of(task).modal
     modal.circle = CircleMode.PATH
     if in_object:
@@ -215,8 +214,7 @@ def p_disp_on(
     group = group_of(task)
     modal = group.modal
     if executed is None:
-        carrier = carrier_for(group, tool, work_object)
-        executed = rob_target(group, group.positions(), carrier)
+        executed = here_of(task, group, tool, work_object)
     had, wants = frame(executed), frame(programmed)
     if rotation:
         step = frames.compose(had, frames.invert(wants))
@@ -228,33 +226,31 @@ def p_disp_on(
 @builtin("EOffsSet")
 def e_offs_set(task: Task, offsets: Data) -> None:
     """Replaces the offsets of external axes."""
-    group_of(task).modal.external_offset = _used(offsets.values())
+    data_of(task, group_of(task)).external_offset = _used(offsets.values())
 
 
 @builtin("EOffsOff")
 def e_offs_off(task: Task) -> None:
     """No offsets of external axes."""
-    group_of(task).modal.external_offset = _NO_OFFSETS
+    data_of(task, group_of(task)).external_offset = NO_OFFSETS
 
 
 @builtin("EOffsOn")
 def e_offs_on(task: Task, executed: Data, programmed: Data) -> None:
     """Adds, for each external axis, the executed minus the programmed value."""
     group = group_of(task)
-    offsets = group.modal.external_offset
-    have = executed.extax.values() if executed is not None else _external_now(group)
-    group.modal.external_offset = tuple(
+    data = data_of(task, group)
+    offsets = data.external_offset
+    have = executed.extax.values() if executed is not None else _external_now(group, offsets)
+    data.external_offset = tuple(
         o if max(a, b) > ABSENT / 2 else o + a - b
         for o, a, b in zip(offsets, have, programmed.extax.values(), strict=True)
     )
 
 
-def _external_now(group: MotionGroup) -> tuple[float, ...]:
-    values = group.joint_target()[1]
-    return tuple(
-        v if v > ABSENT / 2 else v - o
-        for v, o in zip(values, group.modal.external_offset, strict=True)
-    )
+def _external_now(group: MotionGroup, offsets: Offsets) -> Offsets:
+    values = group.map.to_rapid(group.positions())[1]
+    return tuple(v if v > ABSENT / 2 else v - o for v, o in zip(values, offsets, strict=True))
 
 
 def _used(values: tuple[float, ...]) -> tuple[float, ...]:
@@ -271,19 +267,20 @@ def motion_sup(
     """Collision detection: nothing collides here. ERR_ARGVALERR outside 1 to 300 %."""
     if tune is not None and not 1 <= tune <= 300:
         raise RapidError("ERR_ARGVALERR", f"\\TuneValue:={tune:g}")
-    group_of(task).modal.extra["MotionSup"] = not off
+    data_of(task, group_of(task)).extra["MotionSup"] = not off
 
 
 @builtin("GripLoad")
 def grip_load(task: Task, load: Ref) -> None:
     """Loads change no kinematics, and there is no dynamic model."""
-    group_of(task).modal.extra["GripLoad"] = load.get().copy()
+    data_of(task, group_of(task)).extra["GripLoad"] = load.get().copy()
 
 
 @builtin("CLoad")
 def c_load(task: Task, reference: Data, name: str | None) -> Data:
     """What GripLoad set, else load0."""
-    load: Data = named_group(task, reference, name).modal.extra.get("GripLoad") or load0()
+    extra = data_of(task, named_group(task, reference, name)).extra
+    load: Data = extra.get("GripLoad") or load0()
     return load.copy()
 
 
@@ -296,7 +293,7 @@ def soft_act(task: Task, unit: Data, number: float, softness: float, ramp: float
     if not 0 <= softness <= 100 or (ramp is not None and ramp < 100):
         raise RapidError("ERR_ARGVALERR", f"SoftAct {softness:g}")
     group, joint = unit_axis(task, unit, number)
-    group.modal.extra[f"SoftAct {joint.axis}"] = softness
+    data_of(task, group).extra[f"SoftAct {joint.axis}"] = softness
 
 
 @builtin("SoftDeact")
@@ -304,7 +301,7 @@ def soft_deact(task: Task, ramp: float | None) -> None:
     """All axes are stiff again. ERR_ARGVALERR: ramp below 100 %."""
     if ramp is not None and ramp < 100:
         raise RapidError("ERR_ARGVALERR", f"SoftDeact {ramp:g}")
-    extra = group_of(task).modal.extra
+    extra = data_of(task, group_of(task)).extra
     for name in [name for name in extra if name.startswith("SoftAct")]:
         del extra[name]
 
@@ -314,4 +311,4 @@ def path_resol(task: Task, percent: float) -> None:
     """Profiles are exact at any resolution. ERR_ARGVALERR outside 25 to 400 %."""
     if not 25 <= percent <= 400:
         raise RapidError("ERR_ARGVALERR", f"PathResol {percent:g}")
-    group_of(task).modal.extra["PathResol"] = percent
+    data_of(task, group_of(task)).extra["PathResol"] = percent

@@ -5,11 +5,17 @@ from typing import Any, TypeAlias
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose
 from rapidgen.axes.kinematics import Configuration, ConfigurationCheck, Kinematics, MovingFrame
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier, Posture
-from rapidgen.runtime.builtins.motion.arguments import external_target, external_values, frame
+from rapidgen.runtime.builtins.motion.access import geometry_of
+from rapidgen.runtime.builtins.motion.arguments import (
+    Offsets,
+    external_target,
+    external_values,
+    frame,
+)
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import FRAMES_CONTRADICT, NO_GEOMETRY, NOT_COMPATIBLE
 from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, single
 
 Data: TypeAlias = Any
@@ -24,7 +30,7 @@ def carrier_of(group: MotionGroup, tool: Data, work_object: Data) -> Carrier:
     held = work_object is not None and work_object.robhold
     if bool(tool.robhold) == bool(held):
         raise FatalError(
-            events.FRAMES_CONTRADICT,
+            FRAMES_CONTRADICT,
             "Tool and work object contradict",
             "one of them, and only one, is held by the robot",
         )
@@ -47,14 +53,14 @@ def _unit(group: MotionGroup, work_object: Data) -> MovingFrame:
     """What carries an object. FatalError: held by the robot too, or of unknown geometry."""
     if work_object.robhold:
         raise FatalError(
-            events.FRAMES_CONTRADICT,
+            FRAMES_CONTRADICT,
             "Work object contradicts",
             f"it is held by the robot and by {work_object.ufmec!r}",
         )
     found = group.moving_frame(work_object.ufmec)
     if found is None:
         raise FatalError(
-            events.NO_GEOMETRY,
+            NO_GEOMETRY,
             "No geometry",
             f"{group.name}: where {work_object.ufmec!r} holds its work object is not known",
             "give its chain as `positioners:` in the robot's configuration",
@@ -62,10 +68,10 @@ def _unit(group: MotionGroup, work_object: Data) -> MovingFrame:
     return found
 
 
-def external_posture(group: MotionGroup, data: Data) -> Posture:
+def external_posture(group: MotionGroup, data: Data, offsets: Offsets) -> Posture:
     """The path's end with the external axes of an extjoint (deactivated ones as they are)."""
     ends = group.path_target
-    values = external_values(data, group.modal.external_offset)
+    values = external_values(data, offsets)
     asked = group.map.from_rapid((0.0,) * 6, values, ends)
     return group.with_active(
         tuple(
@@ -99,7 +105,7 @@ def joints_for(
         return posture
     others = ", ".join(str(list(kinematics.configuration(p))) for p in found[:4])
     raise FatalError(
-        events.NOT_COMPATIBLE,
+        NOT_COMPATIBLE,
         "Position not compatible",
         f"no posture with configuration {list(wanted)}; there are {others}",
     )
@@ -110,9 +116,9 @@ def configuration_of(data: Data) -> Configuration:
     return int(data.cf1), int(data.cf4), int(data.cf6), int(data.cfx)
 
 
-def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier) -> Data:
+def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier, offsets: Offsets) -> Data:
     """A posture as a fresh robtarget in the frames of a tool and an object."""
-    kinematics = group.geometry()
+    kinematics = geometry_of(group)
     (x, y, z), q = carrier.at(posture).pose(kinematics.forward(posture))
     if q[0] < 0:
         q = (-q[0], -q[1], -q[2], -q[3])
@@ -120,5 +126,5 @@ def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier) -> Data:
         Pos(single(x * 1000), single(y * 1000), single(z * 1000)),
         Orient(*map(single, q)),
         ConfData(*kinematics.configuration(posture)),
-        external_target(group.map.to_rapid(posture)[1], group.modal.external_offset),
+        external_target(group.map.to_rapid(posture)[1], offsets),
     )

@@ -7,11 +7,11 @@ of its \\ID; all then take the time of the longest [mem: MultiMove is in no publ
 from dataclasses import dataclass, field, replace
 
 from rapidgen.machine.scheduler import WaitSet
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move
-from rapidgen.runtime.builtins.motion.access import motion_of
+from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.task.task import Task
 
 
@@ -30,18 +30,16 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
 
     FatalError: \\ID is missing in synchronised movement.
     """
-    modal = group.modal
-    if not modal.partners or modal.suspended:
+    data = data_of(task, group)
+    if not data.partners or data.suspended:
         return move
     if identity is None:
-        raise FatalError(
-            events.NOT_ALLOWED, "\\ID is missing", "between SyncMoveOn and SyncMoveOff"
-        )
-    gatherings = motion_of(task).gatherings
-    point, own = (modal.partners, identity), task.name.lower()
+        raise FatalError(NOT_ALLOWED, "\\ID is missing", "between SyncMoveOn and SyncMoveOff")
+    gatherings: dict[object, Gathering] = task.controller.meetings
+    point, own = ("move", data.partners, identity), task.name.lower()
     gathering = gatherings.setdefault(point, Gathering())
     gathering.times[own] = group.whole_time(move)
-    if gathering.times.keys() == modal.partners:
+    if gathering.times.keys() == data.partners:
         gathering.longest = max(gathering.times.values())
         del gatherings[point]
         gathering.changed.notify()

@@ -8,8 +8,6 @@ from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
 from typing import Any, TypeAlias
 
-from rapidgen.machine.io import AnySignal
-from rapidgen.motion import events
 from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import group_of
@@ -17,7 +15,9 @@ from rapidgen.runtime.builtins.motion.path import MOVE_TASK
 from rapidgen.runtime.builtins.motion.request import Given, bind, cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.triggdata import TriggData
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
 
@@ -53,7 +53,7 @@ def _output(
     chosen = next((s for s in signals if s is not None), None)
     value = next((v for v in values if v is not None), 0.0)
     if chosen is None:
-        raise FatalError(events.NOT_SIMULATED, "Process events are not simulated", "\\ProcID")
+        raise FatalError(NOT_SIMULATED, "Process events are not simulated", "\\ProcID")
     signal = chosen.signal
     fitting(signal, value)
     io = task.controller.io
@@ -206,7 +206,7 @@ def _prepared(_task: Task, given: Given) -> tuple[PathEvent, ...]:
         if one is None:
             continue
         if one.event is None:
-            raise FatalError(events.NOT_ALLOWED, "triggdata is not defined")
+            raise FatalError(NOT_ALLOWED, "triggdata is not defined")
         found.append(one.event)
     return tuple(found)
 

@@ -6,10 +6,10 @@ Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and 
 from typing import Any, TypeAlias
 
 from rapidgen.config.model import Joint
-from rapidgen.motion import events
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import group_of, motion_of
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref
@@ -37,7 +37,7 @@ def _external(task: Task, unit: Data) -> tuple[MotionGroup, tuple[str, ...]]:
         axes = _axes_of(group, unit.value)
         if axes is not None:
             return group, axes
-    raise FatalError(events.NOT_ALLOWED, "Not a unit that can be switched", unit.value)
+    raise FatalError(NOT_ALLOWED, "Not a unit that can be switched", unit.value)
 
 
 def unit_axis(task: Task, unit: Data, number: float) -> tuple[MotionGroup, Joint]:

@@ -1,0 +1,1 @@
+"""Decides: bytes and times in, decisions out. No I/O, no thread, no loop."""

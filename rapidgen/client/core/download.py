@@ -1,0 +1,158 @@
+"""One trajectory that was sent whole: decides from states alone when it is over. Sans-IO.
+
+A driver without PROGRESS is judged by position **and** in_motion **and** time: a path that ends
+where it began, or crosses its end, is not done early, and a robot that never moved has not
+arrived.
+"""
+
+import numpy as np
+
+from rapidgen.client.core.checks import CheckedTrajectory
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import CommandedMotion, Phase
+from rapidgen.client.core.state import Progress, State, trajectory_state
+from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.errors import MotionFailed, MotionStopped, fault
+from rapidgen.client.trajectory import Array
+from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
+
+GOAL_TOLERANCE = 0.01
+"""rad or m: as industrial_robot_client."""
+_MOVED = 1e-4
+"""rad or m: more than this is a movement."""
+_GRACE = 2.0
+"""s that a robot may stand after the time was up, before that counts as a failure."""
+_EARLY = 0.25
+"""s by which a robot may be early: it skips a first point that it stands on."""
+
+
+class Download(CommandedMotion):
+    """A trajectory from its first byte to its end."""
+
+    def __init__(
+        self, plan: CheckedTrajectory, group: Group, state_port: StatePort, *, silence: float
+    ) -> None:
+        super().__init__(group, state_port, silence)
+        self.plan = plan
+        self.trajectory = plan.trajectory
+        self.warnings = plan.warnings
+        self._was_in_error = state_port.status.in_error is TriState.TRUE
+        self._start = state_port.state
+        self._seen_moving = False
+        self._stood_since: float | None = None
+        self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
+
+    @property
+    def total(self) -> int:
+        """Points that were asked for."""
+        return len(self.plan.trajectory)
+
+    @property
+    def planned_seconds(self) -> float:
+        """Seconds that the controller is asked to take."""
+        return self.plan.total
+
+    @property
+    def goal(self) -> Array:
+        """The last point, rad or m in URDF order."""
+        last: Array = self.plan.trajectory.positions[-1]
+        return last
+
+    @property
+    def longest(self) -> float:
+        """Seconds that may pass without a sign of getting on: a plain driver gives none."""
+        return self.plan.total
+
+    def step(self) -> None:
+        """Look at the newest state; without PROGRESS at where the robot is."""
+        super().step()
+        state_port = self._state_port
+        if (
+            self.phase is Phase.MOVING
+            and state_port.progress is None
+            and state_port.samples > self._first_sample
+        ):
+            self._by_position()
+
+    def _by_position(self) -> None:
+        state = self._state_port.state
+        assert state is not None
+        now, status = state.time, state.status
+        moving = status.in_motion is TriState.TRUE
+        if moving or self._has_moved(state):
+            self._seen_moving = True
+        if self.stopping:
+            # A STOP whose sender did not wait: it is over when the robot stands.
+            if not moving and now - self._began > _EARLY:
+                self.stopped()
+            return
+        trouble = self._trouble()
+        if trouble:
+            self._end(
+                MotionFailed,
+                fault("RG630", f"the motion ended early: {trouble}", "look at the robot"),
+                status.error,
+            )
+            return
+        if moving:
+            self._stood_since = None
+            return
+        if self._stood_since is None:
+            self._stood_since = now
+        elapsed = now - self._began
+        if elapsed < self.plan.total - self.plan.durations[0] - _EARLY:
+            return
+        if self._deviation(state) <= GOAL_TOLERANCE and (self._seen_moving or self._is_still):
+            self._succeed()
+        elif elapsed > self.plan.total + _GRACE and now - self._stood_since > _GRACE:
+            what = "stands elsewhere" if self._seen_moving else "never moved"
+            found = fault(
+                "RG633",
+                f"the robot {what}: {self._deviation(state):.4f} (rad, m) from the last point",
+                "look at the controller's event log: a speed override, a program that does not "
+                "run, or a refusal that this driver cannot tell",
+            )
+            self._end(MotionFailed, found, status.error)
+
+    def _trouble(self) -> str:
+        status = self._state_port.status
+        if status.e_stopped is TriState.TRUE:
+            return "emergency stop"
+        if status.drives is TriState.FALSE:
+            return "the motors are off"
+        if status.in_error is TriState.TRUE and not self._was_in_error:
+            text = status.error.text if status.error else f"code {status.error_code}"
+            return f"the controller reports an error ({text})"
+        return ""
+
+    def _has_moved(self, state: State) -> bool:
+        if self._start is None:
+            return False
+        pairs = zip(state.joints, self._start.joints, strict=True)
+        return any(abs(a - b) > _MOVED for a, b in pairs)
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now."""
+        total = len(self.plan.trajectory)
+        told = self._told() if self.phase is not Phase.SENDING else None
+        state = trajectory_state(told.state) if told is not None else None
+        if told is not None and state is not None:
+            return Progress(
+                state,
+                total,
+                told.received,
+                told.planned,
+                told.reached,
+                min(1.0, told.reached / len(self.plan.wire)),
+            )
+        if self.result is not None:
+            return Progress(TrajectoryState.DONE, total, fraction=1.0)
+        if self.phase is Phase.SENDING:
+            return Progress(TrajectoryState.RECEIVING, total)
+        state = TrajectoryState.MOVING
+        if self.error is not None:
+            stopped = isinstance(self.error, MotionStopped)
+            state = TrajectoryState.STOPPED if stopped else TrajectoryState.FAILED
+        elapsed = self._state_port.clock() - self._began
+        return Progress(state, total, fraction=min(0.99, elapsed / max(self.plan.total, 1e-9)))

@@ -1,0 +1,269 @@
+"""What is common to everything under way: how a motion ends, and what is known of it. Sans-IO.
+
+A driver that tells PROGRESS is believed: its states end a motion here. `Download` (a trajectory
+that was sent whole) and `PointStream` (one that is sent while it is executed) add the rest.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import Literal
+
+import numpy as np
+
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import Progress, State
+from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
+from rapidgen.client.trajectory import Array, Trajectory
+from rapidgen.diagnostics import Diagnostic
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState, TriState
+
+Way = Literal["download", "stream"]
+"""download: sent whole before anything moves; stream: sent while the robot moves."""
+
+_REASONS = {int(reason): reason for reason in Reason}
+
+
+class Phase(Enum):
+    """Where a motion is."""
+
+    SENDING = auto()
+    MOVING = auto()
+    OVER = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A trajectory that was executed to its end.
+
+    `deviation` is the largest distance of a joint from the last point, rad or m; `way` is how
+    the points came to the controller; `starved` how often a stream ran out of points.
+    """
+
+    points: int
+    seconds: float
+    planned_seconds: float
+    deviation: float
+    state: State
+    way: Way = "download"
+    starved: int = 0
+
+
+class CommandedMotion:
+    """A motion from its first byte to its end. Its owner holds a lock or a loop."""
+
+    way: Way = "download"
+    starved = 0
+
+    def __init__(self, group: Group, state_port: StatePort, silence: float) -> None:
+        self.phase = Phase.SENDING
+        self.result: Result | None = None
+        self.error: RobotError | None = None
+        self.stopping = False
+        """Somebody asked for a STOP: nothing more of this is sent."""
+        self.number: int | None = None
+        """Of the trajectory on the controller, once it told it."""
+        self.trajectory: Trajectory | None = None
+        """What was asked for in the robot's order of joints, where it was there as a whole."""
+        self.warnings: Sequence[Diagnostic] = ()
+        """What the checks noted."""
+        self.stood: tuple[float, ...] | None = None
+        """Joints where the controller says that the robot stood after a halt."""
+        self._group = group
+        self._state_port = state_port
+        self._silence = silence
+        self._before = state_port.progress
+        self._began = state_port.clock()
+        self._first_sample = state_port.samples
+        self._first_progress = state_port.progresses
+
+    @property
+    def is_over(self) -> bool:
+        """Whether `result` or `error` is there."""
+        return self.phase is Phase.OVER
+
+    @property
+    def total(self) -> int:
+        """Points that were asked for, so far."""
+        raise NotImplementedError
+
+    @property
+    def planned_seconds(self) -> float:
+        """Seconds that the controller is asked to take, so far."""
+        raise NotImplementedError
+
+    @property
+    def goal(self) -> Array:
+        """The last point, rad or m in URDF order."""
+        raise NotImplementedError
+
+    @property
+    def longest(self) -> float:
+        """Seconds that may pass without a sign of getting on."""
+        raise NotImplementedError
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now."""
+        raise NotImplementedError
+
+    @property
+    def mark(self) -> tuple[object, ...]:
+        """Changes when the motion gets on."""
+        progress = self.progress
+        return (progress.state, progress.reached, progress.received)
+
+    def accepted(self, number: int | None) -> None:
+        """The controller took the trajectory (under this number, where it tells one)."""
+        if self.is_over:
+            return
+        self.phase = Phase.MOVING
+        self.number = number
+        self._began = self._state_port.clock()
+        self._first_sample = self._state_port.samples
+        self._first_progress = self._state_port.progresses
+
+    def failed(self, error: RobotError) -> None:
+        """It is over; only the first reason counts."""
+        if not self.is_over:
+            self.phase = Phase.OVER
+            self.error = error
+
+    def stopped(self) -> None:
+        """A STOP was confirmed and the robot stands."""
+        self._end(MotionStopped, fault("RG631", "stopped on request"), Reason.STOPPED)
+
+    def step(self) -> None:
+        """Look at the newest state. Call after each message, and now and then without one."""
+        if self.phase is not Phase.MOVING or self._is_silent():
+            return
+        told = self._told()
+        if told is not None:
+            self._by_progress(told)
+
+    def _is_silent(self) -> bool:
+        """Whether nobody sees the robot any more: then it is over."""
+        state_port = self._state_port
+        silent = state_port.clock() - state_port.heard
+        if silent <= self._silence:
+            return False
+        self.failed(
+            RobotTimeout(
+                fault(
+                    "RG603",
+                    f"no state for {silent:.1f} s while the robot may be moving",
+                    "look at the robot; a STOP was sent",
+                ),
+                messages=state_port.messages,
+                states=state_port.states,
+            )
+        )
+        return True
+
+    def _told(self) -> messages.Progress | None:
+        """PROGRESS of this very trajectory.
+
+        Its number and state are written by one task of the controller and read by another: what
+        was put together while the trajectory came in may have the number of this one and the
+        state of the one before. So it counts from the second message after the acceptance.
+        """
+        if self._state_port.progresses < self._first_progress + 2:
+            return None
+        progress = self._state_port.progress
+        if progress is None:
+            return None
+        if self.number is not None:
+            return progress if progress.trajectory == self.number else None
+        before = self._before.trajectory if self._before else 0
+        return progress if progress.trajectory != before else None
+
+    def _by_progress(self, told: messages.Progress) -> None:
+        match told.state:
+            case TrajectoryState.DONE:
+                if self._state_port.status.in_motion is not TriState.TRUE:
+                    self._succeed()
+            case TrajectoryState.STOPPED:
+                if not self.stopping:
+                    text = "stopped by another request or by the operator"
+                    self._end(MotionStopped, fault("RG631", text), reason_of(told.reason))
+                elif self._state_port.status.in_motion is not TriState.TRUE:
+                    self.stopped()
+            case TrajectoryState.FAILED | TrajectoryState.REFUSED:
+                point = self._index(told.point)
+                found = fault(
+                    "RG630",
+                    "the controller ended the motion"
+                    f"{place_of(self._group, point, told.joint)}: {reason_text(told.reason)}",
+                    "look at the robot; what was executed is a prefix of what was asked",
+                )
+                reason = reason_of(told.reason)
+                self._end(MotionFailed, found, reason, point=point, joint=told.joint)
+
+    def _index(self, point: int) -> int:
+        """Which point of this motion a number of the wire means; -1 none."""
+        return point
+
+    def _reached(self) -> int | None:
+        """Points known to be reached, None when the driver does not say."""
+        told = self._told()
+        return told.reached if told is not None else None
+
+    def _deviation(self, state: State) -> float:
+        return float(np.abs(np.array(state.joints) - self.goal).max())
+
+    def _succeed(self) -> None:
+        state = self._state_port.state
+        assert state is not None
+        self.phase = Phase.OVER
+        self.result = Result(
+            points=self.total,
+            seconds=self._state_port.clock() - self._began,
+            planned_seconds=self.planned_seconds,
+            deviation=self._deviation(state),
+            state=state,
+            way=self.way,
+            starved=self.starved,
+        )
+
+    def _end(
+        self,
+        kind: type[MotionStopped] | type[MotionFailed],
+        diagnostic: Diagnostic,
+        reason: Reason | None,
+        *,
+        point: int = -1,
+        joint: int = 0,
+    ) -> None:
+        state_port = self._state_port
+        self.failed(
+            kind(
+                diagnostic,
+                reason=reason,
+                reached=self._reached(),
+                point=point,
+                joint=joint,
+                messages=state_port.messages,
+                states=state_port.states,
+            )
+        )
+
+
+def reason_of(number: int) -> Reason | None:
+    """A reason of the wire; None for a number that is none."""
+    return _REASONS.get(number)
+
+
+def reason_text(number: int) -> str:
+    """A reason of the wire in words."""
+    reason = reason_of(number)
+    return reason.text if reason is not None else f"reason {number}"
+
+
+def place_of(group: Group, point: int, joint: int) -> str:
+    """` at point 3, joint_2`, as far as it is known; `point` from 0, `joint` from 1."""
+    found = f" at point {point}" if point >= 0 else ""
+    if 1 <= joint <= len(group.names):
+        found += f"{',' if found else ' at'} {group.names[joint - 1]}"
+    return found

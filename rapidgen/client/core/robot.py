@@ -1,0 +1,474 @@
+"""The sans-IO half of a robot: what both clients share. Bytes and times in, decisions out.
+
+Its owner holds a lock (sync) or a loop (async) and moves the bytes.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import TypedDict
+
+from rapidgen import __version__
+from rapidgen.client.core.checks import CheckedTrajectory, fits_a_stream, plan
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.group import PLAIN_CAPACITY, Group
+from rapidgen.client.core.heartbeat import HeartbeatSchedule
+from rapidgen.client.core.motion import Way, place_of, reason_of, reason_text
+from rapidgen.client.core.request_port import PendingReply, RequestPort
+from rapidgen.client.core.state import State
+from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.core.stream import PointStream
+from rapidgen.client.errors import (
+    ConnectionLost,
+    NotReady,
+    ProtocolError,
+    RobotError,
+    RobotTimeout,
+    TrajectoryRefused,
+    fault,
+)
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
+from rapidgen.wire.simple_message.codec import number_of
+from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, POINTS
+from rapidgen.wire.simple_message.spec import (
+    INDEX_WRAP,
+    MAX_JOINTS,
+    PROTOCOL_VERSION,
+    Comm,
+    Feature,
+    Port,
+    Sequence,
+    TriState,
+)
+
+STOP_FRAME = encode(
+    messages.TrajectoryPoint(Sequence.STOP, (0.0,) * MAX_JOINTS, 0.0, 0.0), Comm.REQUEST
+)
+_SIMULATION = 1.2
+"""Pace beyond which a clock is no controller's."""
+_SLACK = 3
+
+
+class Evidence(TypedDict):
+    """What every RobotError carries."""
+
+    messages: tuple[tuple[float, str], ...]
+    states: tuple[State, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Timeouts:
+    """Seconds. Every wait of the client has one."""
+
+    connect: float = 5.0
+    hello: float = 1.0
+    """How long a driver may take to answer HELLO before it counts as plain simple_message."""
+    state: float = 5.0
+    """First state after connecting; also the next one, where no other time is given."""
+    ready: float = 1.0
+    """For the robot to say that motion is possible, before a trajectory is sent."""
+    silence: float = 2.0
+    """Without a state for so long, a motion under way is stopped and has failed."""
+    send: float = 5.0
+    """Without a byte taken by the controller for so long, a trajectory is given up."""
+    reply: float = 5.0
+    """Reply to the end frame; 20 ms more for each point."""
+    stop: float = 5.0
+    """Reply to STOP, and again until the robot stands."""
+    heartbeat: float = 2.0
+    """While something moves the controller hears from the client, where it has a control port,
+    and stops the robot when it did not for so long; 0: it does not ask for that."""
+
+
+class Core:
+    """Everything that one robot's client knows and decides."""
+
+    def __init__(
+        self,
+        group: Group | None,
+        timeouts: Timeouts,
+        clock: Callable[[], float],
+        *,
+        watch: bool = False,
+        plain: bool = False,
+        reconnect: float = 0.0,
+        feedback: bool = False,
+        simulated: bool = False,
+    ) -> None:
+        """`watch`: never move, only look. `plain`: do not ask for a rapidgen driver.
+
+        `reconnect`: for how many s a lost connection is tried again; 0: not. `feedback`: ask
+        for joints with the controller's own time and velocities. `simulated`: the controller's
+        clock may run faster than this one.
+        """
+        self.simulated = simulated
+        self.watch = watch
+        self.subscribe = Feature.PROGRESS | Feature.EVENTS
+        if feedback:
+            self.subscribe |= Feature.FEEDBACK
+        self.reconnect = reconnect
+        self.timeouts = timeouts
+        self.clock = clock
+        self.plain = plain
+        self.configured = group
+        self.state_port = StatePort(clock)
+        self.state_open = False
+        self.ports = {Port.MOTION: RequestPort(), Port.CONTROL: RequestPort()}
+        self.fault: RobotError | None = None
+        """Why the last connection was lost."""
+        self.motion: Download | PointStream | None = None
+        self.override = 1.0
+        """Share of the programmed speed that was asked for."""
+        self.heartbeat = HeartbeatSchedule(timeouts.heartbeat)
+        self._stopped_blindly: Download | PointStream | None = None
+        self._streams = 0
+        self._outbox: deque[tuple[PendingReply, bytes]] = deque()
+        self._group: Group | None = None
+        if group is not None:
+            self.use(group)
+
+    # What the connections bring
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether all connections stand that this client wants."""
+        return self.state_open and (self.watch or self.ports[Port.MOTION].is_open)
+
+    def opened(self, port: Port) -> None:
+        """A connection stands."""
+        self.fault = None
+        if port is Port.STATE:
+            self.state_port.restart()
+            self.state_open = True
+        else:
+            self.ports[port] = RequestPort(is_open=True)
+        if port is Port.CONTROL:
+            self.heartbeat.forget()
+            self._outbox.clear()
+
+    def received(self, port: Port, data: bytes) -> bool:
+        """Take bytes; False when the connection must be closed (it cannot be followed)."""
+        try:
+            if port is Port.STATE:
+                self.state_port.feed(data)
+            else:
+                self._replies(port, data)
+        except FramingError as error:
+            found = fault(
+                "RG604",
+                f"the {port.name.lower()} port does not speak simple_message: {error}",
+                "is this the right host and port?",
+            )
+            self._lost(port, ProtocolError(found, **self.evidence()))
+            return False
+        self.poll()
+        return True
+
+    def _replies(self, port: Port, data: bytes) -> None:
+        talk = self.ports[port]
+        talk.splitter.feed(data)
+        while (frame := talk.splitter.next()) is not None:
+            self.state_port.keep(frame)
+            try:
+                content = decode(frame)
+            except ContentError as error:
+                self.state_port.note(str(error))
+                continue
+            if isinstance(content, messages.Stopped):
+                self._stood(content)
+                continue
+            if frame.comm != Comm.REPLY or not talk.answered(frame.number, content):
+                self.state_port.note("nobody asked for this message")
+
+    def _stood(self, told: messages.Stopped) -> None:
+        """The controller says where the robot stands after a halt."""
+        if self.motion is not None and self._group is not None:
+            self.motion.stood = self._group.from_wire(told.joints)
+
+    def lost(self, port: Port, why: str) -> None:
+        """A connection broke."""
+        found = fault(
+            "RG602",
+            f"the connection to the {port.name.lower()} port was lost: {why}",
+            "look at the robot, then connect again",
+        )
+        self._lost(port, ConnectionLost(found, **self.evidence()))
+
+    def _lost(self, port: Port, error: RobotError) -> None:
+        if port is Port.STATE:
+            self.state_open = False
+        else:
+            self.ports[port].is_open = False
+        self.fault = error
+        if port is Port.CONTROL:
+            # Takes nothing from a motion under way; the controller stops it by itself where it
+            # awaited a heartbeat there.
+            self.heartbeat.forget()
+        elif self.motion is not None:
+            self.motion.failed(error)
+
+    def closed(self) -> None:
+        """The caller closed all connections."""
+        self.fault = None
+        self.state_open = False
+        for talk in self.ports.values():
+            talk.is_open = False
+
+    def disconnected(self) -> RobotError:
+        """Why there is no connection."""
+        return self.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
+
+    def poll(self) -> None:
+        """Let what is under way look at the newest state and at the clock."""
+        run = self.motion
+        if run is None:
+            return
+        if not run.is_over and self.heartbeat.is_late(self.clock()):
+            run.failed(
+                RobotTimeout(
+                    fault(
+                        "RG603",
+                        "the control port does not answer any more while the robot may be moving",
+                        "a STOP was sent; look at the robot",
+                    ),
+                    **self.evidence(),
+                )
+            )
+        run.step()
+
+    # What goes out by itself
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether `due` must be asked now and then, though nothing comes in."""
+        run = self.motion
+        return (run is not None and not run.is_over) or self.heartbeat.is_awaited
+
+    def due(self, port: Port) -> bytes | None:
+        """The next frame for this connection, None: nothing. It is taken for sent."""
+        if port not in self.ports or not self.ports[port].is_open:
+            return None
+        if port is Port.CONTROL:
+            if self._outbox:
+                pending, frame = self._outbox.popleft()
+                self.ports[port].pending.append(pending)
+                return frame
+            return self._beat()
+        run = self.motion
+        if isinstance(run, PointStream) and run.has_due:
+            return run.next_frame(self.ports[port].request(POINTS.number))
+        return None
+
+    def _beat(self) -> bytes | None:
+        if self.heartbeat.is_refused:
+            self.state_port.note("the controller takes no heartbeat")
+            self.heartbeat.timeout = 0.0
+            self.heartbeat.forget()
+        now = self.clock()
+        moves = self.motion is not None and not self.motion.is_over
+        timeout = self.heartbeat.due(now, moves=moves)
+        if timeout is None:
+            return None
+        pace = self.state_port.pace if self.simulated else 1.0
+        if pace is None:
+            return None
+        if pace > _SIMULATION:
+            # A stall of this machine shortens the time by so much more; no robot is in danger.
+            pace *= _SLACK
+        self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
+        return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
+
+    def post(self, content: Content) -> PendingReply:
+        """A request for the control port; it goes out next."""
+        pending = PendingReply(number_of(content))
+        self._outbox.append((pending, encode(content, Comm.REQUEST)))
+        return pending
+
+    def blind_stops(self) -> list[Port]:
+        """Connections on which a STOP must go out now: nobody sees any more what moves.
+
+        Told once for each motion; the requests are taken for made.
+        """
+        run = self.motion
+        blind = ConnectionLost | RobotTimeout | ProtocolError
+        if run is None or run is self._stopped_blindly or not isinstance(run.error, blind):
+            return []
+        self._stopped_blindly = run
+        # Should no STOP get through, the controller misses the heartbeat.
+        self.heartbeat.forget()
+        ports = [port for port, talk in self.ports.items() if talk.is_open]
+        for port in ports:
+            self.request_stop(port)
+        return ports
+
+    # What callers ask
+
+    @property
+    def group(self) -> Group | None:
+        """Names, units and limits; None before a driver without configuration answered."""
+        return self._group
+
+    def use(self, group: Group) -> None:
+        """Take these names, units and limits."""
+        self._group = group
+        self.state_port.use(group)
+
+    def evidence(self) -> Evidence:
+        """The last messages and states, for an exception."""
+        return {"messages": self.state_port.messages, "states": self.state_port.states}
+
+    def without_control(self, why: str) -> None:
+        """There is no control connection, though the driver has the port."""
+        self.state_port.note(why)
+        self.state_port.driver = replace(self.state_port.driver, control_fault=why)
+
+    def hello(self, *, subscribe: bool = True) -> bytes:
+        """The request that asks who is there."""
+        wanted = int(self.subscribe) if subscribe else 0
+        major, minor, patch = (int(part) for part in __version__.split(".")[:3])
+        asked = messages.Hello(PROTOCOL_VERSION, (major, minor, patch), wanted)
+        return encode(asked, Comm.REQUEST)
+
+    @property
+    def capacity(self) -> int:
+        """Points of one trajectory: what the driver told, else abb_driver's."""
+        hello = self.state_port.driver.hello
+        if hello is not None:
+            return hello.capacity
+        # Who does not say how many it holds may be abb_driver, which drops the others.
+        return min(PLAIN_CAPACITY, self._group.policy.capacity if self._group else PLAIN_CAPACITY)
+
+    @property
+    def can_stream(self) -> bool:
+        """Whether the driver takes points while it executes those before."""
+        hello = self.state_port.driver.hello
+        return (
+            hello is not None and Feature.STREAMING in Feature(hello.features) and hello.batch > 0
+        )
+
+    def way_for(self, trajectory: Trajectory) -> Way:
+        """How a trajectory goes to the controller when nobody says: one that the ring does not
+        hold is streamed, so that motion need not wait for the last point."""
+        hello = self.state_port.driver.hello
+        if not self.can_stream or hello is None or len(trajectory) <= hello.ring:
+            return "download"
+        return "stream" if fits_a_stream(self.plan(trajectory)) else "download"
+
+    def plan(self, trajectory: Trajectory, way: Way | None = None) -> CheckedTrajectory:
+        """Check a trajectory: for `download` it must be no longer than the driver holds.
+
+        Raises InvalidTrajectory, NotReady (no state yet).
+        """
+        ends = way == "download" or not self.can_stream
+        return plan(
+            trajectory,
+            self.known_group,
+            start=self.start,
+            capacity=self.capacity if ends else len(trajectory),
+            goes_to_single=self.state_port.driver.is_rapidgen,
+        )
+
+    @property
+    def start(self) -> tuple[float, ...]:
+        """The ten axis values where the robot stands. Raises NotReady before they came."""
+        start = self.state_port.wire_joints
+        if start is None:
+            raise _unknown()
+        return start
+
+    @property
+    def known_group(self) -> Group:
+        """Names, units and limits. Raises NotReady before they are known."""
+        if self._group is None:
+            raise _unknown()
+        return self._group
+
+    def hindrances(self) -> list[str]:
+        """Why the robot cannot move now, by its own word."""
+        status = self.state_port.status
+        pairs = (
+            (status.e_stopped is TriState.TRUE, "an emergency stop is active"),
+            (status.drives is TriState.FALSE, "the motors are off"),
+            (
+                status.motion_possible is TriState.FALSE and status.in_motion is not TriState.TRUE,
+                "the controller says that motion is not possible",
+            ),
+        )
+        return [text for is_so, text in pairs if is_so]
+
+    def ready(self) -> None:
+        """Raise NotReady when the robot says that it cannot move, or moves already."""
+        if self.motion is not None and not self.motion.is_over:
+            raise NotReady(
+                fault("RG622", "a trajectory is under way", "wait for its result, or stop()")
+            )
+        hindrances = self.hindrances()
+        if hindrances:
+            text = "; ".join(hindrances)
+            raise NotReady(
+                fault("RG621", f"the robot cannot move: {text}", "mend that at the robot"),
+                **self.evidence(),
+            )
+
+    def begin(self, plan: CheckedTrajectory) -> Download:
+        """A run of this plan, from now on the one under way."""
+        self.motion = Download(
+            plan, self.known_group, self.state_port, silence=self.timeouts.silence
+        )
+        self.override = 1.0
+        return self.motion
+
+    def begin_stream(self) -> PointStream:
+        """A stream, from now on the motion under way."""
+        hello = self.state_port.driver.hello
+        assert hello is not None
+        self._streams = self._streams % (INDEX_WRAP - 1) + 1
+        self.motion = PointStream(
+            self._streams,
+            hello,
+            self.known_group,
+            self.state_port,
+            silence=self.timeouts.silence,
+            reply=self.timeouts.reply,
+        )
+        self.override = 1.0
+        return self.motion
+
+    def answered(self, run: Download, reply: Content) -> None:
+        """The reply to the end frame has come: accepted, or TrajectoryRefused is raised."""
+        if isinstance(reply, messages.Accepted):
+            run.accepted(reply.trajectory)
+            return
+        if isinstance(reply, messages.Acknowledged):
+            run.accepted(None)
+            return
+        error = self._refusal(reply)
+        run.failed(error)
+        raise error
+
+    def _refusal(self, reply: Content) -> TrajectoryRefused:
+        point, joint, text = -1, 0, "no reason given"
+        reason = None
+        if isinstance(reply, messages.Refused):
+            point, joint = reply.point, reply.joint
+            reason, text = reason_of(reply.reason), reason_text(reply.reason)
+        where = place_of(self.known_group, point, joint)
+        return TrajectoryRefused(
+            fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
+            reason=reason,
+            point=point,
+            joint=joint,
+            **self.evidence(),
+        )
+
+    def request_stop(self, port: Port) -> PendingReply:
+        """A STOP is about to be sent on this connection."""
+        if self.motion is not None:
+            self.motion.stopping = True
+        return self.ports[port].request(JOINT_TRAJ_PT.number)
+
+
+def _unknown() -> NotReady:
+    return NotReady(fault("RG621", "the robot has not told where it stands", "connect first"))

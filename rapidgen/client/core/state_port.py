@@ -1,0 +1,282 @@
+"""Sans-IO reader of a state connection: bytes and times in, the newest state out.
+
+A State is made only when somebody looks: one hundred robots are watched by one process.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.state import (
+    Driver,
+    Event,
+    Feedback,
+    State,
+    Status,
+    status_of,
+    trajectory_state,
+)
+from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, messages
+from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.frames import Frame
+from rapidgen.wire.simple_message.spec import FEEDBACK_WRAP, EventType
+
+KEPT_EVENTS = 64
+KEPT_MESSAGES = 32
+KEPT_STATES = 16
+_RATE_WINDOW = 16
+_NOISE = 1e-4
+"""rad or m"""
+_PACED = 6
+"""States that tell the pace of a driver's clock."""
+_NAMES = {message.number: message.name for message in messages.MESSAGES}
+
+
+@dataclass(slots=True)
+class Sample:
+    """One joint message: when it came, and the ten axis values of the wire."""
+
+    time: float
+    joints: tuple[float, ...]
+
+
+class StatePort:
+    """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self.clock = clock
+        self.driver = Driver()
+        self.progress: messages.Progress | None = None
+        self.hello: messages.HelloReply | messages.HelloRefusal | None = None
+        self.samples = 0
+        self.progresses = 0
+        self._first = 0.0
+        self.events: deque[Event] = deque(maxlen=KEPT_EVENTS)
+        """The last entries of the controller's log, oldest first."""
+        self.event_count = 0
+        self.feedbacks = 0
+        self._feedback: messages.JointFeedback | None = None
+        self._fed_at = 0.0
+        self._laps = 0
+        self.heard = clock()
+        """When the last message came."""
+        self.listeners: list[Callable[[Sample], None]] = []
+        self._group: Group | None = None
+        self._splitter = FrameSplitter()
+        self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
+        self._times: deque[float] = deque(maxlen=_RATE_WINDOW)
+        self._status: messages.Status | None = None
+        self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
+        self._state: State | None = None
+
+    def restart(self) -> None:
+        """A new connection: what was half received is forgotten, what was seen last is kept."""
+        self._splitter = FrameSplitter()
+        self.hello = None
+        self.progress = None
+        self.driver = Driver()
+        self._times.clear()
+        self._status = None
+        self.samples = 0
+        self.event_count = 0
+        self.feedbacks = 0
+        self._feedback = None
+        self._laps = 0
+        self.heard = self.clock()
+        self._state = None
+
+    def use(self, group: Group) -> None:
+        """From now on states have this group's names and units."""
+        self._group = group
+        self._state = None
+
+    def feed(self, data: bytes) -> None:
+        """Take received bytes. Raises FramingError; unknown messages are noted and skipped."""
+        splitter, log = self._splitter, self._log
+        splitter.feed(data)
+        now = self.clock()
+        while (frame := splitter.next()) is not None:
+            log.append((now, frame))
+            try:
+                content = decode(frame)
+            except ContentError as error:
+                log.append((now, str(error)))
+                continue
+            self._take(content, now)
+
+    def _take(self, content: Content, now: float) -> None:
+        self.heard = now
+        self._state = None
+        match content:
+            case messages.JointPosition():
+                sample = Sample(now, content.joints)
+                self.samples += 1
+                if self.samples == 1:
+                    self._first = now
+                self._recent.append(sample)
+                self._times.append(now)
+                for listener in self.listeners:
+                    listener(sample)
+            case messages.Status():
+                self._status = content
+            case messages.Progress():
+                self.progress = content
+                self.progresses += 1
+            case messages.JointFeedback():
+                self._fed(content, now)
+            case messages.Event():
+                self.event_count += 1
+                self.events.append(_event(content, now, self.event_count))
+            case messages.HelloReply():
+                self.hello = content
+                self.driver = Driver(content)
+            case messages.HelloRefusal():
+                self.hello = content
+
+    def _fed(self, content: messages.JointFeedback, now: float) -> None:
+        if self._feedback is not None and content.time < self._feedback.time - FEEDBACK_WRAP / 2:
+            self._laps += 1
+        self._feedback = content
+        self._fed_at = now
+        self.feedbacks += 1
+
+    @property
+    def feedback(self) -> Feedback | None:
+        """The newest one, None before the first."""
+        told, group = self._feedback, self._group
+        if told is None or group is None:
+            return None
+        return Feedback(
+            names=group.names,
+            joints=group.from_wire(told.positions),
+            velocity=group.rates_from_wire(told.velocities),
+            time=told.time + self._laps * FEEDBACK_WRAP,
+            received=self._fed_at,
+            number=self.feedbacks,
+        )
+
+    @property
+    def is_complete(self) -> bool:
+        """Whether joints and status have both come on this connection."""
+        return self.samples > 0 and self._status is not None
+
+    @property
+    def status(self) -> Status:
+        """The newest status; all unknown before the first."""
+        return status_of(self._status, self.driver) if self._status else Status()
+
+    @property
+    def wire_joints(self) -> tuple[float, ...] | None:
+        """The newest joints as the wire has them, None before the first."""
+        return self._recent[-1].joints if self._recent else None
+
+    def is_still(self, count: int) -> bool:
+        """Whether the last `count` joint messages are the same but for a sensor's noise."""
+        last = list(self._recent)[-count:]
+        columns = zip(*(sample.joints for sample in last), strict=True)
+        return len(last) == count and all(max(c) - min(c) < _NOISE for c in columns)
+
+    @property
+    def rate(self) -> float:
+        """Joint messages per second over the last ones; 0 before two have come."""
+        span = self._times[-1] - self._times[0] if len(self._times) > 1 else 0.0
+        return (len(self._times) - 1) / span if span > 0 else 0.0
+
+    @property
+    def pace(self) -> float | None:
+        """How much faster the driver's clock runs than this one, by the period of its states.
+
+        None before enough of them have come; 1 where nobody will ever say. A simulation may run
+        faster, a controller does not.
+        """
+        period = self.driver.hello.state_period if self.driver.hello is not None else 0.0
+        if period <= 0:
+            return 1.0
+        if self.samples < _PACED:
+            return None
+        span = self._times[-1] - self._first
+        whole = (self.samples - 1) / span if span > 0 else 0.0
+        # It may have been slower when it began.
+        return max(whole, self.rate) * period or None
+
+    @property
+    def state(self) -> State | None:
+        """The newest state, None before the first joints."""
+        if self._state is None and self._recent and self._group is not None:
+            self._state = self._make(self._recent[-1], self._velocity(), self.samples)
+        return self._state
+
+    @property
+    def states(self) -> tuple[State, ...]:
+        """The last states, oldest first, with the newest status (for exceptions)."""
+        if self._group is None:
+            return ()
+        zero = (0.0,) * len(self._group.names)
+        first = self.samples - len(self._recent) + 1
+        older = [self._make(s, zero, first + i) for i, s in enumerate(self._recent)][:-1]
+        return (*older, self.state) if self.state else ()
+
+    @property
+    def messages(self) -> tuple[tuple[float, str], ...]:
+        """The last messages as (time, text), oldest first."""
+        return tuple((time, _text(entry)) for time, entry in self._log)
+
+    def note(self, text: str) -> None:
+        """Keep a line beside the messages."""
+        self._log.append((self.clock(), text))
+
+    def keep(self, frame: Frame) -> None:
+        """Keep a frame of another connection beside the messages."""
+        self._log.append((self.clock(), frame))
+
+    def _make(self, sample: Sample, velocity: tuple[float, ...], number: int) -> State:
+        assert self._group is not None
+        return State(
+            names=self._group.names,
+            joints=self._group.from_wire(sample.joints),
+            velocity=velocity,
+            status=self.status,
+            time=sample.time,
+            rate=self.rate,
+            number=number,
+            clock=self.clock,
+            trajectory=trajectory_state(self.progress.state) if self.progress else None,
+        )
+
+    def _velocity(self) -> tuple[float, ...]:
+        """Over up to three intervals: single ones jitter with the network."""
+        assert self._group is not None
+        last = self._recent[-1]
+        window = list(self._recent)[-4:]
+        first = next((s for s in window if s.time < last.time), last)
+        span = last.time - first.time
+        if span <= 0:
+            return (0.0,) * len(self._group.names)
+        now, then = self._group.from_wire(last.joints), self._group.from_wire(first.joints)
+        return tuple((a - b) / span for a, b in zip(now, then, strict=True))
+
+
+def _event(content: messages.Event, now: float, number: int) -> Event:
+    if content.domain == 0:
+        title = f"{content.number} events were not told"
+        return Event(now, 0, EventType.WARNING, title, number)
+    # An event of a type that nobody knows is told as the gravest.
+    known = content.type in list(EventType)
+    return Event(
+        time=now,
+        code=10_000 * content.domain + content.number,
+        type=EventType(content.type) if known else EventType.ERROR,
+        title=content.title,
+        number=number,
+    )
+
+
+def _text(entry: Frame | str) -> str:
+    if isinstance(entry, str):
+        return entry
+    try:
+        return str(decode(entry))
+    except ContentError:
+        name = _NAMES.get(entry.number, str(entry.number))
+        return f"{name} comm_type {entry.comm} reply_code {entry.reply}: {entry.data.hex()}"

@@ -1,0 +1,332 @@
+"""A stream: points that are sent while the robot executes the ones before. Sans-IO.
+
+Its owner asks `has_due` and `next_frame` whenever something has changed, and sends. Nothing is
+sent that the controller has no room for, so that it never stops reading.
+"""
+
+from collections import deque
+from dataclasses import dataclass
+
+import numpy as np
+
+from rapidgen.client.core.checks import CheckedPoints, LastPoint
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.motion import CommandedMotion, Way, place_of, reason_of, reason_text
+from rapidgen.client.core.request_port import PendingReply
+from rapidgen.client.core.state import Progress, trajectory_state
+from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.errors import (
+    MotionStopped,
+    ProtocolError,
+    RobotTimeout,
+    TrajectoryRefused,
+    fault,
+)
+from rapidgen.client.trajectory import Array
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
+from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.wire.simple_message.spec import INDEX_WRAP, StreamFlag, TrajectoryState, TriState
+
+
+@dataclass(slots=True)
+class _Flight:
+    """A batch on its way: `end` is the number of points that it completes."""
+
+    pending: PendingReply
+    end: int
+    sent: float
+
+
+class PointStream(CommandedMotion):
+    """A stream from its first point to its end."""
+
+    way: Way = "stream"
+
+    def __init__(
+        self,
+        number: int,
+        hello: messages.HelloReply,
+        group: Group,
+        state_port: StatePort,
+        *,
+        silence: float,
+        reply: float,
+    ) -> None:
+        """`number` is the client's of this stream; `reply` s that a batch may stay unanswered."""
+        super().__init__(group, state_port, silence)
+        self.stream = number
+        self.is_ended = False
+        """The caller said that nothing follows."""
+        self.refusal: messages.PointsRefused | messages.Failure | None = None
+        """From one point on the controller takes nothing more; what it has it executes."""
+        self.batch = max(1, hello.batch)
+        """Points of one message."""
+        self._least = min(self.batch, max(1, hello.ring // 2))
+        self._patience = reply
+        self._queue: deque[Words] = deque()
+        self._no_points = pack_points(np.zeros(0), np.zeros((0, len(group.names))))
+        self._total = 0
+        self._sent = 0
+        self._accepted = 0
+        self._planned = 0
+        self._reached_points = 0
+        self._ring = hello.ring
+        self._room_until = hello.ring
+        """Points that may be sent at all, for what is known now."""
+        self._flights: deque[_Flight] = deque()
+        self._looked_at = 0
+        """PROGRESS messages when one was looked at last."""
+        self._is_flushing = False
+        self._is_filled = False
+        """Whether the controller was told to start with a full ring, and it has not yet."""
+        self._end_is_sent = False
+        self._state = TrajectoryState.RECEIVING
+        self._seconds = 0.0
+        self._longest = 0.0
+        self._last: LastPoint | None = None
+
+    @property
+    def total(self) -> int:
+        """Points that the caller gave."""
+        return self._total
+
+    @property
+    def planned_seconds(self) -> float:
+        """Seconds of these points."""
+        return self._seconds
+
+    @property
+    def goal(self) -> Array:
+        """The last point, rad or m in URDF order."""
+        assert self._last is not None
+        return np.array(self._group.from_wire(self._last.wire.tolist()))
+
+    @property
+    def longest(self) -> float:
+        """Seconds of the longest segment: so long nothing need be reached."""
+        return self._longest
+
+    @property
+    def last(self) -> LastPoint | None:
+        """What the next points go on from."""
+        return self._last
+
+    @property
+    def backlog(self) -> int:
+        """Points that wait here for room at the controller."""
+        return self._total - self._sent
+
+    @property
+    def is_paused(self) -> bool:
+        """Whether the controller holds the motion on its path."""
+        return self._state is TrajectoryState.PAUSED
+
+    # What the caller gives
+
+    def put(self, piece: CheckedPoints) -> None:
+        """Points to be sent, checked before."""
+        self._queue.append(pack_points(piece.durations, piece.wire))
+        self._last = piece.last
+        self._total += len(piece.wire)
+        self._seconds += float(piece.durations.sum())
+        self._longest = max(self._longest, float(piece.durations.max()))
+
+    def flush(self) -> None:
+        """The controller shall start with what it has, once all points are there."""
+        self._is_flushing = True
+
+    def end(self) -> None:
+        """Nothing follows."""
+        self.is_ended = True
+
+    # What goes out
+
+    @property
+    def has_due(self) -> bool:
+        """Whether a batch may be sent now."""
+        if self.is_over or self.stopping or self.refusal is not None or self._end_is_sent:
+            return False
+        backlog = self.backlog
+        if not backlog:
+            return self._sent > 0 and (self.is_ended or self._is_flushing)
+        # Room comes back point by point: small batches would cost the controller more.
+        return self._room_until - self._sent >= min(backlog, self._least) or self._is_stuck
+
+    @property
+    def _is_stuck(self) -> bool:
+        """Whether the robot stands with a ring as full as it gets: it shall start with that,
+        though the driver likes to have more seconds."""
+        moves = self._state_port.status.in_motion is TriState.TRUE
+        return not (self._flights or moves or self._is_filled or self.is_paused)
+
+    def next_frame(self, pending: PendingReply) -> bytes:
+        """The batch that is due, whose reply is `pending`."""
+        size = min(self.backlog, self.batch, self._room_until - self._sent)
+        words = self._take(size)
+        flags = StreamFlag.BEGIN if self._sent == 0 else StreamFlag(0)
+        if size == self.backlog:
+            if self.is_ended:
+                flags |= StreamFlag.END
+                self._end_is_sent = True
+            if self._is_flushing:
+                flags |= StreamFlag.FLUSH
+                self._is_flushing = False
+        elif size < self._least:
+            flags |= StreamFlag.FLUSH
+            self._is_filled = True
+        frame = points_frame(self.stream, self._sent, words, flags=flags)
+        self._sent += size
+        self._flights.append(_Flight(pending, self._sent, self._state_port.clock()))
+        return frame
+
+    def _take(self, size: int) -> Words:
+        """Points from the queue; none as a row of no words."""
+        parts: list[Words] = [self._no_points]
+        while size:
+            some = self._queue.popleft()
+            parts.append(some[:size])
+            if len(some) > size:
+                self._queue.appendleft(some[size:])
+            size -= len(parts[-1])
+        return np.concatenate(parts) if len(parts) != 2 else parts[1]
+
+    # What comes in
+
+    def step(self) -> None:
+        """Take replies and PROGRESS. Call after each message, and now and then without one."""
+        while not self.is_over and self._flights and self._flights[0].pending.reply is not None:
+            flight = self._flights.popleft()
+            assert flight.pending.reply is not None
+            self._answered(flight.end, flight.pending.reply)
+        if self.is_over:
+            return
+        waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
+        if waited > self._patience:
+            self.failed(
+                RobotTimeout(
+                    fault(
+                        "RG603",
+                        f"the controller did not answer a batch of points within {waited:.1f} s",
+                        "a STOP was sent; look at the robot",
+                    ),
+                    messages=self._state_port.messages,
+                    states=self._state_port.states,
+                )
+            )
+            return
+        super().step()
+
+    def _answered(self, end: int, reply: Content) -> None:
+        match reply:
+            case messages.PointsAccepted() if reply.stream == self.stream:
+                if self.number is None:
+                    self.accepted(reply.trajectory)
+                self._accepted = end
+                self._has_room(end + max(0, reply.room))
+                self._counts(reply.planned, reply.reached)
+                self._now(reply.state)
+            case messages.PointsRefused() if reply.stream == self.stream:
+                self._refused(reply, reply.reason, reply.point, reply.joint, reply.accepted)
+            case messages.Failure():
+                self._refused(reply, 0, -1, 0, 0)
+            case _:
+                self.failed(
+                    ProtocolError(
+                        fault(
+                            "RG604",
+                            f"a batch of points was answered with {reply}",
+                            "a STOP was sent; look at the robot",
+                        ),
+                        messages=self._state_port.messages,
+                        states=self._state_port.states,
+                    )
+                )
+
+    def _refused(
+        self,
+        reply: messages.PointsRefused | messages.Failure,
+        reason: int,
+        point: int,
+        joint: int,
+        accepted: int,
+    ) -> None:
+        if self.refusal is None:
+            self.refusal = reply
+        if self.number is not None or accepted:
+            # What was accepted is executed, and PROGRESS says how that ends.
+            if self.number is None and isinstance(reply, messages.PointsRefused):
+                self.accepted(reply.trajectory)
+            return
+        text = reason_text(reason) if reason else "no reason given"
+        where = place_of(self._group, point, joint)
+        self.failed(
+            TrajectoryRefused(
+                fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
+                reason=reason_of(reason),
+                point=point,
+                joint=joint,
+                messages=self._state_port.messages,
+                states=self._state_port.states,
+            )
+        )
+
+    def _by_progress(self, told: messages.Progress) -> None:
+        if self._state_port.progresses != self._looked_at:
+            self._looked_at = self._state_port.progresses
+            self._counts(told.planned, told.reached)
+            # A point that was given to the planner has made room for another one.
+            self._has_room(self._planned + self._ring)
+            self._now(told.state)
+        super()._by_progress(told)
+
+    def _has_room(self, until: int) -> None:
+        if until > self._room_until:
+            self._room_until = until
+            self._is_filled = False
+
+    def _counts(self, planned: int, reached: int) -> None:
+        """Take what was told, unless it is older than what is known, or cannot be."""
+        planned = unwrapped(planned, self._planned)
+        if self._planned <= planned <= self._sent:
+            self._planned = planned
+        reached = unwrapped(reached, self._reached_points)
+        if self._reached_points <= reached <= self._planned:
+            self._reached_points = reached
+
+    def _now(self, state: int) -> None:
+        now = trajectory_state(state)
+        if now is None or now is self._state:
+            return
+        self._state = now
+        if now is TrajectoryState.STARVED:
+            self.starved += 1
+            self._state_port.note(f"the stream ran out of points at point {self._reached_points}")
+
+    def _index(self, point: int) -> int:
+        return unwrapped(point, self._accepted) if point >= 0 else point
+
+    def _reached(self) -> int | None:
+        return self._reached_points
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now. `total` are the points given so far."""
+        state = self._state
+        if self.result is not None:
+            state = TrajectoryState.DONE
+        elif isinstance(self.error, MotionStopped):
+            state = TrajectoryState.STOPPED
+        elif isinstance(self.error, TrajectoryRefused):
+            state = TrajectoryState.REFUSED
+        elif self.error is not None:
+            state = TrajectoryState.FAILED
+        reached = self._reached_points
+        share = reached / self._total if self._total else 0.0
+        return Progress(state, self._total, self._accepted, self._planned, reached, share)
+
+
+def unwrapped(count: int, near: int) -> int:
+    """The number that a count modulo 2^23 means: the one that is next to `near`."""
+    half = INDEX_WRAP // 2
+    return near + (count - near + half) % INDEX_WRAP - half

@@ -1,0 +1,116 @@
+"""Connecting, and finding out who is there, as generators run by both clients (see `effects`)."""
+
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.robot import Core
+from rapidgen.client.errors import (
+    ConnectionFailed,
+    ConnectionLost,
+    IncompatibleDriver,
+    RobotTimeout,
+    fault,
+)
+from rapidgen.client.flows.effects import Close, Flow, Open, Send, Wait
+from rapidgen.wire.simple_message import messages
+from rapidgen.wire.simple_message.messages import HELLO
+from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
+
+_RETRY = 0.5
+"""s between two attempts to connect again."""
+
+
+def connect(core: Core) -> Flow[None]:
+    """Open the connections and find out who is there."""
+    core.fault = None
+    limits = core.timeouts
+    yield Open(Port.STATE, limits.connect)
+    asked = core.clock()
+    if not core.plain:
+        yield Send(Port.STATE, core.hello(), limits.send)
+    state_port = core.state_port
+    came = yield Wait(lambda: state_port.is_complete or not core.state_open, limits.state)
+    if not core.state_open:
+        raise core.disconnected()
+    if not came:
+        raise RobotTimeout(
+            fault(
+                "RG603",
+                f"connected, but no joints and status came within {limits.state:g} s",
+                "is the state server's task running?",
+            ),
+            **core.evidence(),
+        )
+    if not core.plain:
+        left = max(0.0, asked + limits.hello - core.clock())
+        yield Wait(lambda: state_port.hello is not None or not core.state_open, left)
+    _meet(core, state_port.hello)
+    if core.watch:
+        return
+    yield Open(Port.MOTION, limits.connect)
+    if Feature.CONTROL in state_port.driver.features:
+        yield from _meet_control(core)
+
+
+def _meet_control(core: Core) -> Flow[None]:
+    """Open the control connection, if it is one of this very driver; else do without."""
+    trouble = "another driver answers on the control port"
+    try:
+        yield Open(Port.CONTROL, core.timeouts.connect)
+        talk = core.ports[Port.CONTROL]
+        pending = talk.request(HELLO.number)
+        yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
+        yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.hello)
+        known, told = core.state_port.hello, pending.reply
+        assert isinstance(known, messages.HelloReply)
+        if isinstance(told, messages.HelloReply) and told.same_driver(known):
+            return
+        if told is None:
+            trouble = "nobody answers on the control port"
+        if talk.is_open:
+            yield Close(Port.CONTROL)
+    except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
+        trouble = str(error)
+    core.without_control(trouble)
+
+
+def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
+    """Versions and joint maps must fit; without a configuration the driver's word counts."""
+    if hello is not None and hello.protocol != PROTOCOL_VERSION:
+        raise IncompatibleDriver(
+            fault(
+                "RG605",
+                f"the driver speaks protocol version {hello.protocol}, this client "
+                f"{PROTOCOL_VERSION}",
+                "build and deploy the driver again with this rapidgen",
+            ),
+            **core.evidence(),
+        )
+    if isinstance(hello, messages.HelloReply):
+        if core.configured is not None:
+            core.configured.require(hello)
+            core.use(core.configured.narrowed(hello))
+        elif not 1 <= hello.joint_count <= MAX_JOINTS:
+            raise IncompatibleDriver(
+                fault("RG605", f"the driver tells {hello.joint_count} joints"), **core.evidence()
+            )
+        else:
+            core.use(Group.told(hello))
+    elif core.group is None:
+        core.use(Group.unknown([f"joint_{i + 1}" for i in range(6)]))
+
+
+def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
+    """Connect again if a connection was lost and reconnecting was told; nothing is re-sent."""
+    if core.state_open and (core.ports[Port.MOTION].is_open or not to_move):
+        return
+    if core.fault is None or core.reconnect <= 0:
+        raise core.disconnected()
+    deadline = core.clock() + core.reconnect
+    while True:
+        try:
+            yield from connect(core)
+            return
+        except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
+            if core.clock() + _RETRY >= deadline:
+                raise
+            core.state_port.note(str(error))
+        yield Wait(lambda: False, _RETRY)

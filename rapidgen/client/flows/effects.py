@@ -1,0 +1,64 @@
+"""What a flow may ask of the client that runs it: the steps between the client's decisions.
+
+A flow is a generator: it yields what it needs (a connection, bytes sent, a wait) and is resumed
+with the outcome: `Wait` gives whether the condition came true in time; a failed `Open` or
+`Send` is thrown in as RobotError. When the caller is interrupted (Ctrl-C, cancellation) the
+interruption is thrown in; flows that wait for a motion answer it with a STOP.
+"""
+
+from asyncio import CancelledError
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
+from typing import Any, TypeVar
+
+from rapidgen.client.core.motion import CommandedMotion
+from rapidgen.wire.simple_message.spec import Port
+
+T = TypeVar("T")
+INTERRUPTIONS = (KeyboardInterrupt, CancelledError)
+
+
+@dataclass(frozen=True, slots=True)
+class Open:
+    """Open a connection."""
+
+    port: Port
+    timeout: float
+
+
+@dataclass(frozen=True, slots=True)
+class Send:
+    """Send bytes: `urgent` ones at the next frame boundary, ahead of whatever is being sent.
+
+    Points of a `run` are cut short, by MotionStopped, once somebody asked it to stop.
+    """
+
+    port: Port
+    data: bytes
+    timeout: float
+    urgent: bool = False
+    run: CommandedMotion | None = None
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether these points must not be sent any more."""
+        return self.run is not None and self.run.stopping
+
+
+@dataclass(frozen=True, slots=True)
+class Wait:
+    """Wait until the condition holds; it is looked at after each message."""
+
+    until: Callable[[], bool]
+    timeout: float
+
+
+@dataclass(frozen=True, slots=True)
+class Close:
+    """Close a connection that is of no use."""
+
+    port: Port
+
+
+Effect = Open | Send | Wait | Close
+Flow = Generator[Effect, Any, T]

@@ -1,0 +1,83 @@
+"""Waiting for what the state port tells, as generators run by both clients (see `effects`)."""
+
+from collections.abc import Callable
+
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import Event, Feedback, State
+from rapidgen.client.errors import NotSupported, RobotTimeout, fault
+from rapidgen.client.flows.connect import alive
+from rapidgen.client.flows.effects import Flow, Wait
+from rapidgen.wire.simple_message.spec import Feature
+
+
+def wait_until(
+    core: Core, condition: Callable[[State], bool], timeout: float, what: str
+) -> Flow[State]:
+    """The first state, from now on, for which the condition holds."""
+    yield from alive(core)
+    state_port = core.state_port
+    found: list[State] = []
+
+    def holds() -> bool:
+        state = state_port.state
+        if state is not None and state_port.is_complete and condition(state):
+            found.append(state)
+        return bool(found) or not core.state_open
+
+    yield Wait(holds, timeout)
+    if found:
+        return found[0]
+    if not core.state_open:
+        raise core.disconnected()
+    raise RobotTimeout(
+        fault("RG603", f"{what} did not come within {timeout:g} s"), **core.evidence()
+    )
+
+
+def next_state(core: Core, timeout: float | None) -> Flow[State]:
+    """The state of the next joint message."""
+    yield from alive(core)
+    seen = core.state_port.samples
+    patience = core.timeouts.state if timeout is None else timeout
+    return (
+        yield from wait_until(core, lambda state: state.number > seen, patience, "the next state")
+    )
+
+
+def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[Event]:
+    """The next entry of the controller's log, or the one behind `after`; without a time-out as
+    long as there is a link."""
+    yield from alive(core)
+    state_port = core.state_port
+    seen = state_port.event_count if after is None else after.number
+    patience = float("inf") if timeout is None else timeout
+    yield Wait(lambda: state_port.event_count > seen or not core.state_open, patience)
+    found = [event for event in state_port.events if event.number > seen]
+    if found:
+        return found[0]
+    if not core.state_open:
+        raise core.disconnected()
+    raise RobotTimeout(fault("RG603", f"no event came within {timeout:g} s"), **core.evidence())
+
+
+def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
+    """The next joints with the controller's time."""
+    yield from alive(core)
+    state_port = core.state_port
+    if Feature.FEEDBACK not in state_port.driver.features & core.subscribe:
+        raise NotSupported(
+            fault(
+                "RG624",
+                "the driver sends no feedback with the controller's time",
+                "Robot(..., feedback=True) asks for it, where the driver has it",
+            )
+        )
+    seen = state_port.feedbacks
+    limit = core.timeouts.state if timeout is None else timeout
+    yield Wait(lambda: state_port.feedbacks > seen or not core.state_open, limit)
+    feedback = state_port.feedback
+    if feedback is not None and state_port.feedbacks > seen:
+        return feedback
+    if not core.state_open:
+        raise core.disconnected()
+    raise RobotTimeout(fault("RG603", f"no feedback came within {limit:g} s"), **core.evidence())

@@ -1,0 +1,291 @@
+"""How a plan is made: the controller's files and notes, held against the wanted set."""
+
+import difflib
+import json
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from rapidgen.deploy.cfg import compare, keyed, names_of
+from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
+from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_of
+from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
+from rapidgen.deploy.steps import steps_of
+from rapidgen.deploy.syspar import read_syspar, syspar_changes
+from rapidgen.deploy.transports.transport import Transport, read_or_none
+from rapidgen.diagnostics import DiagnosticError, refusal
+from rapidgen.system import CfgText, parse_cfg
+
+
+def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "deploy") -> Plan:
+    """Read the controller and plan the way to `wanted` (None: to the state before the first).
+
+    Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),
+    RG529 (nothing deployed), RG531 (the manifest on the controller is damaged).
+    """
+    layout = find_layout(transport)
+    state = read_state(transport, layout.home)
+    base = _base(transport, layout.home, state)
+    had = base.had
+    if state.damaged and not base.repair:
+        raise refusal(
+            "RG531",
+            None,
+            state.damaged,
+            f"restore HOME:/{STATE}/manifest.json from a backup of the controller, or delete "
+            "it: then files that lie there count as a stranger's",
+            exit_code=1,
+        )
+    if wanted is None and had is None and not base.interrupted:
+        raise refusal(
+            "RG529", None, f"{transport.shown}: no deployment of rapidgen lies there", exit_code=1
+        )
+    if wanted is not None and had is not None and had.name != wanted.name:
+        raise refusal(
+            "RG524",
+            None,
+            f"{transport.shown} carries the driver of {had.name!r}, not of {wanted.name!r}",
+            f"check the URL; to replace it, `rapidgen uninstall {had.name} --to ...` first",
+            exit_code=1,
+        )
+    changes = _file_changes(transport, layout, base, wanted)
+    syspar = read_syspar(transport, layout.syspar)
+    texts = tuple(f.text for f in syspar)
+    _check_robotware(texts, wanted, transport.shown)
+    old_cfg = _old_cfg(changes)
+    wanted_cfg = wanted.cfg if wanted else ()
+    present = texts if texts else old_cfg
+    ours = names_of(keyed(old_cfg)) | frozenset(base.cfg_before)
+    cfg = compare(keyed(wanted_cfg), keyed(present), ours)
+    seen = bool(texts) and transport.reach.writes_cfg
+    originals = {
+        r.path: f"{layout.home}{STATE}/backup/{r.stored}"
+        for r in base.origin.values()
+        if r.kind == "syspar"
+    }
+    for change in (
+        syspar_changes(
+            transport, layout.syspar, syspar, wanted_cfg, ours, base.cfg_before, originals
+        )
+        if seen
+        else ()
+    ):
+        action: Action = "add" if change.before is None else "change"
+        if change.after is None:
+            action = "remove"
+        changes.append(
+            FileChange(
+                change.path,
+                change.path,
+                action,
+                "syspar",
+                before=change.before,
+                after=change.after,
+                foreign=change.foreign,
+            )
+        )
+    touched = any(c.action != "same" for c in changes)
+    steps = steps_of(
+        [(c.path, c.tasks) for c in changes if c.kind == "module" and c.action != "same"],
+        cfg,
+        wanted_cfg or old_cfg,
+        written=seen,
+        touched=touched,
+    )
+    unseen = list(transport.reach.unseen)
+    if not seen and wanted is not None:
+        unseen.append(
+            "cfg instances are compared with the last deployment"
+            if had is not None
+            else "cfg instances are taken for missing: what is loaded is not seen"
+        )
+        unseen.append(f"whether this is RobotWare {_ware(wanted.robotware)}: not seen")
+    print_of = [(c.where, digest(c.before) if c.before is not None else "") for c in changes]
+    return Plan(
+        verb,
+        transport.shown,
+        wanted.name if wanted else (had.name if had else ""),
+        wanted.build_id if wanted else "",
+        wanted.robotware if wanted else (had.robotware if had else (0, 0)),
+        tuple(changes),
+        cfg,
+        seen,
+        steps,
+        tuple(unseen),
+        transport.reach.rename,
+        base.interrupted,
+        digest(json.dumps([state.digest, sorted(print_of)]).encode()),
+        layout,
+        state,
+        had,
+        wanted,
+        base.repair,
+        base.origin,
+        base.cfg_before,
+        texts,
+    )
+
+
+def find_layout(transport: Transport) -> Layout:
+    """HOME itself, or a system folder (a backup, a virtual controller) that holds HOME."""
+    entries = {e.name.casefold(): e for e in transport.entries("") if e.folder is not False}
+    home, syspar = entries.get("home"), entries.get("syspar")
+    if home is None or home.name != "HOME":
+        return Layout("", "")
+    return Layout("HOME/", f"{syspar.name}/" if syspar else "")
+
+
+@dataclass(frozen=True, slots=True)
+class _Base:
+    """What counts as ours on the controller, whatever was interrupted."""
+
+    had: Manifest | None
+    records: dict[str, FileRecord]
+    known: dict[str, set[str]]
+    origin: dict[str, FileRecord]
+    cfg_before: dict[str, Any]
+    interrupted: str
+    repair: bool
+    pieces: dict[str, list[bytes]]
+    """Staged contents by path: without rename a cut leaves the beginning of one in place."""
+
+    def owns(self, path: str, data: bytes) -> bool:
+        """Whether these contents were put there by a deployment, if only in part."""
+        known = digest(data) in self.known.get(path, ())
+        return known or any(piece.startswith(data) for piece in self.pieces.get(path, ()))
+
+
+def _base(transport: Transport, home: str, state: StateFolder) -> _Base:
+    had, journal = state.manifest, state.journal
+    interrupted, repair = "", False
+    if journal is not None:
+        done = had is None and not state.damaged
+        if journal.new is not None:
+            done = had is not None and had.id == journal.id
+        if done:
+            interrupted = f"{journal.verb} {journal.id} is done, its notes are still there"
+        elif state.switching:
+            interrupted = f"{journal.verb} {journal.id} was cut while it switched files"
+            had, repair = journal.old, True
+        else:
+            interrupted = f"{journal.verb} {journal.id} was cut before it changed anything"
+    elif state.switching:
+        interrupted = "a deployment was cut, and its journal is lost"
+    elif state.litter:
+        interrupted = "a deployment was cut before it began"
+    manifests = [had, journal.new if journal is not None and repair else None]
+    known = {p: set(h) for p, h in journal.known.items()} if journal and repair else {}
+    records: dict[str, FileRecord] = {}
+    origin: dict[str, FileRecord] = {}
+    before: dict[str, Any] = {}
+    for manifest in filter(None, manifests):
+        origin |= {r.path: r for r in manifest.origin}
+        before = {**manifest.cfg_before, **before}
+        for record in manifest.files:
+            records.setdefault(record.path, record)
+            known.setdefault(record.path, set()).add(record.sha256)
+    pieces: dict[str, list[bytes]] = {}
+    for staged in journal.staged if journal is not None and repair else ():
+        data = read_or_none(transport, staged)
+        if data is not None:
+            path = staged.removeprefix(home).removesuffix(NEW).removesuffix(FENCE)
+            pieces.setdefault(path, []).append(data)
+    return _Base(had, records, known, origin, before, interrupted, repair, pieces)
+
+
+def _file_changes(
+    transport: Transport, layout: Layout, base: _Base, wanted: DriverSet | None
+) -> list[FileChange]:
+    changes: list[FileChange] = []
+    for file in wanted.files if wanted else ():
+        where = layout.home + file.path
+        current = read_or_none(transport, where)
+        ours = base.known.get(file.path)
+        action: Action = "add" if current is None else "change"
+        conflict: Literal["", "edited", "stranger"] = ""
+        note = ""
+        if current == file.data:
+            action = "same"
+        elif current is not None and ours is None:
+            conflict = "stranger"
+        elif current is not None and not base.owns(file.path, current):
+            conflict = "edited"
+            note = _edited_lines(base.records.get(file.path), current, file.data)
+        foreign = current is not None and ours is None
+        changes.append(
+            FileChange(
+                file.path,
+                where,
+                action,
+                file.kind,
+                file.tasks,
+                current,
+                file.data,
+                conflict,
+                foreign,
+                note,
+            )
+        )
+    written = {c.path for c in changes}
+    for path in base.known:
+        if path in written:
+            continue
+        where = layout.home + path
+        current = read_or_none(transport, where)
+        record, after = base.records.get(path), None
+        if path in base.origin:
+            after = transport.read(f"{layout.home}{STATE}/backup/{base.origin[path].stored}")
+        if current == after:
+            continue
+        edited = current is not None and not base.owns(path, current)
+        changes.append(
+            FileChange(
+                path,
+                where,
+                "remove" if after is None else "restore",
+                record.kind if record else "module",
+                record.tasks if record else (),
+                current,
+                after,
+                "edited" if edited else "",
+            )
+        )
+    return changes
+
+
+def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) -> str:
+    """Where the hand edit is, when what was deployed is known: it equals what is wanted."""
+    if record is None or record.sha256 != digest(pristine):
+        return ""
+    matcher = difflib.SequenceMatcher(None, lines_of(pristine), lines_of(current), autojunk=False)
+    spots = [(k + 1, max(m, k + 1)) for tag, _, _, k, m in matcher.get_opcodes() if tag != "equal"]
+    words = [str(a) if a == b else f"{a}-{b}" for a, b in spots]
+    return f"lines {', '.join(words[:5])}{', ...' if len(words) > 5 else ''}" if words else ""
+
+
+def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
+    """cfg files of the last deployment, as they lie there; an unreadable one counts as none."""
+    found = []
+    for change in changes:
+        if change.kind == "cfg" and change.before is not None:
+            try:
+                found.append(parse_cfg(change.before, path=change.path))
+            except DiagnosticError:
+                continue
+    return tuple(found)
+
+
+def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, target: str) -> None:
+    for text in texts:
+        if wanted is not None and text.version[0] != wanted.robotware[0]:
+            raise refusal(
+                "RG525",
+                None,
+                f"{target} runs RobotWare {text.version[0]} ({text.path}), the driver is built "
+                f"for {_ware(wanted.robotware)}",
+                f"set `robotware: {text.version[0]}` in the configuration and build again",
+                exit_code=1,
+            )
+
+
+def _ware(robotware: tuple[int, int]) -> str:
+    return f"{robotware[0]}.{robotware[1]:02d}"

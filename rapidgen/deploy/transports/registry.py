@@ -1,0 +1,56 @@
+"""Which transports there are. A new one is a file beside this one, and a line in `SCHEMES`."""
+
+from dataclasses import dataclass
+from importlib import import_module
+
+from rapidgen.deploy.secrets import Credentials
+from rapidgen.deploy.transports.transport import Transport
+
+
+@dataclass(frozen=True, slots=True)
+class Scheme:
+    """One transport. `opener` is `file:callable` of this folder, imported when it is used."""
+
+    opener: str
+    port: int = 0
+    """TCP port where a URL has none; 0: a folder of this machine, without host and login."""
+    takes_keys: bool = False
+    """Whether an SSH key can stand for a password."""
+
+
+SCHEMES = {
+    "dir": Scheme("folder:open_folder"),
+    "ftp": Scheme("ftp:FtpTransport", 21),
+    "sftp": Scheme("sftp:SftpTransport", 22, takes_keys=True),
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A controller to deploy to. `path` is absolute, or '' for the folder of the login."""
+
+    scheme: str
+    host: str
+    port: int
+    path: str
+    user: str = ""
+
+    @property
+    def way(self) -> Scheme:
+        """The transport that the scheme names."""
+        return SCHEMES[self.scheme]
+
+    @property
+    def shown(self) -> str:
+        """The URL without the user, as plans and tables show it."""
+        port = "" if self.port == self.way.port else f":{self.port}"
+        host = f"[{self.host}]" if ":" in self.host else self.host
+        return f"{self.scheme}://{host}{port}{self.path}"
+
+    def open(self, login: Credentials, timeout: float) -> Transport:
+        """A logged-in transport; s for each answer. Raises TransportFault RG501..RG506."""
+        module, _, name = self.way.opener.partition(":")
+        opened: Transport = getattr(import_module(f"{__package__}.{module}"), name)(
+            self, login, timeout
+        )
+        return opened

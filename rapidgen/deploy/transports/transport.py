@@ -1,0 +1,126 @@
+"""The seam under a deployment: file operations on one controller, and what they cannot reach.
+
+Every transport is a folder of files behind relative POSIX paths. What a server answers is not
+trusted: sizes, times and names are bounded, and every failure is a `TransportFault`.
+(Robot Web Services fit here too: they add what `Reach` says is missing.)
+"""
+
+import re
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+from rapidgen.diagnostics import DiagnosticError, error
+
+FILE_LIMIT = 8 * 1024 * 1024
+"""Largest file that is read from a controller; a RAPID module of 8 MB is refused elsewhere too."""
+LISTING_LIMIT = 20_000
+"""Most names in one folder."""
+
+Kind = Literal["missing", "denied", "unsupported", "full", "lost", "garbled", "login", "outside"]
+
+_CODES: dict[Kind, tuple[str, str]] = {
+    "missing": ("RG506", "look at the folder in the URL: it is HOME of the controller"),
+    "denied": ("RG506", "give this user the right to write there, or name another folder"),
+    "unsupported": ("RG506", "use another transport, or a server that knows this command"),
+    "full": ("RG507", "free space on the controller's disk (old backups, logs), then run again"),
+    "lost": ("RG505", "run the same command again: it finishes or undoes what was under way"),
+    "garbled": ("RG504", "look whether this is the controller's server, then run again"),
+    "login": ("RG502", "check user and password (`rapidgen deploy --help` says where from)"),
+    "outside": ("RG508", "paths stay inside the folder that the URL names"),
+}
+
+_SEGMENT = re.compile(r"[A-Za-z0-9_$(){}\[\]@#%&+=,;!~'. -]{1,120}")
+
+
+class TransportFault(DiagnosticError):
+    """A file operation that failed; `kind` is for the code, the diagnostic for the user."""
+
+    def __init__(self, kind: Kind, message: str, *, help: str = "", code: str = "") -> None:
+        known, mend = _CODES[kind]
+        super().__init__(error(code or known, None, message, help or mend), exit_code=1)
+        self.kind = kind
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A name in a folder. `size` and `folder` are None where the listing does not say."""
+
+    name: str
+    size: int | None = None
+    folder: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """What a transport can and cannot do. Lines of `unseen` stand in every plan."""
+
+    rename: str
+    """How the switch is made, in words."""
+    writes_cfg: bool
+    """Whether SYSPAR beside HOME is what the next start reads (a backup, a virtual controller)."""
+    unseen: tuple[str, ...]
+
+
+class Transport(Protocol):
+    """Files of one controller. Paths are relative to the folder of the URL ('' is that folder).
+
+    Every method raises TransportFault.
+    """
+
+    reach: Reach
+    shown: str
+    """The URL as it may be shown: without secrets."""
+
+    def entries(self, folder: str) -> tuple[Entry, ...]:
+        """What lies in a folder; kind 'missing' where there is none."""
+
+    def read(self, path: str) -> bytes:
+        """A whole file; kind 'missing' where there is none."""
+
+    def write(self, path: str, data: bytes) -> None:
+        """Create or overwrite a file. Not atomic: a cut leaves a part of it."""
+
+    def rename(self, old: str, new: str) -> None:
+        """Rename, over an existing file where the server does that, else 'denied'."""
+
+    def delete(self, path: str) -> None:
+        """Delete a file; kind 'missing' where there is none."""
+
+    def make_folder(self, path: str) -> None:
+        """Make a folder; one that is there already is fine."""
+
+    def delete_folder(self, path: str) -> None:
+        """Delete an empty folder."""
+
+    def free(self) -> int | None:
+        """Free bytes on the disk, or None where the transport cannot tell."""
+
+    def close(self) -> None:
+        """End the connection; never raises."""
+
+
+def safe(path: str) -> str:
+    """`path` unchanged when it is plain and stays inside.
+
+    Raises TransportFault 'outside' (RG508) otherwise: `..`, absolute, drives, control characters.
+    """
+    parts = path.split("/")
+    plain = all(_SEGMENT.fullmatch(part) and part.strip(". ") for part in parts)
+    if not plain or len(path) > 240:
+        raise TransportFault("outside", f"not a path inside the controller's folder: {path!r}")
+    return path
+
+
+def parent(path: str) -> str:
+    """Folder of a path; '' is the root."""
+    return path.rpartition("/")[0]
+
+
+def read_or_none(transport: Transport, path: str) -> bytes | None:
+    """The file, or None when there is none."""
+    try:
+        return transport.read(path)
+    except TransportFault as fault:
+        if fault.kind != "missing":
+            raise
+        return None

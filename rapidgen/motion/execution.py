@@ -1,0 +1,285 @@
+"""One path in time: what is due now, and when to look again.
+
+The scheduler is asked for one event at a time (a release, a deadline, a standstill), so a robot
+costs a few events a move, and nothing at all while it stands.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import ceil, inf
+
+from rapidgen.machine.log import EventLog
+from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
+from rapidgen.motion import events
+from rapidgen.motion.corners import zone_entry
+from rapidgen.motion.drive import Drive
+from rapidgen.motion.legs import Leg
+from rapidgen.motion.motion import Motion
+from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.path import Path
+from rapidgen.motion.pathevents import PathEvents
+from rapidgen.motion.pieces import AxisLimits
+from rapidgen.motion.planner import Planner
+from rapidgen.motion.punctuality import Punctuality
+from rapidgen.motion.timelaw import TimeLaw
+
+
+@dataclass(frozen=True, slots=True)
+class PutAside:
+    """A path that another one interrupts, and how far it has come."""
+
+    path: Path
+    motion: Motion
+    events: PathEvents
+
+
+class Execution:
+    """Runs the path of one group."""
+
+    __slots__ = (
+        "_commit",
+        "_events",
+        "_log",
+        "_name",
+        "_planner",
+        "_punctuality",
+        "_release",
+        "_report",
+        "_scheduler",
+        "_settled",
+        "_timer",
+        "_was_standing",
+        "at_rest",
+        "changed",
+        "drive",
+        "path",
+        "stops",
+    )
+
+    def __init__(
+        self,
+        scheduler: Scheduler,
+        log: EventLog,
+        planner: Planner,
+        start: Posture,
+        report: Callable[[bool], None],
+    ) -> None:
+        """`report` is called with whether the robot stands, whenever that changes."""
+        self._scheduler = scheduler
+        self._log = log
+        self._name = planner.config.name
+        self._planner = planner
+        self._report = report
+        self.path = Path(start)
+        self.drive = Drive(scheduler, planner.settings, start)
+        self.stops: dict[str, None] = {}
+        """Who keeps the robot from moving."""
+        self.changed = WaitSet()
+        """Notified when a move is released or finished, and when motion begins or ends."""
+        self.at_rest: Callable[[], None] | None = None
+        """Called once when the robot stands."""
+        self._events = PathEvents()
+        self._punctuality = Punctuality()
+        self._timer: Timer | None = None
+        self._commit = self._release = inf
+        """Scheduler s at which the end of the path becomes a stop; of the program going on."""
+        self._was_standing = True
+        self._settled: Motion | None = None
+        """The motion whose settling has been notified."""
+
+    @property
+    def motion(self) -> Motion:
+        """The motion under way, or the last one."""
+        return self.drive.motion
+
+    @property
+    def is_standing(self) -> bool:
+        """Whether no axis moves."""
+        return self._scheduler.now >= self.drive.motion.end
+
+    @property
+    def is_settled(self) -> bool:
+        """Whether it stands and the settling time is over too."""
+        return self._scheduler.now >= self.drive.settled
+
+    def _braking(self) -> bool:
+        """Whether the law that runs is a way to a stop that may lie short of the path's end."""
+        return bool(self.stops) or self.motion.law.place < self.path.end - 1e-9
+
+    # -- the path ---------------------------------------------------------------------------
+
+    def limits(self) -> AxisLimits:
+        """Limits for moves that are planned now. AccSet changes the ramp at a standstill only."""
+        if self.is_standing:
+            self.drive.ramp = self._planner.ramp
+        return self._planner.limits(self.drive.ramp)
+
+    def append(self, move: Move) -> Leg:
+        """Put a move on the path. MotionFault: it cannot be made, the path is as it was."""
+        path, drive = self.path, self.drive
+        fixed, _ = drive.planned()
+        if self._braking():
+            fixed = max(fixed, self.motion.law.place)
+        path.prune(drive.place())
+        limits, standing = self.limits(), self.is_standing
+        make = self._planner.way_maker(limits)
+        leg, failed = path.extend(move, make, drive.law, limits, fixed, self._planner.kinematics)
+        self._events.add(leg)
+        if standing and not self.stops:
+            leg.began = self._scheduler.now / S
+        if failed:
+            events.corner_failure(self._log, self._name, path.legs[-2].move)
+        if not self.stops:
+            self.replan()
+        return leg
+
+    def stay(self, move: Move) -> Leg | None:
+        """A move to where the path ends: a stop point makes the end a stop, else nothing."""
+        tail = self.path.tail
+        if not move.zone.fine:
+            return tail
+        if tail is None or tail.finished:
+            return None
+        tail.committed = True
+        self._rearm()
+        return tail
+
+    def begin(self, path: Path) -> None:
+        """A path that begins where the robot stands."""
+        self.path = path
+        self.drive.put(TimeLaw(0.0), self._scheduler.now, path)
+        self._rearm()
+        self.settle()
+
+    def clear(self) -> None:
+        """Drop what is left of the path; a moving robot brakes on it first."""
+        if self.drive.planned()[1] > 0.0 and not self._braking():
+            self.brake(quick=False)
+        motion, path = self.motion, self.path
+        lost = path.cut(motion.law.place)
+        if motion.coast is None:
+            self.drive.put(motion.law, motion.start, path, path.target)
+        else:
+            self.path = Path(motion.rest)
+            now, rest = self._scheduler.now, motion.rest
+            self.drive.put(TimeLaw(0.0), now, self.path, rest, motion.coast)
+        self._rearm()
+        self.finish(lost, cleared=True)
+
+    def put_aside(self) -> PutAside:
+        """The path as it is, for `take_up`; another one is to `begin`."""
+        self.path.prune(self.drive.place())
+        aside = PutAside(self.path, self.motion, self._events)
+        self._events = PathEvents()
+        return aside
+
+    def take_up(self, aside: PutAside, here: Posture) -> None:
+        """Drop this path for one that was put aside; the robot stands at `here`."""
+        self.finish(list(self.path.legs), cleared=True)
+        self.path, self._events = aside.path, aside.events
+        self.come_back(here, aside.motion.law.place)
+
+    def come_back(self, here: Posture, place: float) -> None:
+        """The path goes on at a place, and the robot stands elsewhere."""
+        place = self.path.regain(here, place, self._planner.limits(self.drive.ramp))
+        if not self.path.pieces:
+            self.path.target = here
+        self.drive.put(TimeLaw(place), self._scheduler.now, self.path, here)
+        self._rearm()
+
+    def finish(self, legs: list[Leg], *, cleared: bool) -> None:
+        """Legs are passed, or taken off the path."""
+        for leg in legs:
+            leg.finished = not cleared
+            leg.cleared = cleared
+            if not cleared:
+                self._punctuality.finished(leg, self.motion)
+        if legs and cleared:
+            self.changed.notify()
+
+    # -- the motion -------------------------------------------------------------------------
+
+    def replan(self) -> None:
+        """Go from the present state to the end of the path."""
+        self._punctuality.look(self.path.legs, self.motion, self._scheduler.now)
+        self.drive.replan(self.path)
+        self._rearm()
+
+    def brake(self, *, quick: bool) -> None:
+        """Slow down to a standstill on the path."""
+        self._punctuality.look(self.path.legs, self.motion, self._scheduler.now)
+        self.drive.brake(self.path, quick)
+        self._rearm()
+
+    def coast(self) -> None:
+        """Stop each axis by its brake, off the path."""
+        self._punctuality.look(self.path.legs, self.motion, self._scheduler.now)
+        self.drive.coast(self.path, self._planner.config.joints)
+        self._rearm()
+
+    # -- deadlines --------------------------------------------------------------------------
+
+    def _rearm(self) -> None:
+        """Find out what happens next on the present motion, and ask for that event."""
+        start, law = self.motion.start / S, self.motion.law
+        tail = self.path.tail
+        self._commit = self._release = inf
+        if tail is not None and not (tail.stops or tail.finished or self.stops):
+            self._commit = start + min(law.last_braking(), law.time_at(zone_entry(tail)))
+            self._release = self._commit - self._planner.settings.planning_lead
+        self._schedule()
+
+    def _schedule(self) -> None:
+        now, motion = self._scheduler.now, self.motion
+        times = [motion.end, self.drive.settled]
+        tail = self.path.tail
+        if tail is not None and not (tail.stops or tail.finished or self.stops):
+            if not tail.released:
+                times.append(ceil(self._release * S))
+            times.append(ceil(self._commit * S))
+        for leg in self.path.legs:
+            if leg.stops:
+                times.append(ceil(motion.time_at(leg.end) * S))
+                break
+        times += [ceil(when * S) for when in self._events.times(motion)]
+        ahead = [time for time in times if time > now]
+        due = min(ahead, default=None)
+        if self._timer is not None:
+            if self._timer.active and self._timer.time == due:
+                return
+            self._timer.cancel()
+        self._timer = None if due is None else self._scheduler.at(due, self.settle)
+
+    def settle(self) -> None:
+        """Bring everything up to the present time."""
+        now = self._scheduler.now / S
+        changed = False
+        tail = self.path.tail
+        if tail is not None and not (tail.stops or tail.finished or self.stops):
+            # In ns, as these times were asked for: now in s may lie a bit before them.
+            if not tail.released and self._scheduler.now >= ceil(self._release * S):
+                tail.released = changed = True
+            if self._scheduler.now >= ceil(self._commit * S):
+                tail.committed = tail.released = changed = True
+                events.corner_failure(self._log, self._name, tail.move)
+        self._events.fire(self.motion, now)
+        # Off the path nothing is reached, wherever on it the robot should be.
+        if self.motion.coast is None and (done := self.path.passed(self.drive.place())):
+            self.finish(done, cleared=False)
+            changed = True
+        standing = self.is_standing
+        if standing != self._was_standing:
+            self._was_standing = standing
+            self._report(standing)
+            if standing:
+                self._punctuality.report(self._log, self._name)
+            changed = True
+        if self.is_settled and self._settled is not self.motion:
+            self._settled = self.motion
+            changed = True
+        self._schedule()
+        if changed:
+            self.changed.notify()
+        if standing and self.at_rest is not None:
+            act, self.at_rest = self.at_rest, None
+            act()

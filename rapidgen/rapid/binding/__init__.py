@@ -1,0 +1,79 @@
+"""Binding: what names, types, constants and arguments of RAPID mean. The one resolver.
+
+The checker judges by it, the compiler makes code by it, an editor asks it for places. It judges
+nothing itself. `names` has the rules; a task's modules are bound by
+
+    task = TaskScope()
+    module = task.add(parse(text))
+    module.find("counter")                       # a Symbol, or None
+    module.routine(node).find("i")               # as seen inside a routine
+    constant(expression, module)                 # a value, or None
+    match(symbol.parameters, call.arguments, fitting)
+    Bound(module).at(12, 5)                      # what stands at a place
+"""
+
+from rapidgen.rapid.binding.arguments import (
+    Matching,
+    Misfit,
+    Pairing,
+    first_fit,
+    held_as,
+    match,
+    may_pass,
+)
+from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate, sizes_of, value_of
+from rapidgen.rapid.binding.expressions import declared_type, root, type_of
+from rapidgen.rapid.binding.names import (
+    ModuleScope,
+    RoutineScope,
+    Scope,
+    TaskScope,
+    builtin,
+    installed_objects,
+)
+from rapidgen.rapid.binding.places import Bound
+from rapidgen.rapid.binding.symbols import (
+    DATA,
+    ROUTINES,
+    TYPES,
+    DataSymbol,
+    LabelSymbol,
+    ModuleSymbol,
+    RoutineSymbol,
+    Symbol,
+    TypeSymbol,
+)
+
+__all__ = [
+    "DATA",
+    "ROUTINES",
+    "TYPES",
+    "Bound",
+    "DataSymbol",
+    "LabelSymbol",
+    "Matching",
+    "Misfit",
+    "ModuleScope",
+    "ModuleSymbol",
+    "NotConstant",
+    "Pairing",
+    "RoutineScope",
+    "RoutineSymbol",
+    "Scope",
+    "Symbol",
+    "TaskScope",
+    "TypeSymbol",
+    "builtin",
+    "constant",
+    "declared_type",
+    "evaluate",
+    "first_fit",
+    "held_as",
+    "installed_objects",
+    "match",
+    "may_pass",
+    "root",
+    "sizes_of",
+    "type_of",
+    "value_of",
+]

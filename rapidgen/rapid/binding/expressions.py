@@ -1,0 +1,98 @@
+"""Static types of expressions, without judging them [K §2.17, 3].
+
+Where an expression breaks a rule its type is None, as where something is not known.
+"""
+
+from typing import Final
+
+from rapidgen.rapid.binding.names import Scope
+from rapidgen.rapid.binding.symbols import DataSymbol, RoutineSymbol, Symbol
+from rapidgen.rapid.binding.types import (
+    AGGREGATE,
+    EQUALITY,
+    LOGICAL,
+    NUMBER,
+    RELATIONS,
+    arithmetic,
+    array,
+    degree,
+    element,
+)
+from rapidgen.rapid.syntax.nodes import (
+    Aggregate,
+    Binary,
+    BoolLiteral,
+    Expression,
+    FunctionCall,
+    Index,
+    Member,
+    Name,
+    NumberLiteral,
+    Parenthesis,
+    StringLiteral,
+    Unary,
+)
+
+_TRUTH: Final = LOGICAL | EQUALITY | RELATIONS
+
+
+def root(node: Expression, scope: Scope) -> Symbol | None:
+    """What a data reference starts from; None for any other expression, or an unknown name."""
+    while isinstance(node, Index | Member):
+        node = node.base
+    return scope.find(node.name) if isinstance(node, Name) else None
+
+
+def declared_type(node: Expression, scope: Scope) -> str | None:
+    """Type of a data reference as it is declared, signals and non-values included."""
+    if isinstance(node, Name):
+        symbol = scope.find(node.name)
+        return scope.module.type_of(symbol) if isinstance(symbol, DataSymbol) else None
+    if isinstance(node, Index):
+        whole = declared_type(node.base, scope)
+        fits = whole is not None and degree(whole) == len(node.indices)
+        return element(whole) if whole and fits else None
+    if isinstance(node, Member):
+        whole = declared_type(node.base, scope)
+        components = scope.module.components(whole) if whole else None
+        return components.get(node.component.lower()) if components else None
+    return None
+
+
+def type_of(node: Expression, scope: Scope) -> str | None:
+    """Type of an expression whose value is read; a signal reads as num."""
+    match node:
+        case NumberLiteral():
+            return NUMBER
+        case StringLiteral():
+            return "string"
+        case BoolLiteral():
+            return "bool"
+        case Name() | Index() | Member():
+            found = declared_type(node, scope)
+            kind = scope.module.type_class(found) if found else None
+            if kind == "nonvalue":
+                return None
+            return array("num", degree(found)) if found and kind == "semivalue" else found
+        case FunctionCall():
+            symbol = scope.find(node.name)
+            if isinstance(symbol, RoutineSymbol) and symbol.kind == "FUNC":
+                return scope.module.type_of(symbol)
+            return None
+        case Aggregate():
+            return AGGREGATE
+        case Parenthesis():
+            return type_of(node.inner, scope)
+        case Unary():
+            return "bool" if node.operator == "NOT" else type_of(node.operand, scope)
+        case Binary():
+            if node.operator in _TRUTH:
+                return "bool"
+            left, right = type_of(node.left, scope), type_of(node.right, scope)
+            if left == AGGREGATE or right == AGGREGATE:
+                left = right = right if left == AGGREGATE else left
+            if left and right:
+                return arithmetic(node.operator, left, right)
+            known = left or right
+            return known if known in ("string", "dnum") else None
+    return None

@@ -1,0 +1,375 @@
+"""Which declaration a name means: the scopes of a task [K §2.12, 2.20, 4.3, 4.15, 5.2, 9.1, 13.1].
+
+RAPID compares names without case. There is one space of names: a datum, a type, a routine and a
+module of the same name hide or hinder each other. A name stands for what the innermost of these
+scopes declares:
+
+1. a FOR loop: its variable, inside DO .. ENDFOR only;
+2. the routine: parameters and data, in the body and in all its handlers. Data of a routine know
+   only those that are declared above them. Labels are looked up by GOTO alone, in the whole
+   routine; they may not have the name of one of its data;
+3. the module: everything that it declares, LOCAL or not. References in declarations of the module
+   start here. A LOCAL object hides a global one of another module;
+4. the task: what its modules declare without LOCAL, and the modules' names. Of equal global names
+   the first that was loaded counts, and the clash is an error;
+5. installed modules (built in, or shared by all tasks): their global names. The program may hide
+   them. An installed module itself sees its own names, those of installed modules and what lies
+   further out, but never the program;
+6. what the configuration installs: signals, mechanical units, task identities;
+7. the predefined data, types and routines of RAPID (`builtins/*.rapid`).
+
+A type behind aliases is found from the module that declares its object. What two tasks declare
+differently under one name has no known type where both are looked at together.
+
+Nothing here judges: a name that nothing declares is None, a type that is not known is None, and
+objects of a module or a task with the same name are kept as pairs in `clashes`.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cache
+
+from rapidgen.rapid.binding.symbols import (
+    DataSymbol,
+    LabelSymbol,
+    ModuleSymbol,
+    RoutineSymbol,
+    Symbol,
+    TypeSymbol,
+)
+from rapidgen.rapid.binding.types import array, element
+from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.builtins.signatures import TypeClass, Value
+from rapidgen.rapid.syntax.nodes import (
+    AliasDeclaration,
+    DataDeclaration,
+    Declaration,
+    For,
+    Label,
+    Module,
+    Parameter,
+    RecordDeclaration,
+    RoutineDeclaration,
+)
+from rapidgen.rapid.syntax.walk import walk
+
+Clash = tuple[Symbol, Symbol]
+"""Two objects of one name where there may be one: the first, which counts, and the second."""
+
+
+@dataclass(slots=True, eq=False)
+class TaskScope:
+    """The modules of one task and what they all see. Modules may be added and removed."""
+
+    configured: Mapping[str, Symbol] = field(default_factory=dict)
+    """Signals, mechanical units and task identities, by lower-case name."""
+    globals: dict[str, Symbol] = field(default_factory=dict)
+    """Global names of the program, lower case."""
+    installed: dict[str, Symbol] = field(default_factory=dict)
+    """Global names of installed modules, lower case."""
+    modules: dict[str, "ModuleScope"] = field(default_factory=dict)
+    """By lower-case name; of equal names the last."""
+    clashes: list[Clash] = field(default_factory=list)
+    """Global objects of different modules with the same name."""
+    types: dict[Symbol, str | None] = field(default_factory=dict)
+    """What `ModuleScope.type_of` has found."""
+    values: dict[DataSymbol, Value | None] = field(default_factory=dict)
+    """What `constants.value_of` has found; None while it is at it, and for what has none."""
+    records: dict[TypeSymbol, Mapping[str, str | None]] = field(default_factory=dict)
+    """What `ModuleScope.components` has found."""
+    _parameters: dict[RoutineSymbol, tuple[DataSymbol, ...]] = field(default_factory=dict)
+    _scopes: list["ModuleScope"] = field(default_factory=list)
+    """All modules, of equal names as well."""
+
+    def add(self, tree: Module, *, installed: bool = False) -> "ModuleScope":
+        """Take a module in; its global names are known to all modules from now on."""
+        module = ModuleScope(tree, self, installed)
+        self.modules[tree.name.lower()] = module
+        self._scopes.append(module)
+        found = self.installed if installed else self.globals
+        own = ModuleSymbol(tree.name, "MODULE", module, node=tree)
+        for key, symbol in [(tree.name.lower(), own), *module.own.items()]:
+            if symbol.local or not key:
+                continue
+            first = found.get(key)
+            if first is None:
+                found[key] = symbol
+            elif first.module is not module or "MODULE" in (first.kind, symbol.kind):
+                # Of a module that is there twice, the module's name says it all.
+                again = first.module and first.module.tree.name.lower() == tree.name.lower()
+                if symbol is own or first.kind == "MODULE" or not again:
+                    self.clashes.append((first, symbol))
+        self._forget()
+        return module
+
+    def remove(self, module: "ModuleScope") -> None:
+        """Take a module out, and its global names."""
+        self._scopes.remove(module)
+        key = module.tree.name.lower()
+        if self.modules.get(key) is module:
+            del self.modules[key]
+        for names in (self.globals, self.installed):
+            for name in [name for name, symbol in names.items() if symbol.module is module]:
+                del names[name]
+        self._forget()
+
+    def _forget(self) -> None:
+        """What has been found of names, types and values may be different now."""
+        for found in (self.types, self.values, self.records):
+            found.clear()
+        for scope in self._scopes:
+            for known in (scope.known, scope.bases, scope.classes):
+                known.clear()
+
+    def find(self, key: str, *, program: bool = True) -> Symbol | None:
+        """A name as seen from no module: by lower-case name, with or without the program's."""
+        return (
+            (self.globals.get(key) if program else None)
+            or self.installed.get(key)
+            or self.configured.get(key)
+            or builtin(key)
+        )
+
+    def dispute(self, clash: Clash) -> None:
+        """Two tasks' objects of one name: where they differ, the type is not known."""
+        first, second = clash
+        if first.kind != second.kind or _shape(first) != _shape(second):
+            self.types[first] = None
+
+    def parameters(self, routine: RoutineSymbol) -> tuple[DataSymbol, ...]:
+        """Parameters of a routine as symbols, in order; empty where they are not known."""
+        found = self._parameters.get(routine)
+        if found is None:
+            found = self._parameters[routine] = tuple(
+                parameter_symbol(p, routine.module, routine.node) for p in routine.parameters or ()
+            )
+        return found
+
+
+def _shape(symbol: Symbol) -> tuple[str | None, int]:
+    if isinstance(symbol, DataSymbol):
+        return symbol.type, symbol.degree
+    if isinstance(symbol, TypeSymbol):
+        return symbol.base, 0
+    return (symbol.type if isinstance(symbol, RoutineSymbol) else None), 0
+
+
+@dataclass(slots=True, eq=False)
+class ModuleScope:
+    """A module: its own names, and the way to the task's and the built-in ones."""
+
+    tree: Module
+    task: TaskScope
+    installed: bool = False
+    own: dict[str, Symbol] = field(default_factory=dict)
+    """What it declares, by lower-case name."""
+    clashes: list[Clash] = field(default_factory=list)
+    """Objects of this module with the same name [K §2.12]."""
+    known: dict[str, Symbol | None] = field(default_factory=dict)
+    """What `find` has found, by name as it was asked for."""
+    bases: dict[str, str | None] = field(default_factory=dict)
+    """What `base` has found."""
+    classes: dict[str, TypeClass | None] = field(default_factory=dict)
+    """What `type_class` has found; None of a record while it is at it."""
+    _routines: dict[RoutineDeclaration, "RoutineScope"] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for declaration in self.tree.declarations:
+            symbol = self._symbol(declaration)
+            if symbol is None:
+                continue
+            key = symbol.name.lower()
+            first = self.own.get(key)
+            if first is not None:
+                self.clashes.append((first, symbol))
+            elif key and key != "<id>":
+                self.own[key] = symbol
+
+    def _symbol(self, d: Declaration) -> Symbol | None:
+        if isinstance(d, DataDeclaration):
+            return datum_symbol(d, self)
+        if isinstance(d, RoutineDeclaration):
+            return RoutineSymbol(d.name, d.kind, self, d.scope == "LOCAL", d, d.type)
+        if isinstance(d, RecordDeclaration):
+            components = [(c.type, c.name) for c in d.components]
+            return TypeSymbol(d.name, "RECORD", self, d.scope == "LOCAL", d, None, components)
+        if isinstance(d, AliasDeclaration):
+            return TypeSymbol(d.name, "ALIAS", self, d.scope == "LOCAL", d, d.type)
+        return None
+
+    @property
+    def module(self) -> "ModuleScope":
+        """Itself: what asks a scope for its module need not know which sort it has."""
+        return self
+
+    def find(self, name: str) -> Symbol | None:
+        """What a name means in this module outside routines."""
+        if name in self.known:
+            return self.known[name]
+        key = name.lower()
+        found = self.own.get(key) or self.task.find(key, program=not self.installed)
+        self.known[name] = found
+        return found
+
+    def routine(self, node: RoutineDeclaration) -> "RoutineScope":
+        """The scope of a routine of this module, with everything that it declares."""
+        found = self._routines.get(node)
+        if found is None:
+            found = self._routines[node] = RoutineScope(self, node)
+            symbol = self.own.get(node.name.lower())
+            if not isinstance(symbol, RoutineSymbol) or symbol.node is not node:
+                symbol = RoutineSymbol(node.name, node.kind, self, False, node, node.type)
+            for parameter in self.task.parameters(symbol):
+                found.declare(parameter)
+            for declaration in node.data:
+                found.declare(datum_symbol(declaration, self, node))
+            found.find_labels()
+        return found
+
+    # -- types ---------------------------------------------------------------------------
+
+    def type_symbol(self, name: str) -> TypeSymbol | None:
+        """The record or predefined type behind aliases, or None when there is no such type."""
+        scope: ModuleScope = self
+        for _ in range(3):
+            symbol = scope.find(name)
+            if not isinstance(symbol, TypeSymbol):
+                return None
+            if symbol.base is None:
+                return symbol
+            scope, name = symbol.module or scope, symbol.base
+        return None
+
+    def base(self, name: str) -> str | None:
+        """Lower-case name of the type behind aliases, or None when there is no such type."""
+        if name in self.bases:
+            return self.bases[name]
+        symbol = self.find(name)
+        if isinstance(symbol, TypeSymbol) and symbol.base is not None:
+            symbol = self.find(symbol.base)
+        found = symbol.name.lower() if isinstance(symbol, TypeSymbol) else None
+        self.bases[name] = found
+        return found
+
+    def type_of(self, symbol: Symbol) -> str | None:
+        """Type of a datum, parameter or function, with its dimensions."""
+        types = self.task.types
+        if symbol in types:
+            return types[symbol]
+        found = None
+        if isinstance(symbol, DataSymbol | RoutineSymbol) and symbol.type is not None:
+            scope = symbol.module or self
+            base = "anytype" if symbol.type == "anytype" else scope.base(symbol.type)
+            if base is not None:
+                degree = symbol.degree if isinstance(symbol, DataSymbol) else 0
+                found = array(base, degree)
+        types[symbol] = found
+        return found
+
+    def components(self, type_name: str) -> Mapping[str, str | None] | None:
+        """Lower-case component to its type, of a record; None for what is no record."""
+        symbol = self.find(type_name)
+        if not isinstance(symbol, TypeSymbol) or symbol.components is None:
+            return None
+        found = self.task.records.get(symbol)
+        if found is None:
+            scope = symbol.module or self
+            found = {name.lower(): scope.base(of) for of, name in symbol.components}
+            self.task.records[symbol] = found
+        return found
+
+    def type_class(self, type_name: str) -> TypeClass | None:
+        """Value class of a type behind aliases; an array has that of its element [K §2.16]."""
+        if type_name in self.classes:
+            return self.classes[type_name]
+        self.classes[type_name] = None
+        symbol = self.find(element(type_name))
+        found: TypeClass | None = None
+        if isinstance(symbol, TypeSymbol) and symbol.kind == "RECORD":
+            inside = symbol.module or self
+            classes = {inside.type_class(of) for of, _ in symbol.components or ()}
+            found = "nonvalue" if classes & {"nonvalue", "semivalue"} else "value"
+        elif symbol is not None:
+            found = signatures.type_class(symbol.name)
+        self.classes[type_name] = found
+        return found
+
+
+@dataclass(slots=True, eq=False)
+class RoutineScope:
+    """A routine, or a FOR loop in it: its names, and the way to the module's."""
+
+    module: ModuleScope
+    node: RoutineDeclaration
+    names: dict[str, DataSymbol] = field(default_factory=dict)
+    """Parameters, data and loop variables, by lower-case name."""
+    labels: dict[str, LabelSymbol] = field(default_factory=dict)
+
+    def declare(self, symbol: DataSymbol) -> DataSymbol | None:
+        """Add a parameter or a datum, unless there is one of that name already: gives that one."""
+        key = symbol.name.lower()
+        first = self.names.get(key)
+        if first is None and not key.startswith("<"):
+            self.names[key] = symbol
+        return first
+
+    def find_labels(self) -> None:
+        """Fill `labels`; the first of a name counts."""
+        for at in walk(self.node):
+            if isinstance(at, Label):
+                symbol = LabelSymbol(at.name, "LABEL", self.module, node=at)
+                self.labels.setdefault(at.name.lower(), symbol)
+
+    def loop(self, node: For) -> "RoutineScope":
+        """The scope of a loop's statements: its variable hides any other name [K §4.15]."""
+        variable = DataSymbol(
+            node.variable, "LOOP", self.module, node=node, routine=self.node, readonly=True
+        )
+        names = {**self.names, node.variable.lower(): variable}
+        return RoutineScope(self.module, self.node, names, self.labels)
+
+    def find(self, name: str) -> Symbol | None:
+        """What a name means in this routine."""
+        return self.names.get(name.lower()) or self.module.find(name)
+
+
+Scope = ModuleScope | RoutineScope
+"""Where a name is looked up: both have `find` and `module`."""
+
+
+def datum_symbol(
+    d: DataDeclaration, module: ModuleScope, routine: RoutineDeclaration | None = None
+) -> DataSymbol:
+    """What a declaration of data gives, in a module or a routine."""
+    local, degree = d.scope == "LOCAL", len(d.dimensions)
+    return DataSymbol(d.name, d.kind, module, local, d, d.type, degree, routine, d.kind == "CONST")
+
+
+def parameter_symbol(
+    p: Parameter, module: ModuleScope | None, routine: RoutineDeclaration | None
+) -> DataSymbol:
+    """What a parameter is inside its routine; both None: of a built-in."""
+    return DataSymbol(p.name, "PARAMETER", module, False, p, p.type, p.dimensions, routine)
+
+
+@cache
+def builtin(key: str) -> Symbol | None:
+    """A predefined object by lower-case name: one symbol for all tasks."""
+    datum = signatures.constant(key)
+    if datum is not None:
+        return DataSymbol(datum.name, datum.kind, type=datum.type, readonly=datum.readonly)
+    base = signatures.alias(key)
+    if base is not None:
+        return TypeSymbol(key, "ALIAS", base=base)
+    if signatures.type_class(key) is not None or key in ("anytype", "switch"):
+        record = signatures.record(key)
+        return TypeSymbol(key, "TYPE", components=record.components if record else None)
+    routine = signatures.routine(key)
+    if routine is not None:
+        return RoutineSymbol(routine.name, routine.kind, type=routine.type, signature=routine)
+    return None
+
+
+def installed_objects(objects: Iterable[tuple[str, str]]) -> dict[str, Symbol]:
+    """(name, type) of signals, units and task identities, as `TaskScope.configured`."""
+    return {name.lower(): DataSymbol(name, "INSTALLED", type=of) for name, of in objects}

@@ -1,0 +1,350 @@
+"""Statement lists as Python: what they cost, ERROR guards, labels and jumps, functions inside."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.context import CALLS, SILENT, CannotCompile, E, Unit
+from rapidgen.runtime.compiler.writer import CodeLine, Writer
+from rapidgen.runtime.values import NUM
+
+LARGEST_NEST = 10
+"""Python loops inside each other in one function, which CPython limits to 20 blocks."""
+LARGEST_DEPTH = 50
+"""Levels of indentation in one function, which CPython limits to 100."""
+
+
+@dataclass(slots=True, eq=False)
+class PythonFunction:
+    """A Python function that is being written: of a routine, a handler or a part."""
+
+    depth: int
+    """Indentation of its own statements."""
+    handler: Role
+    """HANDLER or UNDO inside a handler, ROUTINE in the body."""
+    guarded: bool
+    """The routine has an ERROR clause, and this is not one of its handlers."""
+    outer: "PythonFunction | None" = None
+    nesting: list[set[str]] = field(default_factory=list)
+    """Python loops around, with the labels that may be jumped to."""
+    stored: set[str] = field(default_factory=set)
+    """Python locals that are assigned, for `nonlocal`."""
+    label_states: dict[str, tuple[str, int]] = field(default_factory=dict)
+    jumps_out: int = 0
+    """How many Python loops a GOTO inside the loop just compiled leaves."""
+    uses_jump: bool = False
+    apart: list[CodeLine] = field(default_factory=list)
+    """Functions for its statements that are nested too deeply."""
+
+
+Compile: TypeAlias = "Callable[[Emitter, n.Statement], None]"
+
+
+class Emitter:
+    """Writes the statements of one routine."""
+
+    def __init__(self, unit: Unit, compile: Compile, goto: set[str]) -> None:
+        """`compile` is statements.compile_statement; `goto` are labels that a GOTO names."""
+        self.unit = unit
+        self.options = unit.options
+        self.w = Writer(unit.options.accounting)
+        self.function = PythonFunction(1, Role.ROUTINE, unit.node.error is not None)
+        self.roles: dict[str, Role] = {}
+        self.resumed: set[int] = set()
+        """Tokens of FORs that go on behind the value that their variable has."""
+        self._compile = compile
+        self._goto = goto
+
+    # -- one statement ---------------------------------------------------------------------------
+
+    def statement(self, node: n.Statement) -> None:
+        """Compile one statement."""
+        w = self.w
+        w.token = node.first
+        if self.options.tracing and not isinstance(node, n.Label):
+            point = self.unit.program.trace_point(self.unit.routine, node)
+            w.close()
+            w.emit(f"R.b = b; TRACE(R, {point}); b = R.b")
+        if self._too_deep(node):
+            self._set_apart(node)
+            return
+        self._compile(self, node)
+
+    def pay(self, e: E) -> None:
+        """Charge a statement whose expressions cost what `e` says."""
+        options = self.options
+        self.w.cost(options.statement + e.ops * options.operator + e.cost)
+
+    def simple(self, e: E, *lines: str) -> None:
+        """Pay, guard and emit the Python of a simple statement: by default `e` itself."""
+        self.pay(e)
+        self.guard(e, lines or [e.code])
+        if e.effect != SILENT:
+            self.w.close()
+
+    def guard(self, e: E, lines: Sequence[str], *, skip: str = "") -> None:
+        """Emit lines; inside a routine with ERROR, in a try that calls its handler.
+
+        `skip` is what TRYNEXT does instead.
+        """
+        w = self.w
+        calls = e.effect == CALLS
+        if calls:
+            w.emit("R.b = b")
+        if not (self.function.guarded and e.fails):
+            w.synced = calls
+            for line in lines:
+                w.emit(line)
+            w.synced = False
+            if calls:
+                w.emit("b = R.b")
+            return
+        w.emit("try:")
+        self._indented(lines, calls)
+        w.emit("except ERRS as _e:")
+        w.depth += 1
+        if not calls:
+            w.emit("b += @REFUND@")  # what the block's later statements were paid
+        w.emit("_f, _n = _e, 0")
+        w.emit("while True:")
+        w.depth += 1
+        budget = "None" if calls or self.options.accounting == "none" else "b"
+        w.emit(f"_k = R.handle(_h, _f, {budget}, _n, _l)")
+        w.emit("b = R.b")
+        w.emit(f"if _k == 1: {skip + '; ' if skip else ''}break")
+        w.emit(f"if _k == 2: return {'R.ret' if self.function.outer is None else '2'}")
+        w.emit("_n += 1")
+        if self.options.accounting != "none":
+            w.emit("b -= @OWN@")
+            w.emit("if b < 0: b = R.poll(b)")
+        if calls:
+            w.emit("R.b = b")
+        w.emit("try:")
+        self._indented(lines, calls)
+        w.emit("except ERRS as _e2:")
+        w.depth += 1
+        w.emit("_f = _e2")
+        w.emit("continue")
+        w.depth -= 1
+        if calls:
+            w.emit("b = R.b")
+        w.emit("break")
+        w.depth -= 1
+        w.emit("_f = None")
+        if self.options.accounting == "block":
+            w.emit("b = R.recharge(b, @REST@)")
+        w.depth -= 1
+        if calls:
+            w.emit("else: b = R.b")
+
+    def _indented(self, lines: Sequence[str], synced: bool) -> None:
+        w = self.w
+        w.depth += 1
+        w.synced = synced
+        for line in lines:
+            w.emit(line)
+        w.synced = False
+        w.depth -= 1
+
+    # -- lists -----------------------------------------------------------------------------------
+
+    def statements(self, body: Sequence[n.Statement]) -> None:
+        """Compile a statement list, as a state machine when GOTO enters its labels."""
+        labels = [s.name.lower() for s in body if isinstance(s, n.Label)]
+        if any(label in self._goto for label in labels):
+            self._state_machine(body, labels)
+            return
+        for statement in body:
+            self.statement(statement)
+
+    def block_of(self, body: Sequence[n.Statement]) -> None:
+        """Compile an indented statement list that is paid on its own."""
+        self.w.depth += 1
+        self._filled(lambda: self.statements(body))
+        self.w.depth -= 1
+
+    def loop_body(
+        self, body: Sequence[n.Statement], finish: E | None = None, token: int = 0
+    ) -> None:
+        """The statements of a loop (already indented), and the jumps that leave it.
+
+        `finish` is paid at the end of each pass, for the statement at `token`.
+        """
+        function = self.function
+        outer, function.jumps_out = function.jumps_out, 0
+        function.nesting.append(set())
+
+        def one_pass() -> None:
+            self.statements(body)
+            if finish is not None:
+                self.w.token = token
+                self.pay(finish)
+
+        self._filled(one_pass)
+        function.nesting.pop()
+        self.w.depth -= 1
+        self._after_loop(outer)
+
+    def _filled(self, write: Callable[[], None]) -> None:
+        """Write a block that may come out empty."""
+        w = self.w
+        mark = len(w.lines)
+        write()
+        w.close()
+        if not any(line.text or line.charge for line in w.lines[mark:]):
+            w.emit("pass")
+
+    # -- labels and jumps ------------------------------------------------------------------------
+
+    def _state_machine(self, body: Sequence[n.Statement], labels: list[str]) -> None:
+        w, function = self.w, self.function
+        state = self.unit.temporary()
+        numbers = {label: i for i, label in enumerate(labels, start=1)}
+        for label, number in numbers.items():
+            function.label_states[label] = (state, number)
+        w.close()
+        w.emit(f"{state} = 0")
+        outer, function.jumps_out = function.jumps_out, 0
+        w.emit("while True:")
+        w.depth += 1
+        function.nesting.append(set(labels))
+        w.emit(f"if {state} <= 0:")
+        w.depth += 1
+        w.emit("pass")
+        for statement in body:
+            if isinstance(statement, n.Label):
+                w.close()
+                w.depth -= 1
+                w.emit(f"if {state} <= {numbers[statement.name.lower()]}:")
+                w.depth += 1
+                w.emit("pass")
+            else:
+                self.statement(statement)
+        w.close()
+        w.depth -= 1
+        w.emit("break")
+        function.nesting.pop()
+        w.depth -= 1
+        self._after_loop(outer)
+
+    def _after_loop(self, outer: int) -> None:
+        """Behind a Python loop: `_j` was set by a GOTO inside that has further to go."""
+        w, function = self.w, self.function
+        leaving, function.jumps_out = function.jumps_out, max(outer, function.jumps_out - 1)
+        if not leaving:
+            return
+        w.emit("if _j:")
+        w.depth += 1
+        if leaving == 1:  # here is the state machine that has the label
+            w.emit("_j = False")
+            w.emit("continue")
+        else:
+            w.emit("break")
+        w.depth -= 1
+        function.uses_jump = True
+
+    def goto(self, node: n.Goto) -> None:
+        """Leave Python loops one by one up to the state machine that has the label."""
+        w, function = self.w, self.function
+        label = node.name.lower()
+        found = function.label_states.get(label)
+        loops = len(function.nesting)
+        inside = next((i for i in reversed(range(loops)) if label in function.nesting[i]), None)
+        if found is None or inside is None:
+            raise CannotCompile(
+                f"there is no label {node.name} that can be reached from here", node
+            )
+        self.pay(E("", NUM))
+        w.close()
+        state, number = found
+        w.emit(f"{state} = {number}")
+        if inside == loops - 1:
+            w.emit("continue")
+        else:
+            w.emit("_j = True")
+            w.emit("break")
+            function.jumps_out = max(function.jumps_out, loops - 1 - inside)
+
+    # -- functions inside ------------------------------------------------------------------------
+
+    def handler(self, name: str, body: Sequence[n.Statement], role: Role) -> list[CodeLine]:
+        """A handler as a nested function that shares the routine's variables."""
+        w, node = self.w, self.unit.node
+        w.token = body[0].first if body else node.name_token
+        inner = PythonFunction(self.function.depth + 1, role, False, self.function)
+        lines = self._written(inner, lambda: self.statements(body))
+        return self._defined(name, role, inner, lines, node.last)
+
+    def _too_deep(self, node: n.Statement) -> bool:
+        """Whether a statement has to become a function of its own: beyond what Python takes."""
+        function = self.function
+        nested, depth = len(function.nesting), self.w.depth - function.depth
+        deep = nested >= LARGEST_NEST or depth >= LARGEST_DEPTH
+        return deep and isinstance(node, n.For | n.While | n.If | n.Test) and not _leaves(node)
+
+    def _set_apart(self, node: n.Statement) -> None:
+        """Compile a statement as a function of its own inside the one around.
+
+        It returns 2 when RETURN was executed, in a handler also 0, 1 and 3 for the other ways out.
+        """
+        w, outer = self.w, self.function
+        w.close()
+        depth, w.depth = w.depth, outer.depth
+        leave, w.leave = w.leave, "return 2" if w.leave else ""
+        inner = PythonFunction(outer.depth + 1, outer.handler, outer.guarded, outer)
+        lines = self._written(inner, lambda: self._compile(self, node))
+        w.leave = leave
+        name = f"_a{self.unit.temporary()}"
+        w.token = node.first
+        outer.apart += self._defined(name, Role.PART, inner, lines, node.first)
+        w.depth = depth
+        w.emit("R.b = b")
+        w.emit(f"_k = {name}()")
+        w.emit("b = R.b")
+        w.emit("if _k == 2: return R.ret" if outer.outer is None else "if _k != 4: return _k")
+
+    def _written(self, inner: PythonFunction, write: Callable[[], None]) -> list[CodeLine]:
+        """What `write` emits into a function inside the present one."""
+        w, outer = self.w, self.function
+        mark = len(w.lines)
+        self.function = inner
+        w.depth += 1
+        write()
+        w.close()
+        w.depth -= 1
+        self.function = outer
+        return w.cut(mark)
+
+    def _defined(
+        self, name: str, role: Role, inner: PythonFunction, body: list[CodeLine], last: int
+    ) -> list[CodeLine]:
+        """A function that returns 4 at its end, where the token is `last`."""
+        w = self.w
+        mark = len(w.lines)
+        self.roles[name] = role
+        w.emit(f"def {name}():")
+        w.depth += 1
+        if names := sorted(inner.stored & {d.code for d in self.unit.locals.values()}):
+            w.emit(f"nonlocal {', '.join(names)}")
+        if names := sorted(inner.stored & self.unit.globals_written):
+            w.emit(f"global {', '.join(names)}")
+        w.emit("b = R.b")
+        if inner.uses_jump:
+            w.emit("_j = False")
+        w.lines += [*inner.apart, *body]
+        w.token = last
+        w.emit("R.b = b")
+        w.emit("return 4")
+        w.depth -= 1
+        self.function.stored |= inner.stored
+        return w.cut(mark)
+
+
+def _leaves(node: n.Statement) -> bool:
+    """Whether a GOTO leaves a statement."""
+    parts = list(walk(node))
+    own = {part.name.lower() for part in parts if isinstance(part, n.Label)}
+    return any(isinstance(part, n.Goto) and part.name.lower() not in own for part in parts)

@@ -1,0 +1,101 @@
+"""What the planner's refusals are called in RAPID: ERR_ constants, and events that stop the task.
+
+Numbers from 49900 and 59900 on are ours: ABB's are not public.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+from rapidgen.motion.faults import MotionFault, Refusal
+from rapidgen.runtime.errors import FatalError, RapidError
+
+SINGULARITY = 50_026
+OUT_OF_RANGE = 50_027
+CIRCLE_UNCERTAIN = 50_063
+NOT_COMPATIBLE = 50_080
+NO_UNIT = 49_900
+NO_MOTION_TASK = 49_901
+NOT_ALLOWED = 49_902
+FRAMES_CONTRADICT = 49_904
+NOT_SIMULATED = 49_905
+NO_GEOMETRY = 59_900
+
+_P = ParamSpec("_P")
+_R = TypeVar("_R")
+
+
+@dataclass(frozen=True, slots=True)
+class _Error:
+    """A recoverable error; its text takes the facts of the fault."""
+
+    name: str
+    text: str = ""
+
+    def made(self, *facts: object) -> RapidError:
+        return RapidError(self.name, self.text.format(*facts))
+
+
+@dataclass(frozen=True, slots=True)
+class _Stop:
+    """An event that stops the task."""
+
+    event: int
+    title: str
+    text: str = ""
+
+    def made(self, *facts: object) -> FatalError:
+        return FatalError(self.event, self.title, *filter(None, [self.text.format(*facts)]))
+
+
+_MEANINGS: dict[Refusal, _Error | _Stop] = {
+    Refusal.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "{} m"),
+    Refusal.OUT_OF_REACH_IN_CORNER: _Error("ERR_OUTSIDE_REACH", "in a corner"),
+    Refusal.OUT_OF_REACH_WITH_WRIST: _Error("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
+    Refusal.OUT_OF_REACH_WITH_AXIS_4: _Error("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"),
+    Refusal.NO_POSTURE: _Error("ERR_OUTSIDE_REACH"),
+    Refusal.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT"),
+    Refusal.OUT_OF_RANGE: _Error("ERR_ROBLIMIT", "{}"),
+    Refusal.TARGET_OUT_OF_RANGE: _Stop(OUT_OF_RANGE, "Joint out of range", "{}"),
+    Refusal.SINGULARITY: _Stop(
+        SINGULARITY, "Close to singularity", "an axis would have to turn at once"
+    ),
+    Refusal.NO_CIRCLE: _Stop(
+        CIRCLE_UNCERTAIN, "Circle uncertain", "the three points make no circle"
+    ),
+    Refusal.CIRCLE_TOO_LONG: _Stop(
+        CIRCLE_UNCERTAIN, "Circle uncertain", "more than 240 degrees in one MoveC"
+    ),
+    Refusal.CONFIGURATION: _Stop(
+        NOT_COMPATIBLE,
+        "Position not compatible",
+        "the way ends in configuration {}, programmed is {}",
+    ),
+    Refusal.NO_GEOMETRY: _Stop(
+        NO_GEOMETRY,
+        "No geometry",
+        "{}: the configuration has no chain, so the robot moves in joints only",
+    ),
+    Refusal.NO_SPEED: _Error("ERR_ARGVALERR", "a part of the move has speed 0"),
+    Refusal.TOO_MANY_CONCURRENT: _Error("ERR_CONC_MAX"),
+    Refusal.NOTHING_STORED: _Stop(NOT_ALLOWED, "No path is stored"),
+}
+
+
+def in_rapid(fault: MotionFault) -> RapidError | FatalError:
+    """What a refusal of the planner is in RAPID."""
+    return _MEANINGS[fault.refusal].made(*fault.facts)
+
+
+def planned(function: Callable[_P, _R]) -> Callable[_P, _R]:
+    """The function, whose planner's refusals come out as errors of RAPID."""
+
+    @wraps(function)
+    def call(*arguments: _P.args, **named: _P.kwargs) -> _R:
+        try:
+            return function(*arguments, **named)
+        except MotionFault as fault:
+            raise in_rapid(fault) from fault
+
+    return call

@@ -1,0 +1,143 @@
+"""How a message is declared: its fields are those of a NamedTuple, annotated with their types.
+
+`name: Annotated[int, int32("what it says")]` is a field to Python's type checkers and to the
+wire alike. What else knows a message (codec, RAPID constants, docs/develop/protocol.md) asks here.
+"""
+
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from functools import cached_property
+
+from rapidgen.wire.simple_message.spec import HEADER_BYTES, Port, ReplyCode
+
+Value = int | float | str | tuple[int, ...] | tuple[float, ...]
+"""One field's value: a scalar, a text, or a tuple of `count` numbers (two for each PAIR)."""
+Content = tuple[Value, ...]
+"""What a frame carries: one of the classes that `messages` declares."""
+
+
+class Wire(StrEnum):
+    """Types on the wire, little endian."""
+
+    INT32 = "int32"
+    FLOAT32 = "float32"
+    UINT64 = "uint64"
+    PAIR = "pair"
+    """Two fixed-point numbers (a, b) in one uint64, each in steps of 1 / PAIR_SCALE from
+    PAIR_ZERO: `a * PAIR_BASE + b`. Below 2^52, so that a RAPID dnum holds it exactly."""
+    CHAR = "char"
+    """One byte of ASCII; a text is filled up with zero bytes."""
+
+    @property
+    def size(self) -> int:
+        """Bytes of one value."""
+        return _WIRE_SIZES.get(self, 4)
+
+
+_WIRE_SIZES = {Wire.CHAR: 1, Wire.UINT64: 8, Wire.PAIR: 8}
+ANY = 0
+"""Count of a field that has as many values as the length of the message says."""
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """One field: `count` values of `type`; a CHAR field of any count is one text.
+
+    At most one field of a message has the count ANY. The name is that of the annotation.
+    """
+
+    type: Wire
+    count: int = 1
+    unit: str = ""
+    text: str = ""
+    name: str = ""
+
+    @property
+    def size(self) -> int:
+        """Bytes on the wire; of a field with the count ANY, those of no value."""
+        return self.type.size * self.count
+
+
+def int32(text: str = "", count: int = 1) -> Field:
+    """Whole numbers."""
+    return Field(Wire.INT32, count, "", text)
+
+
+def float32(unit: str, text: str = "", count: int = 1) -> Field:
+    """Numbers of a unit ("1": of none)."""
+    return Field(Wire.FLOAT32, count, unit, text)
+
+
+def chars(count: int, text: str) -> Field:
+    """A text of at most so many bytes."""
+    return Field(Wire.CHAR, count, "", text)
+
+
+def fields_of(kind: type[Content]) -> tuple[Field, ...]:
+    """The fields that a class declares, in the order of the wire."""
+    return tuple(
+        replace(hint.__metadata__[0], name=name) for name, hint in kind.__annotations__.items()
+    )
+
+
+class _Data:
+    """What carries the fields of a class: `kind` names it."""
+
+    kind: type[Content]
+
+    @cached_property
+    def fields(self) -> tuple[Field, ...]:
+        """The fields of its data."""
+        return fields_of(self.kind)
+
+    @cached_property
+    def size(self) -> int:
+        """Bytes of the data; the fewest where a field has any number of values."""
+        return sum(field.size for field in self.fields)
+
+    @property
+    def length(self) -> int:
+        """Value of the length field; the smallest where a field has any number of values."""
+        return HEADER_BYTES + self.size
+
+
+@dataclass(frozen=True)
+class Reply(_Data):
+    """One reply to a request: what it carries and `when` it comes."""
+
+    code: ReplyCode
+    kind: type[Content]
+    when: str = ""
+
+
+@dataclass(frozen=True)
+class MessageType(_Data):
+    """One type of messages.
+
+    `name` is that of simple_message, `kind` the class that declares the fields, whose docstring
+    is the text of the page; `sender` is `client` or `controller`; `ports` are those on which it
+    travels; `since` is the protocol version that brought it (0: standard simple_message).
+    """
+
+    name: str
+    number: int
+    kind: type[Content]
+    sender: str
+    ports: tuple[Port, ...]
+    since: int = 0
+    replies: tuple[Reply, ...] = ()
+
+    @property
+    def text(self) -> str:
+        """What it is, for people."""
+        return " ".join((self.kind.__doc__ or "").split())
+
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the length is always the same."""
+        return all(field.count != ANY for field in self.fields)
+
+    def reply(self, code: ReplyCode) -> Reply:
+        """The reply with this code, of which there is one."""
+        (found,) = (reply for reply in self.replies if reply.code is code)
+        return found

@@ -1,0 +1,143 @@
+"""Fields of a declaration as packed bytes, and back. Knows no message."""
+
+from collections.abc import Sequence
+from struct import Struct
+from struct import error as StructError
+
+from rapidgen.wire.simple_message.declaration import ANY, Field, Value, Wire
+from rapidgen.wire.simple_message.frames import ContentError
+from rapidgen.wire.simple_message.spec import PAIR_BASE, PAIR_LIMIT, PAIR_SCALE, PAIR_ZERO
+
+_CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.UINT64: "Q", Wire.PAIR: "Q"}
+
+
+def word_of(first: float, second: float) -> int:
+    """A PAIR as the number of the wire. Raises ContentError beyond PAIR_LIMIT, and for NaN."""
+    word = 0
+    for value in (first, second):
+        if not -PAIR_LIMIT <= value <= PAIR_LIMIT:
+            raise ContentError(f"{value} does not fit a pair: at most {PAIR_LIMIT} in magnitude")
+        word = word * PAIR_BASE + round(value * PAIR_SCALE) + PAIR_ZERO
+    return word
+
+
+def pair_of(word: int) -> tuple[float, float]:
+    """The two numbers of a PAIR. Raises ContentError when it is none."""
+    first, second = divmod(word, PAIR_BASE)
+    if first >= PAIR_BASE:
+        raise ContentError(f"{word} is no pair of fixed-point numbers")
+    return (first - PAIR_ZERO) / PAIR_SCALE, (second - PAIR_ZERO) / PAIR_SCALE
+
+
+class Packing:
+    """Packs and unpacks the values of some fields, in their order; none of any count."""
+
+    def __init__(self, fields: Sequence[Field]) -> None:
+        self.fields = tuple(fields)
+        codes = (f"{f.count}{_CODES[f.type]}" for f in self.fields)
+        self._struct = Struct("<" + "".join(codes))
+        self.size = self._struct.size
+        self._places = self._find_places()
+        """First and last place of each field among the unpacked values; end 0: text, -1: one."""
+        self._is_flat = all(end < 0 for _, end in self._places)
+
+    def _find_places(self) -> tuple[tuple[int, int], ...]:
+        places = []
+        at = 0
+        for field in self.fields:
+            if field.type is Wire.CHAR:
+                places.append((at, 0))
+                at += 1
+            else:
+                places.append((at, -1 if field.count == 1 else at + field.count))
+                at += field.count
+        return tuple(places)
+
+    def pack(self, values: Sequence[Value]) -> bytes:
+        """The values as bytes. Raises ContentError when one does not fit its field."""
+        flat: list[object] = []
+        for field, value in zip(self.fields, values, strict=True):
+            if field.type is Wire.CHAR:
+                flat.append(_text_bytes(field, value))
+            elif field.count == 1:
+                flat.append(value)
+            else:
+                flat.extend(_numbers(field, value))
+        try:
+            return self._struct.pack(*flat)
+        except (StructError, OverflowError) as error:
+            raise ContentError(f"{self._names()}: {error}") from error
+
+    def unpack(self, data: bytes, at: int = 0) -> tuple[Value, ...]:
+        """The values in `data` from byte `at` on; the caller has checked the length."""
+        flat = self._struct.unpack_from(data, at)
+        if self._is_flat:
+            return flat
+        return tuple(
+            [
+                flat[start]
+                if end < 0
+                else flat[start:end]
+                if end
+                else flat[start].rstrip(b"\0").decode("latin-1")
+                for start, end in self._places
+            ]
+        )
+
+    def _names(self) -> str:
+        return ", ".join(field.name for field in self.fields)
+
+
+class OpenPacking:
+    """The same with one field of PAIRs whose count follows from the length of the data."""
+
+    def __init__(self, fields: Sequence[Field]) -> None:
+        (place,) = (i for i, f in enumerate(fields) if f.count == ANY)
+        if fields[place].type is not Wire.PAIR:
+            raise ValueError(f"{fields[place].name}: only pairs may be of any count")
+        self._name = fields[place].name
+        self._place = place
+        self._head = Packing(fields[:place])
+        self._tail = Packing(fields[place + 1 :])
+        self.size = self._head.size + self._tail.size
+        """Bytes without any pair."""
+
+    def fits(self, size: int) -> bool:
+        """Whether data may have so many bytes."""
+        return size >= self.size and (size - self.size) % Wire.PAIR.size == 0
+
+    def pack(self, values: Sequence[Value]) -> bytes:
+        """The values as bytes. Raises ContentError when one does not fit its field."""
+        numbers = values[self._place]
+        if not isinstance(numbers, tuple) or len(numbers) % 2:
+            raise ContentError(f"{self._name}: an even number of values is needed")
+        words = [word_of(*numbers[i : i + 2]) for i in range(0, len(numbers), 2)]
+        middle = Struct(f"<{len(words)}Q").pack(*words)
+        tail = self._tail.pack(values[self._place + 1 :])
+        return self._head.pack(values[: self._place]) + middle + tail
+
+    def unpack(self, data: bytes) -> tuple[Value, ...]:
+        """The values in `data`, whose length `fits`. Raises ContentError for a wrong pair."""
+        count = (len(data) - self.size) // Wire.PAIR.size
+        words = Struct(f"<{count}Q").unpack_from(data, self._head.size)
+        numbers = tuple(number for word in words for number in pair_of(word))
+        tail = self._tail.unpack(data, len(data) - self._tail.size)
+        return (*self._head.unpack(data), numbers, *tail)
+
+
+def _numbers(field: Field, value: Value) -> Sequence[object]:
+    if not isinstance(value, tuple) or len(value) != field.count:
+        raise ContentError(f"{field.name}: {field.count} values are needed")
+    return value
+
+
+def _text_bytes(field: Field, value: Value) -> bytes:
+    if not isinstance(value, str):
+        raise ContentError(f"{field.name}: a text is needed")
+    try:
+        data = value.encode("latin-1")
+    except UnicodeEncodeError as error:
+        raise ContentError(f"{field.name}: {error}") from error
+    if len(data) > field.count:
+        raise ContentError(f"{field.name}: {len(data)} bytes, at most {field.count}")
+    return data
