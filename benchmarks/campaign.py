@@ -21,9 +21,10 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import FAILURES, Bench, Setting
+from rapidgen.proving.bench import FAILURES, Bench
+from rapidgen.proving.messages import STATUS
+from rapidgen.proving.settings import Setting
 from rapidgen.proving.suite.framing import campaign
-from rapidgen.wire.simple_message import messages
 
 CHUNK = 500
 """Malformed openings for one controller."""
@@ -86,7 +87,7 @@ def days(hours, share):
         until = begun + ROUND * share
         while until - bench.now > 1e-3:
             bench.run(min(60.0, until - bench.now))
-            stamps = [when for when, f in reader.frames if f.number == messages.STATUS.number]
+            stamps = [when for when, f in reader.frames if f.number == STATUS]
             for when in stamps:
                 if first is None:
                     first, turn = when, 0

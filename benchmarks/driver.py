@@ -24,7 +24,7 @@ from rapidgen.generate import build, make_system
 from rapidgen.motion import MotionSettings
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, point_frame
-from rapidgen.proving.positions import off
+from rapidgen.proving.track import off
 from tests.foreign.abb_driver import read_system
 
 ROUNDING = 1e-4

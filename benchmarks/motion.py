@@ -17,7 +17,7 @@ from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionGroup, MotionSystem
-from rapidgen.motion.moves import CartesianMove, JointMove, Move, Speed, Zone
+from rapidgen.motion.moves import CartesianMove, JointMove, Move, MoveSpeed, Zone
 from rapidgen.runtime.switches import Dialect
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
@@ -65,7 +65,7 @@ def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
         return [
             JointMove(
                 target=(0.02 * (k % 7), 0.2, 0.1 + 0.01 * (k % 3), 0.0, 0.6, 0.01 * k / count),
-                speed=Speed(0.2),
+                speed=MoveSpeed(0.2),
                 zone=ZONE if k < count - 1 else Zone(fine=True),
                 time=0.1,
             )
@@ -84,7 +84,7 @@ def linear_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
             CartesianMove(
                 target=(frames.add(start[0], (0.0, 0.02 * (k % 2), 0.02 * (k // 2 % 2))), start[1]),
                 external=HOME,
-                speed=Speed(0.2),
+                speed=MoveSpeed(0.2),
                 zone=ZONE if k < count - 1 else Zone(fine=True),
             )
             for k in range(1, count + 1)

@@ -3,7 +3,7 @@
     python benchmarks/mutation.py [--every N] [--offset N] [--jobs N] [--budget S] [--output FILE]
         [--again] [ROBOT]
 
-One fixed operator list (rapidgen/proving/mutation.py); every place in a routine where an operator
+One fixed operator list (tests/proving/mutation.py); every place in a routine where an operator
 fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. A
 mutant is judged by the cases of `rapidgen test` that execute its statement, until one notices it
 or `--budget` s of CPU are spent: what no case has noticed by then counts as a survivor.
@@ -29,9 +29,9 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.judging import HANGS, Judge
-from rapidgen.proving.mutation import mutants
 from rapidgen.proving.suite import CASES
+from tests.proving.judging import HANGS, Judge
+from tests.proving.mutation import mutants
 
 
 def key_of(mutant):

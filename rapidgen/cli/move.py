@@ -8,7 +8,7 @@ import typer
 
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
-    from rapidgen.client.core.motion import Way
+    from rapidgen.client.core.checks import Way
     from rapidgen.diagnostics import Diagnostic
 
 

@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from rapidgen.config.model import RobotConfig
-    from rapidgen.proving.model import Report
+    from rapidgen.proving.model import Proof
 
 
 def test(
@@ -138,7 +138,7 @@ class _Progress:
         self._bars.update(self._tasks[what], completed=done)  # type: ignore[arg-type]
 
 
-def _show(report: "Report", uncovered: bool) -> None:
+def _show(report: "Proof", uncovered: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 

@@ -13,7 +13,6 @@ from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
 from rapidgen.controller.state import ControllerState
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-from rapidgen.machine.configuration import Configuration
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -23,6 +22,7 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid import Dialect as TextDialect
@@ -245,7 +245,7 @@ class VirtualController(ControllerState):
         self.queues = QueueSystem(system.tasks)
         self.test_signals: dict[int, float] = {}
         """Values of the servos' test signals by channel."""
-        self.configuration = Configuration(system, tuple(robots))
+        self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,

@@ -7,7 +7,7 @@ TRYNEXT make thousands a second, of which the log keeps the last.
 from collections import deque
 from collections.abc import Callable, Iterator
 
-from rapidgen.machine.log import Clock, Event, EventLog, EventType
+from rapidgen.machine.log import Event, EventLog, EventType, TimeSource
 from rapidgen.runtime.errors import error_name
 
 HANDLED = 40_199
@@ -16,7 +16,7 @@ HANDLED = 40_199
 class ControllerLog(EventLog):
     """An EventLog that makes up the events of handled errors when they are needed."""
 
-    def __init__(self, clock: Clock, *, capacity: int = 1000) -> None:
+    def __init__(self, clock: TimeSource, *, capacity: int = 1000) -> None:
         super().__init__(clock, capacity=capacity)
         self._handled: deque[tuple[int, str, int, str]] = deque(maxlen=capacity)
         self._dropped = 0

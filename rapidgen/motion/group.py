@@ -7,18 +7,18 @@ business of `execution.py`, how a move becomes a way that of `planner.py`.
 from collections.abc import Callable
 from math import inf
 
-from rapidgen.axes.kinematics import Kinematics, MovingFrame
+from rapidgen.axes.kinematics import Kinematics, MovingFrame, Posture
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler, WaitSet
-from rapidgen.motion.execution import Execution, PutAside
+from rapidgen.motion.execution import PathExecution, PutAside
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.moves import Move
 from rapidgen.motion.path import Path
 from rapidgen.motion.planner import Planner
 from rapidgen.motion.settings import MotionSettings
@@ -54,7 +54,7 @@ class MotionGroup:
         self.on_reset: list[Callable[[], None]] = []
         """Called when the modal settings are reset (PP to main)."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
-        self._execution = Execution(scheduler, log, self.planner, start, self._report)
+        self._execution = PathExecution(scheduler, log, self.planner, start, self._report)
         self._drive = self._execution.drive
         self._stops = self._execution.stops
         self._report(True)

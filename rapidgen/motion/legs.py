@@ -6,18 +6,17 @@ from math import inf
 from typing import Protocol
 
 from rapidgen.axes import frames
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig
 from rapidgen.motion.moves import (
     Carrier,
     JointMove,
     Measure,
     Move,
-    Posture,
     largest,
     nominal_time,
 )
-from rapidgen.motion.pieces import AxisLimits, JointLine, Piece
+from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
 from rapidgen.motion.timed import SHORTEST, timed
 
 _CHORDS = 4
@@ -119,7 +118,8 @@ class JointWay:
 
     def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
         """One straight piece."""
-        return [JointLine(start, end, begin, self.origin, self.rates, self.limits, self.tcp)]
+        line = begin, self.origin, self.rates
+        return [joint_line(start, end, line, self.limits, self.tcp)]
 
 
 def joint_way(

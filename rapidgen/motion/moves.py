@@ -5,11 +5,9 @@ from dataclasses import dataclass, field
 from enum import Enum
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
-from rapidgen.axes.kinematics import Configuration, MovingFrame
+from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
 from rapidgen.motion.faults import MotionFault, Refusal
 
-Posture = tuple[float, ...]
-"""Controller axis values in wire order, rad and m."""
 NO_WAY = 1e-7
 """m of TCP way that count as none."""
 NO_TURN = 1e-9
@@ -17,7 +15,7 @@ NO_TURN = 1e-9
 
 
 @dataclass(frozen=True, slots=True)
-class Speed:
+class MoveSpeed:
     """speeddata: TCP m/s, reorientation rad/s, external axes m/s and rad/s."""
 
     tcp: float
@@ -92,7 +90,7 @@ class Carrier:
 class Move:
     """What every move instruction has."""
 
-    speed: Speed
+    speed: MoveSpeed
     zone: Zone
     time: float | None = None
     """\\T, s"""
@@ -138,7 +136,7 @@ class CartesianMove(Move):
     target: Pose
     external: Posture
     via: Pose | None = None
-    wanted: Configuration | None = None
+    wanted: AxisConfiguration | None = None
     """confdata that is checked at the end (ConfL \\On)."""
     circle: CircleMode = CircleMode.PATH
     singularities: Singularities = Singularities.OFF
@@ -167,7 +165,7 @@ class PathEvent:
     lag: float = 0.0
 
 
-def nominal_time(measure: Measure, speed: Speed) -> float:
+def nominal_time(measure: Measure, speed: MoveSpeed) -> float:
     """s that the slowest part needs at programmed speed; 0 when nothing moves.
 
     All parts end together: the slowest one limits the move (S4 datasys 1-speeddata-1).

@@ -6,16 +6,16 @@ Pure bookkeeping of places; when anything happens is the business of `group.py`.
 from collections import deque
 from collections.abc import Callable
 
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.motion.corners import corner
 from rapidgen.motion.legs import Geometry, Leg
-from rapidgen.motion.moves import Move, Posture
-from rapidgen.motion.pieces import AxisLimits, JointLine, Piece
+from rapidgen.motion.moves import Move
+from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
 from rapidgen.motion.timelaw import TimeLaw
 
 WayMaker = Callable[[Posture, Move, bool], Geometry]
 """(from, move, from rest) -> geometry of the move."""
-Planner = Callable[[tuple[Piece, ...]], TimeLaw | None]
+LawFinder = Callable[[tuple[Piece, ...]], TimeLaw | None]
 """The time law over pieces from the robot's present state; None when there is none."""
 _SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
 REGAIN_SPEED = 0.1
@@ -44,7 +44,7 @@ class Path:
         self,
         move: Move,
         make: WayMaker,
-        plan: Planner,
+        plan: LawFinder,
         limits: AxisLimits,
         fixed: float,
         kinematics: Kinematics | None = None,
@@ -160,7 +160,7 @@ class Path:
         duration = reach / REGAIN_SPEED
         rates = tuple([(b - a) / duration for a, b in zip(here, there, strict=True)])
         start = place - duration
-        back = JointLine(start, place, start, here, rates, limits, 0.0)
+        back = joint_line(start, place, (start, here, rates), limits, 0.0)
         self._back = back.until(place, stop=True)
         self.pieces = (self._back, self.pieces[0].since(place), *self.pieces[1:])
         return start

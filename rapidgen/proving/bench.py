@@ -7,40 +7,42 @@ client. Positions are the controller's axes, rad and m, in wire order.
 import math
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
-from functools import partial
+from dataclasses import replace
 from itertools import pairwise
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.controller import Deadlock, VirtualController
-from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.tracing import Coverage
-from rapidgen.diagnostics import DiagnosticError, Span
+from rapidgen.diagnostics import Span
 from rapidgen.machine.log import Domain
 from rapidgen.machine.network.interface import NetworkFault
-from rapidgen.motion.settings import MotionSettings
-from rapidgen.proving.link import Link, Point, Position, point_frame
-from rapidgen.proving.model import Broken, Series
-from rapidgen.proving.positions import distance, off
-from rapidgen.rapid import parse
-from rapidgen.rapid.syntax.nodes import Module
-from rapidgen.runtime.compiler.linking import LoadedModule
-from rapidgen.runtime.compiler.program import Program
-from rapidgen.runtime.compiler.symbols import Routine
-from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.switches import Dialect
+from rapidgen.motion.group import MotionGroup
+from rapidgen.proving.link import RawLink, point_frame
+from rapidgen.proving.messages import (
+    PROTOCOL_VERSION,
+    Comm,
+    Hello,
+    HelloReply,
+    Progress,
+    Status,
+    encode,
+)
+from rapidgen.proving.model import Broken
+from rapidgen.proving.settings import Setting
+from rapidgen.proving.track import SETTLED, Point, Position, distance, on_path, still
+from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.task.running import RapidTask
 from rapidgen.system.model import System
-from rapidgen.wire.simple_message import WireError, encode, messages, spec
 
 Lines: TypeAlias = dict[str, dict[int, int]]
 """How often each line of RAPID with a statement was reached, by module file."""
 
-HELLO = messages.Hello(spec.PROTOCOL_VERSION, (0, 0, 0), 1)
+HELLO = Hello(PROTOCOL_VERSION, (0, 0, 0), 1)
 """As a client says it that wants PROGRESS."""
 
-FAILURES = (Broken, Deadlock, FatalError, NetworkFault, WireError)
+FAILURES = (Broken, Deadlock, FatalError, NetworkFault)
 """What a driver's fault looks like from here; anything else is a fault of ours."""
 
 SAMPLE = 4_000_000
@@ -50,37 +52,6 @@ SAMPLE_STANDING = 100_000_000
 LATE = 59_901
 """Event of the virtual controller: moves took longer than told. That they do not take much
 longer is measured."""
-PLOTTED = 200
-"""Samples of one series in a plot, about."""
-SETTLED = 1e-4
-"""rad or m: as far as a standing robot may be from a point that it has reached."""
-
-
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """How the controller under the driver behaves, and which of its groups is driven."""
-
-    seed: int = 0
-    group: int = 0
-    random_schedule: bool = False
-    switch_at_pers: bool = False
-    dialect: Dialect = field(default_factory=Dialect)
-    motion: MotionSettings = field(default_factory=MotionSettings)
-    faults: FaultPlan = field(default_factory=FaultPlan)
-    coverage: bool = False
-
-    def early(self) -> "Setting":
-        """The same on a controller of which no task has run yet: no robot that settles first."""
-        return replace(self, motion=replace(self.motion, settle=0.0))
-
-
-@dataclass(frozen=True, slots=True)
-class Order:
-    """An instruction to the robot; `free`: no StopMove held it."""
-
-    time: float
-    instruction: str
-    free: bool
 
 
 class Bench:
@@ -105,11 +76,10 @@ class Bench:
         self._coverage = Coverage(self.controller) if tracked else None
         self.group: GroupConfig = config.groups[self.setting.group]
         self.track: list[tuple[float, Position]] = []
-        self.orders: list[Order] = []
         self.commanded: list[tuple[float, list[Point]]] = []
         """Downloads that were sent to their end, and when."""
         self._next = self.controller.scheduler.after(0, self._sample)
-        self.controller.motion.group(self.group.name).changed.add(self._sample)
+        self.motion_group.changed.add(self._sample)
 
     def _boot(self) -> VirtualController:
         controller = VirtualController(
@@ -119,6 +89,7 @@ class Bench:
             schedule="random" if self.setting.random_schedule else "round-robin",
             switch_at_pers=self.setting.switch_at_pers,
             dialect=self.setting.dialect,
+            costs=self.setting.costs,
             faults=self.setting.faults,
             # A schedule must be the same when it is traced, which is done by statement.
             accounting="statement" if self.setting.random_schedule else "block",
@@ -153,6 +124,11 @@ class Bench:
             self._robots,
             controller=self.controller,
         )
+
+    @property
+    def motion_group(self) -> MotionGroup:
+        """This group on the controller."""
+        return self.controller.motion.group(self.group.name)
 
     @property
     def mechanical_unit(self) -> str:
@@ -201,12 +177,12 @@ class Bench:
     @property
     def position(self) -> Position:
         """Where the axes of the first group are."""
-        return tuple(self.controller.motion.group(self.group.name).positions())
+        return tuple(self.motion_group.positions())
 
     @property
     def standing(self) -> bool:
         """Whether the first group stands."""
-        return self.controller.motion.group(self.group.name).is_standing
+        return self.motion_group.is_standing
 
     def wait_until_moving(self, seconds: float = 5) -> None:
         """Wait for the robot to begin to move."""
@@ -240,37 +216,16 @@ class Bench:
         """Let time pass; Broken when the robot moved meanwhile."""
         before, start = self.position, len(self.track)
         self.run(seconds)
-        for when, seen in self.track[start:]:
-            if distance(seen, before) > SETTLED:
-                raise Broken(f"the robot moved at {when:.3f} s: {why}")
+        still(self.track[start:], before, why)
 
     def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
-        """Broken unless every sample since `since` lies on a prefix of `path`, in order.
-
-        `corner` (rad, m) is how far a zone may cut a corner.
-        """
-        at = 0
-        for when, seen in self.track:
-            if when < since:
-                continue
-            while at < len(path) - 2 and off(seen, path[at], path[at + 1]) > SETTLED:
-                if off(seen, path[at + 1], path[at + 2]) > off(seen, path[at], path[at + 1]):
-                    break
-                at += 1
-            near = min(
-                off(seen, path[i], path[i + 1]) for i in range(at, min(at + 2, len(path) - 1))
-            )
-            if near > corner:
-                raise Broken(
-                    f"at {when:.3f} s the robot was {near:.4f} rad off what was asked "
-                    f"(near point {at + 1})"
-                )
+        """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
+        on_path([sample for sample in self.track if sample[0] >= since], path, corner)
 
     def forget(self) -> None:
         """Drop the record so far, for campaigns that would not end in the memory there is."""
         del self.track[:-1]
         self.commanded.clear()
-        self.orders.clear()
 
     # -- the program ----------------------------------------------------------------------------
 
@@ -282,6 +237,10 @@ class Bench:
                 return task.name
         raise KeyError(module)
 
+    def rapid_task(self, module: str) -> RapidTask:
+        """The running task of this group that has a module."""
+        return self.controller.rapid_tasks[self.task(module)]
+
     def compile(self) -> None:
         """Compile all RAPID now, not on first call: copies of this bench then need not."""
         for task in self.controller.rapid_tasks.values():
@@ -290,69 +249,6 @@ class Bench:
                     # What cannot be linked ends its task when it is called, not here.
                     with suppress(FatalError):
                         task.program.function(routine)
-
-    def exchange(self, path: str, data: bytes) -> None:
-        """Give a module file another text, as if the controller had been booted with it.
-
-        For a bench that has not run yet, and a text that differs inside of routines only; that
-        takes a fraction of a boot's time. Raises DiagnosticError when it is no module.
-        """
-        tree = parse(data, path=path)
-        if tree.diagnostics:
-            raise DiagnosticError(*tree.diagnostics)
-        self.system = with_module(self.system, path, data)
-        for task in self.controller.rapid_tasks.values():
-            for module in task.program.modules.values():
-                if module.file.path == path:
-                    _exchange(task.program, module, tree)
-
-    def fails(
-        self, module: str, instruction: str, error: str, times: int = 1, *, after: int = 0
-    ) -> Callable[[], None]:
-        """The next `times` calls of an instruction in a module's task raise an error.
-
-        `after`: so many calls are left as they are before.
-        Whatever a controller may report: the driver has to live with it. What is returned
-        ends it.
-        """
-        program = self.controller.rapid_tasks[self.task(module)].program
-        routine = program.find_routine(None, instruction.casefold())
-        assert routine is not None
-        as_before = program.space[routine.code]
-        left, before = times, after
-
-        def failing(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-            nonlocal left, before
-            if left <= 0 or before > 0:
-                before -= 1
-                return as_before(*arguments)
-            left -= 1
-            raise RapidError(error)
-
-        def end() -> None:
-            nonlocal left
-            left = 0
-
-        program.space[routine.code] = failing
-        return end
-
-    def watch_orders(self) -> None:
-        """Keep in `orders` when which task orders a move or a stop."""
-        group = self.controller.motion.group(self.group.name)
-
-        def watched(instruction: str, function: Callable[..., Any]) -> Callable[..., Any]:
-            def call(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-                self.orders.append(Order(self.now, instruction, not group.stop_reasons))
-                return function(*arguments)
-
-            return call
-
-        for task in self.controller.rapid_tasks.values():
-            for instruction in ("StopMove", "MoveAbsJ", "MoveJ", "MoveL"):
-                routine = task.program.find_routine(None, instruction.casefold())
-                assert routine is not None
-                space = task.program.space
-                space[routine.code] = watched(instruction, space[routine.code])
 
     def waits_in(self, module: str, instruction: str) -> bool:
         """Whether a module's task is at that instruction now."""
@@ -369,48 +265,48 @@ class Bench:
 
     # -- clients --------------------------------------------------------------------------------
 
-    def motion(self) -> Link:
+    def motion(self) -> RawLink:
         """A new connection to the motion server."""
         return self._link(self.group.ports.motion)
 
-    def state(self, *, reading: bool = True) -> Link:
+    def state(self, *, reading: bool = True) -> RawLink:
         """A new connection to the state server."""
         return self._link(self.group.ports.state, reading=reading)
 
-    def control(self) -> Link:
+    def control(self) -> RawLink:
         """A new connection to the control server, where the configuration has one."""
         return self._link(self.group.ports.control)
 
-    def _link(self, port: int, *, reading: bool = True, address: str = "") -> Link:
+    def _link(self, port: int, *, reading: bool = True, address: str = "") -> RawLink:
         network = self.controller.network
         self.until(lambda: port in network.listeners, 10, f"the driver listens on port {port}")
-        return Link(self, port, reading=reading, address=address or self.address)
+        return RawLink(self, port, reading=reading, address=address or self.address)
 
     @property
     def address(self) -> str:
         """Where a client of ours comes from: an address that the configuration allows."""
         return next(iter(self.config.allowed_clients), "127.0.0.1")
 
-    def stranger(self, port: int) -> Link:
+    def stranger(self, port: int) -> RawLink:
         """A connection from an address that no configuration allows."""
         return self._link(port, address="203.0.113.77")
 
-    def status(self, link: Link, seconds: float = 2) -> messages.Status:
+    def status(self, link: RawLink, seconds: float = 2) -> Status:
         """The next STATUS on a state connection."""
         link.read()
-        return link.expect(messages.Status, seconds, "a STATUS arrives")
+        return link.expect(Status, seconds, "a STATUS arrives")
 
-    def watcher(self) -> Link:
+    def watcher(self) -> RawLink:
         """A new connection to the state server that asked for PROGRESS."""
         link = self.state()
-        link.send(encode(HELLO, spec.Comm.REQUEST))
-        link.expect(messages.HelloReply, 2, "HELLO is answered")
+        link.send(encode(HELLO, Comm.REQUEST))
+        link.expect(HelloReply, 2, "HELLO is answered")
         return link
 
-    def progress(self, link: Link, seconds: float = 2) -> messages.Progress:
+    def progress(self, link: RawLink, seconds: float = 2) -> Progress:
         """The next PROGRESS on a connection that asked for it."""
         link.read()
-        return link.expect(messages.Progress, seconds, "a PROGRESS arrives")
+        return link.expect(Progress, seconds, "a PROGRESS arrives")
 
     # -- trajectories ---------------------------------------------------------------------------
 
@@ -453,7 +349,7 @@ class Bench:
         0 where there is none below what every robot may do.
         """
         limit = self.group.tcp_speed_limit
-        geometry = self.controller.motion.group(self.group.name).kinematics
+        geometry = self.motion_group.kinematics
         if limit >= 5 or geometry is None:
             return 0.0
         tool = (self.group.tool.frame.position, self.group.tool.frame.orientation)
@@ -467,14 +363,14 @@ class Bench:
         step = min(size, 0.2 * duration * joint.speed, 0.5 * room)
         return step if room_up >= room_down else -step
 
-    def download(self, points: Sequence[Point], comm: spec.Comm = spec.Comm.TOPIC) -> bytes:
+    def download(self, points: Sequence[Point], comm: Comm = Comm.TOPIC) -> bytes:
         """The frames of a trajectory as the ROS-Industrial node sends them."""
         return b"".join(
             point_frame(number, len(points), joints, duration, comm)
             for number, (joints, duration) in enumerate(points)
         )
 
-    def moves_through(self, link: Link, points: Sequence[Point]) -> None:
+    def moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
         """Send a trajectory and see it executed whole, in order, in time and without a complaint.
 
         With full speed in automatic mode, that is.
@@ -484,7 +380,7 @@ class Bench:
         link.send(self.download(points))
         self.wait_until_at(points[-1][0], 30 + 3 * asked)
         self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
-        group = self.controller.motion.group(self.group.name)
+        group = self.motion_group
         if group.override < 1 or group.reduced:
             return
         if self.now - since > 1.1 * asked + 3:
@@ -504,30 +400,6 @@ class Bench:
                 return seen
         return self.track[0][1] if self.track else self.position
 
-    def series(self) -> tuple[Series, ...]:
-        """Executed and commanded joints, for a plot; none when nothing moved.
-
-        A download is drawn from the moment in which the robot began to move for it.
-        """
-        if len(self.track) < 2:
-            return ()
-        thinner = max(1, len(self.track) // PLOTTED)
-        track = [*self.track[::thinner], self.track[-1]]
-        found = [Series("executed", tuple(t for t, _ in track), tuple(p for _, p in track))]
-        for number, (sent, points) in enumerate(self.commanded):
-            over = self.commanded[number + 1][0] if number + 1 < len(self.commanded) else self.now
-            begun = [t for t, _ in self.track if sent < t <= over]
-            if not begun:
-                continue
-            times, at = [], begun[0]
-            for index, (_, duration) in enumerate(points):
-                at += duration if index else 0.0
-                times.append(at)
-            shown = max(1, len(points) // PLOTTED)
-            rows = tuple(joints for joints, _ in points[::shown])
-            found.append(Series("commanded", tuple(times[::shown]), rows))
-        return tuple(found)
-
     def healthy(self) -> None:
         """Broken when a task has ended with an error: nothing that happens may do that."""
         for name, task in self.controller.tasks.items():
@@ -546,28 +418,6 @@ class Bench:
                 text = f" at {where}: {self._statement(at.span)}"
             places.append(f"{name} is {task.state}{text}")
         return (*events[-40:], *places)
-
-
-def _exchange(program: Program, module: LoadedModule, tree: Module) -> None:
-    """Put the routines of `tree` that differ in the place of a module's own."""
-    before, module.tree = module.tree, tree
-    known = {r.name.casefold(): r for r in before.routines}
-    for node in tree.routines:
-        old = known[node.name.casefold()]
-        new_tokens = tree.source.tokens[node.first : node.last + 1]
-        if new_tokens == before.source.tokens[old.first : old.last + 1]:
-            continue
-        routine = module.routines[node.name.casefold()]
-        routine.node = node
-        program.codes.pop(program.code_name(routine), None)
-        program.space[routine.code] = partial(_call, program, routine)
-        # What cannot be linked ends its task when it is called, not here.
-        with suppress(FatalError):
-            program.function(routine)
-
-
-def _call(program: Program, routine: Routine, *arguments: Any, **named: Any) -> Any:  # noqa: ANN401
-    return program.function(routine)(*arguments, **named)
 
 
 def add_lines(to: Lines, more: Lines) -> None:

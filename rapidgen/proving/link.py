@@ -1,30 +1,31 @@
-"""Client connections to a bench's controller, and the frames that they send."""
+"""Client connections to a bench's controller: bytes out, bytes in."""
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, TypeAlias, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from rapidgen.machine.network.interface import Endpoint, NetworkFault
-from rapidgen.wire.simple_message import (
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    MAX_JOINTS,
+    Comm,
+    Content,
     Frame,
-    FrameSplitter,
-    WireError,
+    Special,
+    Splitter,
+    TrajectoryPoint,
     decode,
     encode,
-    messages,
-    spec,
 )
-from rapidgen.wire.simple_message.declaration import Content
+from rapidgen.proving.model import Broken
+from rapidgen.proving.track import Point, Position
 
 if TYPE_CHECKING:
     from rapidgen.proving.bench import Bench
 
 C = TypeVar("C")
-Position: TypeAlias = tuple[float, ...]
-Point: TypeAlias = tuple[Position, float]
-"""Joints and the seconds from the point before."""
 
 
-class Link:
+class RawLink:
     """One client connection, as bytes and frames. Frames are taken, with their time, as they come.
 
     `reading` False: a client that never reads.
@@ -35,12 +36,12 @@ class Link:
     ) -> None:
         self._bench = bench
         self._network = bench.controller.network
-        self._splitter = FrameSplitter()
+        self._splitter = Splitter()
         self.frames: list[tuple[float, Frame]] = []
         self.sent = 0
         self.lost = False
         self._taken = 0
-        self._said: FrameSplitter | None = FrameSplitter()
+        self._said: Splitter | None = Splitter()
         self._trajectory: list[Point] = []
         self.endpoint: Endpoint = self._network.connect(address, port)
         if reading:
@@ -83,21 +84,21 @@ class Link:
         """Keep what a well-formed download asks for, for the plots."""
         if self._said is None:
             return
-        self._said.feed(data)
         try:
-            while (frame := self._said.next()) is not None:
-                content = decode(frame)
-                if isinstance(content, messages.TrajectoryPoint):
-                    self._keep(content)
-        except WireError:
+            for frame in self._said.feed(data):
+                if frame.number == JOINT_TRAJ_PT:
+                    content = decode(frame)
+                    if isinstance(content, TrajectoryPoint):
+                        self._keep(content)
+        except Broken:
             self._said = None
 
-    def _keep(self, point: messages.TrajectoryPoint) -> None:
-        if point.sequence == spec.Sequence.START_DOWNLOAD:
+    def _keep(self, point: TrajectoryPoint) -> None:
+        if point.sequence == Special.BEGIN:
             self._trajectory = []
         joints = tuple(point.joints[: len(self._bench.group.joints)])
         self._trajectory.append((joints, point.duration))
-        if point.sequence == spec.Sequence.END:
+        if point.sequence == Special.END:
             self._bench.commanded.append((self._bench.now, self._trajectory))
             self._trajectory = []
 
@@ -124,9 +125,8 @@ class Link:
             if not data:
                 self.lost = True
                 return
-            self._splitter.feed(data)
-            while (frame := self._splitter.next()) is not None:
-                self.frames.append((self._bench.now, frame))
+            now = self._bench.now
+            self.frames += [(now, frame) for frame in self._splitter.feed(data)]
 
     def expect_reply(self, seconds: float, what: str) -> Frame:
         """The next frame that was not read yet, within `seconds`."""
@@ -151,7 +151,7 @@ class Link:
 
     def ask(self, content: Content, seconds: float = 2) -> Content:
         """Send a request; the reply to it."""
-        data = encode(content, spec.Comm.REQUEST)
+        data = encode(content, Comm.REQUEST)
         self.send(data)
         number = int.from_bytes(data[4:8], "little")
         return self.reply(number, seconds)
@@ -164,7 +164,7 @@ class Link:
             while not found and len(self.frames) > self._taken:
                 self._taken += 1
                 frame = self.frames[self._taken - 1][1]
-                if (frame.number, frame.comm) == (number, spec.Comm.REPLY):
+                if (frame.number, frame.comm) == (number, Comm.REPLY):
                     found.append(frame)
             return bool(found)
 
@@ -178,24 +178,24 @@ class Link:
 
 
 def point_frame(
-    number: int, count: int, joints: Position, duration: float, comm: spec.Comm = spec.Comm.TOPIC
+    number: int, count: int, joints: Position, duration: float, comm: Comm = Comm.TOPIC
 ) -> bytes:
     """Point `number` (from 0) of `count`, numbered as the ROS-Industrial node does."""
     if number == 0:
-        sequence = int(spec.Sequence.START_DOWNLOAD)
+        sequence = int(Special.BEGIN)
     elif number == count - 1:
-        sequence = int(spec.Sequence.END)
+        sequence = int(Special.END)
     else:
         sequence = number
     return raw_point(sequence, joints, duration, comm)
 
 
 def raw_point(
-    sequence: int, joints: Sequence[float], duration: float, comm: spec.Comm = spec.Comm.TOPIC
+    sequence: int, joints: Sequence[float], duration: float, comm: Comm = Comm.TOPIC
 ) -> bytes:
     """A point with any sequence number."""
-    padded = (*joints, *[0.0] * (spec.MAX_JOINTS - len(joints)))
-    return encode(messages.TrajectoryPoint(sequence, padded, 0.0, duration), comm)
+    padded = (*joints, *[0.0] * (MAX_JOINTS - len(joints)))
+    return encode(TrajectoryPoint(sequence, padded, 0.0, duration), comm)
 
 
-STOP = raw_point(int(spec.Sequence.STOP), (), 0.0, spec.Comm.REQUEST)
+STOP = raw_point(int(Special.STOP), (), 0.0, Comm.REQUEST)

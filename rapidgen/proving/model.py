@@ -2,10 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 if TYPE_CHECKING:
     from rapidgen.proving.bench import Bench
+
+
+Proving: TypeAlias = "Callable[[Bench], None]"
 
 
 class Broken(Exception):
@@ -13,8 +16,10 @@ class Broken(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
-    """One behaviour of the driver. `answers` names what upstream gets wrong here, if anything.
+class Behaviour:
+    """One behaviour of the driver: a case of the suite.
+
+    `answers` names what upstream gets wrong here, if anything.
 
     `once`: it takes too long for every setting, and runs under the default ones alone.
     `background`: it needs background tasks that go on when the program is stopped, which those of
@@ -24,10 +29,48 @@ class Case:
     name: str
     title: str
     group: str
-    prove: "Callable[[Bench], None]"
+    prove: Proving
     answers: str = ""
     once: bool = False
     background: bool = False
+
+
+class Theme:
+    """The cases of one file, in the order of its text: a decorator that says a case's own facts.
+
+    With `port="control"` there is nothing to prove where the configuration has no such port.
+    """
+
+    def __init__(self, group: str, *, port: Literal["", "control"] = "") -> None:
+        self._group = group
+        self._port = port
+        self.cases: list[Behaviour] = []
+
+    def __call__(
+        self,
+        name: str,
+        title: str,
+        answers: str = "",
+        *,
+        once: bool = False,
+        background: bool = False,
+    ) -> "Callable[[Proving], Proving]":
+        """Make a function the case of that name; it stays what it is."""
+
+        def made(prove: Proving) -> Proving:
+            own = self._where_there_is_a_port(prove) if self._port else prove
+            self.cases.append(Behaviour(name, title, self._group, own, answers, once, background))
+            return prove
+
+        return made
+
+    @staticmethod
+    def _where_there_is_a_port(prove: Proving) -> Proving:
+        def proved(bench: "Bench") -> None:
+            if bench.group.ports.control:
+                prove(bench)
+
+        return proved
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +83,7 @@ class Series:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
+class Verdict:
     """What came out of one case, by name, under one setting of the assumptions."""
 
     case: str
@@ -70,12 +113,12 @@ class Finding:
 
 
 @dataclass(slots=True)
-class Report:
+class Proof:
     """A run of the suite."""
 
     name: str
     build_id: str
-    outcomes: list[Outcome] = field(default_factory=list)
+    outcomes: list[Verdict] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     schedules: int = 0
     elapsed: float = 0.0

@@ -2,9 +2,16 @@
 
 import html
 from pathlib import Path
+from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
-from rapidgen.proving.model import Outcome, Report, Series
+from rapidgen.proving.model import Proof, Series, Verdict
+
+if TYPE_CHECKING:
+    from rapidgen.proving.bench import Bench
+
+PLOTTED = 200
+"""Samples of one series in a plot, about."""
 
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999")
 _STYLE = """
@@ -18,7 +25,7 @@ svg { background: #fafafa; border: 1px solid #ddd }
 """
 
 
-def write_junit(report: Report, path: Path) -> None:
+def write_junit(report: Proof, path: Path) -> None:
     """JUnit XML: one test case an outcome, one for each schedule that broke the invariant."""
     failures = sum(not o.passed for o in report.outcomes) + len(report.findings)
     suite = ElementTree.Element(
@@ -59,7 +66,7 @@ def write_junit(report: Report, path: Path) -> None:
     path.write_bytes(ElementTree.tostring(root, encoding="utf-8", xml_declaration=True) + b"\n")
 
 
-def write_html(report: Report, path: Path) -> None:
+def write_html(report: Proof, path: Path) -> None:
     """One page: verdict, table, plots of commanded and executed joints, logs of failures."""
     verdict = "everything held" if report.passed else "something did not hold"
     rows = "".join(_row(outcome) for outcome in report.outcomes)
@@ -87,7 +94,7 @@ def write_html(report: Report, path: Path) -> None:
     )
 
 
-def _coverage(report: Report) -> str:
+def _coverage(report: Proof) -> str:
     reached, of = report.covered
     if not of:
         return ""
@@ -97,7 +104,7 @@ def _coverage(report: Report) -> str:
     )
 
 
-def missed(report: Report) -> list[tuple[str, str]]:
+def missed(report: Proof) -> list[tuple[str, str]]:
     """By file, the lines that no case reached, as `12, 15-17`."""
     found = []
     for path, lines in report.lines.items():
@@ -118,7 +125,7 @@ def missed(report: Report) -> list[tuple[str, str]]:
     return found
 
 
-def _name(outcome: Outcome) -> str:
+def _name(outcome: Verdict) -> str:
     return outcome.case + (f" [{outcome.setting}]" if outcome.setting else "")
 
 
@@ -126,7 +133,7 @@ def _xml(text: str) -> str:
     return "".join(c if c >= " " or c in "\n\t" else "?" for c in text)
 
 
-def _row(outcome: Outcome) -> str:
+def _row(outcome: Verdict) -> str:
     verdict = '<td class="ok">ok' if outcome.passed else '<td class="bad">failed'
     return (
         f"<tr><td>{html.escape(_name(outcome))}<td>{html.escape(outcome.title)}"
@@ -134,13 +141,38 @@ def _row(outcome: Outcome) -> str:
     )
 
 
-def _details(outcome: Outcome) -> str:
+def _details(outcome: Verdict) -> str:
     text = f"<h2>{html.escape(_name(outcome))}</h2><p>{html.escape(outcome.detail)}</p>"
     if outcome.series:
         text += _plot(outcome.series)
     if not outcome.passed and outcome.log:
         text += f"<pre>{html.escape(chr(10).join(outcome.log))}</pre>"
     return text
+
+
+def series(bench: "Bench") -> tuple[Series, ...]:
+    """Executed and commanded joints, for a plot; none when nothing moved.
+
+    A download is drawn from the moment in which the robot began to move for it.
+    """
+    track, commanded = bench.track, bench.commanded
+    if len(track) < 2:
+        return ()
+    shown = [*track[:: max(1, len(track) // PLOTTED)], track[-1]]
+    found = [Series("executed", tuple(t for t, _ in shown), tuple(p for _, p in shown))]
+    for number, (sent, points) in enumerate(commanded):
+        over = commanded[number + 1][0] if number + 1 < len(commanded) else bench.now
+        begun = [t for t, _ in track if sent < t <= over]
+        if not begun:
+            continue
+        times, at = [], begun[0]
+        for index, (_, duration) in enumerate(points):
+            at += duration if index else 0.0
+            times.append(at)
+        step = max(1, len(points) // PLOTTED)
+        rows = tuple(joints for joints, _ in points[::step])
+        found.append(Series("commanded", tuple(times[::step]), rows))
+    return tuple(found)
 
 
 def _plot(series: tuple[Series, ...], width: int = 900, height: int = 260) -> str:

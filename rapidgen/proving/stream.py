@@ -2,14 +2,12 @@
 
 from collections.abc import Sequence
 
-import numpy as np
-
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import Link, Point
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import POINTS, Reason, StreamFlag, batch_points, points_frame
 from rapidgen.proving.model import Broken
-from rapidgen.wire.simple_message import bulk, messages, spec
-from rapidgen.wire.simple_message.declaration import Content
-from rapidgen.wire.simple_message.spec import StreamFlag
+from rapidgen.proving.track import Point
 
 BEGIN, END, FLUSH = StreamFlag.BEGIN, StreamFlag.END, StreamFlag.FLUSH
 NONE = StreamFlag(0)
@@ -18,32 +16,24 @@ NONE = StreamFlag(0)
 class Streamer:
     """One stream over one connection to the motion server."""
 
-    def __init__(self, bench: Bench, link: Link | None = None, number: int = 1) -> None:
+    def __init__(self, bench: Bench, link: RawLink | None = None, number: int = 1) -> None:
         self.bench = bench
         self.link = link if link is not None else bench.motion()
         self.number = number
         self.sent = 0
         """Points sent so far."""
         self.room = bench.config.trajectory.ring - 1
-        self.last: Content | None = None
+        self.last: messages.Content | None = None
         self.points: list[Point] = []
 
     def frame(self, points: Sequence[Point], flags: StreamFlag, first: int | None = None) -> bytes:
         """One POINTS message."""
-        found = bulk.encode_points(
-            self.number,
-            self.sent if first is None else first,
-            [duration for _, duration in points],
-            np.reshape([joints for joints, _ in points], (-1, len(self.bench.position))),
-            flags=flags,
-        )
-        if len(found) != 1:
-            raise ValueError(f"{len(points)} points do not fit in one message")
-        return found[0]
+        at = self.sent if first is None else first
+        return points_frame(self.number, at, points, flags)
 
-    def put(self, points: Sequence[Point], flags: StreamFlag = NONE) -> Content:
+    def put(self, points: Sequence[Point], flags: StreamFlag = NONE) -> messages.Content:
         """Send one batch, in several messages where it does not fit into one; the last reply."""
-        most = messages.batch_points(len(self.bench.position))
+        most = batch_points(len(self.bench.position))
         parts = [points[at : at + most] for at in range(0, len(points), most)] or [points]
         for number, part in enumerate(parts):
             own = flags & ~(END | FLUSH) if number + 1 < len(parts) else flags
@@ -53,9 +43,9 @@ class Streamer:
             told = self.reply()
         return told
 
-    def reply(self) -> Content:
+    def reply(self) -> messages.Content:
         """The next reply to a batch."""
-        self.last = self.link.reply(messages.POINTS.number, 5)
+        self.last = self.link.reply(POINTS, 5)
         if isinstance(self.last, messages.PointsAccepted):
             self.room = self.last.room
         return self.last
@@ -66,7 +56,7 @@ class Streamer:
             raise Broken(f"{what}: the reply is {self.last}")
         return self.last
 
-    def refused(self, reason: spec.Reason, what: str) -> messages.PointsRefused:
+    def refused(self, reason: Reason, what: str) -> messages.PointsRefused:
         """The last reply; Broken unless it is a refusal for that reason."""
         if not isinstance(self.last, messages.PointsRefused) or self.last.reason != reason:
             raise Broken(f"{what}: wanted {reason.name}, the reply is {self.last}")

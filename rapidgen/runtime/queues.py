@@ -7,12 +7,11 @@ has an interrupt ordered in the receiving task goes to its trap, any other one w
 from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import literal_text
-from rapidgen.runtime.values import Type, register_type
+from rapidgen.runtime.values import Type, Value, register_type
 from rapidgen.system.model import QueueSpec, TaskSpec
 
 
@@ -22,7 +21,7 @@ class Message:
 
     type: Type
     dims: tuple[int, ...]
-    value: Any
+    value: Value
     sender: str
     user: float
 

@@ -2,6 +2,7 @@
 
 import asyncio
 import functools
+import inspect
 import threading
 
 from rapidgen.client import AsyncRobot, Robot
@@ -51,12 +52,15 @@ class Blocking:
 
     def __getattr__(self, name):
         value = getattr(self._target, name)
-        if not asyncio.iscoroutinefunction(value):
+        if not callable(value):
             return value
 
         @functools.wraps(value)
         def call(*arguments, **options):
-            result = self._call(value(*arguments, **options))
+            result = value(*arguments, **options)
+            if not inspect.isawaitable(result):
+                return result
+            result = self._call(result)
             return _Handle(self, result) if hasattr(result, "cancel") else result
 
         return call

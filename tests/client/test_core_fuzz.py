@@ -13,7 +13,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from rapidgen.client.core.checks import piece
+from rapidgen.client.core.checks import check_points
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import Phase
 from rapidgen.client.core.robot import Core, Timeouts
@@ -119,14 +119,15 @@ class CoreMachine(RuleBasedStateMachine):
             self.core.motion = None
             times = 0.1 * np.arange(count)
             points = Trajectory(times, np.zeros((count, 6)))
-            checked = piece(points, self.core.known_group, before=None, start=(0.0,) * 10)
-            self.core.begin_stream()
+            checked = check_points(points, self.core.known_group, before=None, start=(0.0,) * 10)
+            self.core.begin_stream(checked)
             self.sent, self.room, self.ended, self.cut = 0, RING, False, False
         elif self.run.is_ended:
             return
         else:
-            checked = piece(points, self.core.known_group, before=self.run.last, start=None)
-        self.run.put(checked)
+            checked = check_points(points, self.core.known_group, before=self.last, start=None)
+            self.run.put(checked)
+        self.last = checked.last
         self.time = float(times[-1]) + 0.1
         self.owner()
 

@@ -415,13 +415,13 @@ def test_ctrl_c_stops_the_robot(fake, quick, monkeypatch):
     controller = fake()
     with Robot(controller.address, timeouts=quick) as robot:
         execution = robot.execute(LONG)
-        wait = robot._changed.wait
+        wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):
-            monkeypatch.setattr(robot._changed, "wait", wait)
+            monkeypatch.setattr(robot._carrier.guard, "wait", wait)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr(robot._changed, "wait", interrupt)
+        monkeypatch.setattr(robot._carrier.guard, "wait", interrupt)
         with pytest.raises(KeyboardInterrupt):
             execution.result()
         assert _comes(lambda: controller.stops)

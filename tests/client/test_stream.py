@@ -219,7 +219,7 @@ def test_what_no_pair_holds_is_downloaded(fake, client):
     controller = fake(**streams(ring=64), capacity=1000)
     path = Trajectory(np.arange(70) * 40.0, np.zeros((70, 6)))
     with client(controller.address) as robot:
-        assert robot._core.way_for(path) == "download"
+        assert robot.way_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):
             robot.execute(path, way="stream")
 
@@ -405,13 +405,13 @@ def test_ctrl_c_in_an_append_stops_the_robot(fake, quick, monkeypatch):
     with Robot(controller.address, timeouts=quick) as robot:
         stream = robot.stream()
         stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
-        wait = robot._changed.wait
+        wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):
-            monkeypatch.setattr(robot._changed, "wait", wait)
+            monkeypatch.setattr(robot._carrier.guard, "wait", wait)
             raise KeyboardInterrupt
 
-        monkeypatch.setattr(robot._changed, "wait", interrupt)
+        monkeypatch.setattr(robot._carrier.guard, "wait", interrupt)
         with pytest.raises(KeyboardInterrupt):
             stream.result()
         assert comes(lambda: controller.script.stream.state == TrajectoryState.STOPPED)

@@ -230,7 +230,9 @@ def test_a_lost_control_connection_is_missed_by_the_controller():
     async def main(robot, driver):
         filling = asyncio.ensure_future(robot.stream().extend(wave()))
         await asyncio.sleep(5)
-        control = next(link for port, link in robot._links.items() if port.name == "CONTROL")
+        control = next(
+            link for port, link in robot._carrier._links.items() if port.name == "CONTROL"
+        )
         control.transport.close()
         with pytest.raises(MotionFailed, match="client") as error:
             await filling
@@ -261,7 +263,7 @@ def test_who_sees_nothing_sends_no_heartbeat_either():
             driver.model.control,
         )
         driver.model.halt, halt = lambda *_: None, driver.model.halt
-        state = next(link for port, link in robot._links.items() if port.name == "STATE")
+        state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
         state.transport.close()
         await asyncio.sleep(0.2)
         assert driver.model.state == TrajectoryState.MOVING
@@ -475,12 +477,12 @@ def test_a_client_that_dies_is_missed():
         await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
         await asyncio.sleep(2)
         # as a process that was frozen: its timers do not run, its kernel keeps the connections
-        robot._timer.cancel()
-        robot._pump = lambda: None
+        robot._carrier._timer.cancel()
+        robot._carrier._pump = lambda: None
         await asyncio.sleep(2.5)
         assert driver.model.state == TrajectoryState.FAILED
         assert driver.model.reason == Reason.CLIENT_LOST
-        del robot._pump
+        del robot._carrier._pump
         with pytest.raises(MotionFailed, match="client") as error:
             await stream.result()
         assert error.value.reason is Reason.CLIENT_LOST
@@ -529,7 +531,7 @@ def test_a_lost_connection_stops_the_motion_though_nobody_waits():
         stream = robot.stream()
         await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
         await asyncio.sleep(2)
-        state = next(link for port, link in robot._links.items() if port.name == "STATE")
+        state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
         state.transport.close()
         await asyncio.sleep(0.5)
         assert driver.model.state == TrajectoryState.STOPPED
@@ -541,9 +543,7 @@ def test_a_lost_connection_stops_the_motion_though_nobody_waits():
 
 def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
     async def main(robot, driver):
-        assert robot._core.way_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == (
-            "download"
-        )
+        assert robot.way_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == ("download")
         long = Trajectory.from_points([[0.0] * 6] * 5000, seconds=0.1)
         robot.check(long)
         execution = await robot.execute(long)

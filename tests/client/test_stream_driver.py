@@ -231,12 +231,12 @@ def test_a_client_that_freezes_is_missed():
         stream = robot.stream()
         await stream.append(*zip(*wave(100), strict=True))
         await asyncio.sleep(2)
-        robot._timer.cancel()
-        pump, robot._pump = robot._pump, lambda: None
+        robot._carrier._timer.cancel()
+        pump, robot._carrier._pump = robot._carrier._pump, lambda: None
         await asyncio.sleep(3)
         here = robot.state
         assert not here.is_moving
-        robot._pump = pump
+        robot._carrier._pump = pump
         with pytest.raises(MotionFailed) as error:
             await stream.result()
         assert error.value.reason is Reason.CLIENT_LOST

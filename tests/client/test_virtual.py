@@ -160,16 +160,16 @@ def test_the_driver_refuses_what_the_client_would_not_send(boot):
     _, config, addresses = boot("irb120")
     with Robot(config, address=addresses[config.groups[0].name], timeouts=PATIENT) as robot:
         path = Trajectory.from_points([[0.0] * 6, [0.1] * 6, [0.2] * 6], seconds=1)
-        plan = robot._core.plan
+        check = robot._core.check
         for column, value, reason in ((2, 9.0, "JOINT_LIMIT"), (0, float("nan"), "NOT_FINITE")):
-            made = plan(path)
+            made = check(path)
             made.wire[1, column] = value
-            robot._core.plan = lambda *_, made=made: made
+            robot._core.check = lambda *_, made=made: made
             with pytest.raises(TrajectoryRefused) as error:
                 robot.execute(path)
             assert error.value.reason is Reason[reason]
             assert (error.value.point, error.value.joint) == (1, column + 1)
-        robot._core.plan = plan
+        robot._core.check = check
         assert robot.execute(path).result(20).deviation < 1e-3
 
 

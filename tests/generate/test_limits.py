@@ -7,7 +7,7 @@ import struct
 import pytest
 
 from rapidgen.generate import layout
-from rapidgen.machine.configuration import arm_name
+from rapidgen.machine.system_parameters import arm_name
 from rapidgen.runtime.switches import Dialect
 from tests.generate.bench import Bench, close_to, trajectory
 from tests.generate.driving import LIMIT, move_well, reply_of, send_all

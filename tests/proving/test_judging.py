@@ -9,10 +9,11 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import with_module
-from rapidgen.proving.forking import ForkFailed, in_a_fork
-from rapidgen.proving.judging import Judge
-from rapidgen.proving.mutation import Mutant, mutants
 from rapidgen.proving.suite import CASES
+from rapidgen.proving.workers import ForkFailed, in_a_fork
+from rapidgen.rapid import parse
+from tests.proving.judging import Judge
+from tests.proving.mutation import Mutant, mutants
 
 SIX_AXES = load_config("irb120")
 SYSTEM = make_system(SIX_AXES, build(SIX_AXES))
@@ -104,3 +105,12 @@ def test_a_case_that_did_not_notice_it_before_is_not_tried_again(judge):
     verdict = judge.judge(every, budget=0, already=names[:1])
     assert verdict.left == len(FEW) - 1
     assert judge.judge(every, already=names).tried == ()
+
+
+def test_a_mutant_differs_in_one_place_and_is_still_rapid():
+    data = file_of("ROS_motion").data
+    found = list(mutants(data, "ROS_motion.mod"))
+    assert len(found) > 60
+    for mutant in found:
+        assert mutant.text != data
+        assert not parse(mutant.text).diagnostics, mutant.change

@@ -9,13 +9,12 @@ import pytest
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
-from rapidgen.proving.bench import Bench, Setting, with_module
+from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.explore import explore
 from rapidgen.proving.model import Broken
-from rapidgen.proving.mutation import mutants
-from rapidgen.proving.run import Starter, prove, settings
-from rapidgen.proving.suite import _BACKGROUND, CASES
-from rapidgen.rapid import parse
+from rapidgen.proving.run import Starter, prove
+from rapidgen.proving.settings import Setting, settings
+from rapidgen.proving.suite import CASES
 
 KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
 SIX_AXES = load_config("irb120")
@@ -141,16 +140,6 @@ def test_the_exploration_replays_exactly():
     assert logs[0] == logs[1]
 
 
-def test_a_mutant_differs_in_one_place_and_is_still_rapid():
-    _, system = generated()
-    data = next(m.data for t in system.tasks for m in t.modules if m.name == "ROS_motion")
-    found = list(mutants(data, "ROS_motion.mod"))
-    assert len(found) > 60
-    for mutant in found:
-        assert mutant.text != data
-        assert not parse(mutant.text).diagnostics, mutant.change
-
-
 def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
     junit, html = tmp_path / "r.xml", tmp_path / "r.html"
     words = ["test", "irb120", "--quick", "--jobs", "1", "--case", "whole-trajectory"]
@@ -197,10 +186,6 @@ def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():
     config = load_config("irb120", overrides=["commissioning=true"])
     assert "not-executing" in known
     assert prove(config, jobs=1, only=("not-executing",), every_setting=False).outcomes == []
-
-
-def test_the_cases_that_need_background_tasks_exist():
-    assert set(_BACKGROUND) == {case.name for case in CASES if case.background}
 
 
 def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):

@@ -6,6 +6,7 @@ A State is made only when somebody looks: one hundred robots are watched by one 
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypedDict
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import (
@@ -39,6 +40,13 @@ class Sample:
 
     time: float
     joints: tuple[float, ...]
+
+
+class Evidence(TypedDict):
+    """What every RobotError carries."""
+
+    messages: tuple[tuple[float, str], ...]
+    states: tuple[State, ...]
 
 
 class StatePort:
@@ -221,6 +229,10 @@ class StatePort:
     def messages(self) -> tuple[tuple[float, str], ...]:
         """The last messages as (time, text), oldest first."""
         return tuple((time, _text(entry)) for time, entry in self._log)
+
+    def evidence(self) -> Evidence:
+        """The last messages and states, for an exception."""
+        return {"messages": self.messages, "states": self.states}
 
     def note(self, text: str) -> None:
         """Keep a line beside the messages."""

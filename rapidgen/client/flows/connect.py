@@ -1,4 +1,4 @@
-"""Connecting, and finding out who is there, as generators run by both clients (see `effects`)."""
+"""Connecting, and finding out who is there."""
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import Core
@@ -6,10 +6,11 @@ from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
     IncompatibleDriver,
+    RobotError,
     RobotTimeout,
     fault,
 )
-from rapidgen.client.flows.effects import Close, Flow, Open, Send, Wait
+from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, HangUp, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.messages import HELLO
 from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
@@ -19,7 +20,15 @@ _RETRY = 0.5
 
 
 def connect(core: Core) -> Flow[None]:
-    """Open the connections and find out who is there."""
+    """Connect and find out who is there; what stands of the connections if that fails is closed."""
+    try:
+        yield from _open(core)
+    except (RobotError, *INTERRUPTIONS):
+        yield HangUp()
+        raise
+
+
+def _open(core: Core) -> Flow[None]:
     core.fault = None
     limits = core.timeouts
     yield Open(Port.STATE, limits.connect)
@@ -55,17 +64,17 @@ def _meet_control(core: Core) -> Flow[None]:
     trouble = "another driver answers on the control port"
     try:
         yield Open(Port.CONTROL, core.timeouts.connect)
-        talk = core.ports[Port.CONTROL]
-        pending = talk.request(HELLO.number)
+        control = core.ports[Port.CONTROL]
+        pending = control.request(HELLO.number)
         yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
-        yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.hello)
+        yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.hello)
         known, told = core.state_port.hello, pending.reply
         assert isinstance(known, messages.HelloReply)
         if isinstance(told, messages.HelloReply) and told.same_driver(known):
             return
         if told is None:
             trouble = "nobody answers on the control port"
-        if talk.is_open:
+        if control.is_open:
             yield Close(Port.CONTROL)
     except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
         trouble = str(error)
@@ -107,7 +116,7 @@ def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
     deadline = core.clock() + core.reconnect
     while True:
         try:
-            yield from connect(core)
+            yield from _open(core)
             return
         except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
             if core.clock() + _RETRY >= deadline:

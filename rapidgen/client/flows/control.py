@@ -1,4 +1,4 @@
-"""What goes over the control port, as generators run by both clients (see `effects`)."""
+"""What goes over the control port."""
 
 from rapidgen.client.core.motion import reason_of, reason_text
 from rapidgen.client.core.robot import Core
@@ -11,21 +11,35 @@ from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Feature, Port
 
 
-def pause(core: Core, paused: bool) -> Flow[None]:
-    """Hold what moves on its path, or let it go on."""
-    yield from _ask(core, messages.Pause(int(paused)), "pause" if paused else "go on")
+def pause(core: Core) -> Flow[None]:
+    """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
+    yield from _ask(core, messages.Pause(1), "pause")
 
 
-def speed(core: Core, percent: float) -> Flow[None]:
-    """The share of the programmed speed of what moves."""
+def resume(core: Core) -> Flow[None]:
+    """Go on behind a pause. Raises as `pause`."""
+    yield from _ask(core, messages.Pause(0), "go on")
+
+
+def set_speed(core: Core, percent: float) -> Flow[None]:
+    """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
     if not 1 <= percent <= 100:
         raise ValueError(f"percent must be 1 to 100, not {percent}")
     yield from _ask(core, messages.Speed(percent), f"go at {percent:g} %")
     core.override = percent / 100
 
 
-def signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
-    """Read a signal, or write it; the value as it was read then."""
+def read_signal(core: Core, signal: str | int) -> Flow[float]:
+    """A signal that the configuration exposes, by name or number. Raises as `pause`."""
+    return (yield from _signal(core, signal, None))
+
+
+def write_signal(core: Core, signal: str | int, value: float) -> Flow[float]:
+    """Set a signal; the value as it was read then. Raises as `pause`."""
+    return (yield from _signal(core, signal, value))
+
+
+def _signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
     index = _index(core, which, writes=value is not None)
     asked = messages.Signal(index, int(value is not None), value or 0.0)
     what = "read" if value is None else "write"
@@ -65,8 +79,8 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
 def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
-    talk = core.ports[Port.CONTROL]
-    if not talk.is_open:
+    control = core.ports[Port.CONTROL]
+    if not control.is_open:
         has_port = Feature.CONTROL in core.state_port.driver.features
         why = core.state_port.driver.control_fault or "it was lost"
         raise NotSupported(
@@ -82,10 +96,10 @@ def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
             )
         )
     pending = core.post(content)
-    yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.reply)
+    yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.reply)
     reply = pending.reply
     if reply is None:
-        if not talk.is_open:
+        if not control.is_open:
             raise core.disconnected()
         raise RobotTimeout(
             fault("RG603", f"no reply to the request to {what}", "look at the controller"),

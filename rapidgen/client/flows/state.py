@@ -1,4 +1,4 @@
-"""Waiting for what the state port tells, as generators run by both clients (see `effects`)."""
+"""Waiting for what the state port tells."""
 
 from collections.abc import Callable
 
@@ -10,10 +10,14 @@ from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.wire.simple_message.spec import Feature
 
 
-def wait_until(
+def wait_until(core: Core, condition: Callable[[State], bool], timeout: float) -> Flow[State]:
+    """The first state for which `condition` holds. Raises RobotTimeout, ConnectionLost."""
+    return (yield from _until(core, condition, timeout, "what was waited for"))
+
+
+def _until(
     core: Core, condition: Callable[[State], bool], timeout: float, what: str
 ) -> Flow[State]:
-    """The first state, from now on, for which the condition holds."""
     yield from alive(core)
     state_port = core.state_port
     found: list[State] = []
@@ -34,19 +38,21 @@ def wait_until(
     )
 
 
-def next_state(core: Core, timeout: float | None) -> Flow[State]:
-    """The state of the next joint message."""
+def next_state(core: Core, timeout: float | None = None) -> Flow[State]:
+    """The state of the next joint message. Raises RobotTimeout, ConnectionLost."""
     yield from alive(core)
     seen = core.state_port.samples
     patience = core.timeouts.state if timeout is None else timeout
-    return (
-        yield from wait_until(core, lambda state: state.number > seen, patience, "the next state")
-    )
+    return (yield from _until(core, lambda state: state.number > seen, patience, "the next state"))
 
 
-def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[Event]:
-    """The next entry of the controller's log, or the one behind `after`; without a time-out as
-    long as there is a link."""
+def next_event(
+    core: Core, timeout: float | None = None, *, after: Event | None = None
+) -> Flow[Event]:
+    """The next entry of the controller's log, or the one behind `after`.
+
+    Without a time-out it waits as long as there is a link. Raises RobotTimeout, ConnectionLost.
+    """
     yield from alive(core)
     state_port = core.state_port
     seen = state_port.event_count if after is None else after.number
@@ -60,8 +66,11 @@ def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[E
     raise RobotTimeout(fault("RG603", f"no event came within {timeout:g} s"), **core.evidence())
 
 
-def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
-    """The next joints with the controller's time."""
+def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
+    """The next joints with the controller's time.
+
+    Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
+    """
     yield from alive(core)
     state_port = core.state_port
     if Feature.FEEDBACK not in state_port.driver.features & core.subscribe:

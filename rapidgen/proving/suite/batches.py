@@ -1,23 +1,31 @@
 """Batches of points one by one: what each reply says, and each way to spoil one."""
 
-from collections.abc import Callable
 from functools import partial
 
-import numpy as np
-
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
+from rapidgen.proving.instructions import fails
+from rapidgen.proving.link import STOP
+from rapidgen.proving.messages import (
+    INDEX_WRAP,
+    JOINT_TRAJ_PT,
+    Reason,
+    StreamFlag,
+    TrajectoryState,
+    point_pairs,
+)
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.proving.suite.streaming import way
-from rapidgen.wire.simple_message import bulk, messages, spec
-from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
+from rapidgen.proving.suite.streams import way
+from rapidgen.proving.track import Point, distance
+
+case = Theme("streaming")
 
 _NONE = StreamFlag(0)
 _LARGEST = 2**23 - 1
 
 
+@case("batch-replies", "replies to batches: counts, room, state")
 def _replies(bench: Bench) -> None:
     """Each reply has the stream, its trajectory, the points taken, room and progress."""
     watcher, ring = bench.watcher(), bench.config.trajectory.ring
@@ -52,6 +60,7 @@ def _replies(bench: Bench) -> None:
             raise Broken(f"the stream is done, the reply is {stream.last}")
 
 
+@case("batch-strange", "batches of no stream", "C4")
 def _strange(bench: Bench) -> None:
     """A batch of no stream is refused for itself, and nothing is told of any trajectory."""
     stream = Streamer(bench, number=7)
@@ -82,6 +91,7 @@ def _spoilt(frame: bytes, place: int) -> bytes:
     return bytes(data)
 
 
+@case("batch-no-number", "bytes that are no number in a batch", "R2")
 def _no_number(bench: Bench) -> None:
     """Eight bytes that are too large for the controller to count, anywhere in a batch."""
     last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
@@ -99,6 +109,7 @@ def _no_number(bench: Bench) -> None:
         bench.run(0.5)
 
 
+@case("batch-beginning", "a damaged beginning while a stream moves")
 def _damaged_beginning(bench: Bench) -> None:
     """A damaged beginning of another stream ends nothing; of the same one it cuts that."""
     for number in (4, 3):
@@ -126,21 +137,21 @@ def _damaged_beginning(bench: Bench) -> None:
         bench.run(1.2)
 
 
+@case("batch-padding", "a value for a joint that is not there")
 def _padding(bench: Bench) -> None:
     """Where a point has a place for a joint that the robot lacks that place is zero."""
     joints = len(bench.position)
-    if 2 * messages.point_pairs(joints) == joints + 1:
+    if 2 * point_pairs(joints) == joints + 1:
         return
     stream = Streamer(bench)
     here = bench.position
-    frames = bulk.encode_points(1, 0, [1.0, 1.0], np.array([(*here, 0.5)] * 2), flags=BEGIN | END)
-    stream.link.send(frames[0])
-    stream.reply()
+    stream.put([((*here, 0.5), 1.0)] * 2, BEGIN | END)
     told = stream.refused(Reason.BAD_PADDING, "a value for a joint that is not there")
     if (told.accepted, told.point) != (0, 0):
         raise Broken(f"the first point has a value too many, the reply is {told}")
 
 
+@case("batch-enough", "just enough points to begin with")
 def _enough(bench: Bench) -> None:
     """Just as many seconds as are to wait in the ring are enough; without the last they are not."""
     preload = bench.config.trajectory.preload
@@ -162,6 +173,7 @@ def _enough(bench: Bench) -> None:
         bench.run(1.2)
 
 
+@case("batch-not-now", "a stream while no motion is possible", "R7a", background=True)
 def _not_now(bench: Bench) -> None:
     """A stream that begins while no motion is possible is refused, like a download."""
     for action, reasons in (
@@ -185,6 +197,7 @@ def _not_now(bench: Bench) -> None:
         bench.run(1.2)
 
 
+@case("batch-ends-early", "streams that end before they move", "R5")
 def _ends_before_it_moves(bench: Bench) -> None:
     """A stream without points that is stopped, left, or taken the place of, never moves."""
     watcher = bench.watcher()
@@ -195,7 +208,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
     stream.link.send(STOP)
-    stream.link.reply(messages.JOINT_TRAJ_PT.number)
+    stream.link.reply(JOINT_TRAJ_PT)
     stream.put(way(bench, 20))
     refusal = stream.refused(Reason.STOPPED, "points behind a STOP")
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
@@ -226,6 +239,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
     bench.run(1)
 
 
+@case("batch-stay", "a stay in a stream", "R8")
 def _stays(bench: Bench) -> None:
     """The same place again is a stay, in a stream too."""
     first, second, third = way(bench, 3, 0.4)
@@ -243,6 +257,7 @@ def _stays(bench: Bench) -> None:
         raise Broken("the robot was not where it had to stay")
 
 
+@case("batch-short-last", "a short last segment of a stream", "R9")
 def _short_last(bench: Bench) -> None:
     """The last segment may be short: it has no successor."""
     policy = bench.config.trajectory
@@ -256,6 +271,7 @@ def _short_last(bench: Bench) -> None:
     bench.wait_until_at(points[3][0], 10)
 
 
+@case("batch-silent", "a stream that is silent for seconds", "R12")
 def _silent(bench: Bench) -> None:
     """A stream may be silent for some seconds; once it has ended, a newer client is served."""
     stream = Streamer(bench)
@@ -275,9 +291,10 @@ def _is_lost(stream: Streamer) -> bool:
     return stream.link.lost
 
 
+@case("batch-index-wraps", "more points than numbers")
 def _index_wraps(bench: Bench) -> None:
     """Points are counted anew behind the last number that a controller counts exactly."""
-    last = spec.INDEX_WRAP
+    last = INDEX_WRAP
     stream, since = Streamer(bench), bench.now
     points = way(bench, 40)
     stream.put(points[:10], BEGIN)
@@ -299,9 +316,10 @@ def _index_wraps(bench: Bench) -> None:
     bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
 
 
+@case("batch-unreadable", "bytes of a batch that cannot be read", "R3")
 def _unreadable(bench: Bench) -> None:
     """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
-    joints = messages.point_pairs(len(bench.position))
+    joints = point_pairs(len(bench.position))
     # The frame's own and the kind of message; two words of the head, those of two points, the
     # checksum.
     # An error of the former passes through routines without a handler, where errors do that.
@@ -311,7 +329,7 @@ def _unreadable(bench: Bench) -> None:
         points = way(bench, 10)
         stream.put(points[:8], BEGIN | FLUSH)
         bench.wait_until_moving()
-        recovers = bench.fails("ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
+        recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         stream.link.send(stream.frame(points[8:], _NONE))
         bench.run(0.1)
         recovers()
@@ -328,6 +346,7 @@ def _unreadable(bench: Bench) -> None:
         bench.run(0.3)
 
 
+@case("batch-behind-end", "points behind the end")
 def _behind_the_end(bench: Bench) -> None:
     """What comes behind the end is refused, and what came before it is done."""
     watcher = bench.watcher()
@@ -342,22 +361,3 @@ def _behind_the_end(bench: Bench) -> None:
     progress = bench.progress(watcher)
     if (progress.state, progress.reached) != (TrajectoryState.DONE, 12):
         raise Broken(f"points came behind the end, PROGRESS says {progress}")
-
-
-_PROOFS: tuple[tuple[str, str, Callable[[Bench], None], str], ...] = (
-    ("batch-replies", "replies to batches: counts, room, state", _replies, ""),
-    ("batch-strange", "batches of no stream", _strange, "C4"),
-    ("batch-no-number", "bytes that are no number in a batch", _no_number, "R2"),
-    ("batch-beginning", "a damaged beginning while a stream moves", _damaged_beginning, ""),
-    ("batch-padding", "a value for a joint that is not there", _padding, ""),
-    ("batch-enough", "just enough points to begin with", _enough, ""),
-    ("batch-not-now", "a stream while no motion is possible", _not_now, "R7a"),
-    ("batch-ends-early", "streams that end before they move", _ends_before_it_moves, "R5"),
-    ("batch-stay", "a stay in a stream", _stays, "R8"),
-    ("batch-short-last", "a short last segment of a stream", _short_last, "R9"),
-    ("batch-silent", "a stream that is silent for seconds", _silent, "R12"),
-    ("batch-index-wraps", "more points than numbers", _index_wraps, ""),
-    ("batch-unreadable", "bytes of a batch that cannot be read", _unreadable, "R3"),
-    ("batch-behind-end", "points behind the end", _behind_the_end, ""),
-)
-CASES = tuple(Case(name, title, "streaming", prove, who) for name, title, prove, who in _PROOFS)

@@ -1,14 +1,18 @@
 """What the unmodified ROS-Industrial nodes send and expect."""
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Point, point_frame, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
-from rapidgen.wire.simple_message import decode, messages, spec
+from rapidgen.proving.link import STOP, point_frame, raw_point
+from rapidgen.proving.messages import JOINT_POSITION, STATUS, Comm, ReplyCode, decode
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import Point, distance
+
+case = Theme("compatible")
 
 _REPLY = 2.0
 
 
+@case("whole-trajectory", "a trajectory sent as topics is executed whole, in order")
 def _whole_trajectory(bench: Bench) -> None:
     points = bench.wave(12)
     link = bench.motion()
@@ -17,6 +21,7 @@ def _whole_trajectory(bench: Bench) -> None:
         raise Broken("points sent as topics were answered")
 
 
+@case("first-point-10s", "the 10 s that the node gives the first point are not waited for", "R8")
 def _first_point_of_ten_seconds(bench: Bench) -> None:
     points = bench.wave(4)
     link = bench.motion()
@@ -28,6 +33,7 @@ def _first_point_of_ten_seconds(bench: Bench) -> None:
         raise Broken(f"{asked:.1f} s of motion took {taken:.1f} s: the first 10 s were waited for")
 
 
+@case("single-point", "a single point, sent as -1 and -3, is reached")
 def _single_point_sent_twice(bench: Bench) -> None:
     target = bench.wave(3)[-1][0]
     link = bench.motion()
@@ -37,6 +43,7 @@ def _single_point_sent_twice(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(2, duration=1.0))
 
 
+@case("equal-stamps", "equal stamps are a stay, and the rest follows")
 def _equal_stamps(bench: Bench) -> None:
     first, second, third = bench.wave(3)
     # The node turns equal stamps into 10 s; the robot stays for them, and goes on.
@@ -45,12 +52,14 @@ def _equal_stamps(bench: Bench) -> None:
     bench.moves_through(link, points)
 
 
+@case("more-trajectories", "trajectory after trajectory over one connection")
 def _more_trajectories(bench: Bench) -> None:
     link = bench.motion()
     for _ in range(5):
         bench.moves_through(link, bench.wave(5))
 
 
+@case("state-stream", "JOINT and STATUS as plain topics at the set rate", "R16")
 def _state_stream(bench: Bench) -> None:
     link = bench.state()
     bench.run(1)
@@ -58,10 +67,10 @@ def _state_stream(bench: Bench) -> None:
     bench.run(20)
     frames = link.frames[before:]
     period = bench.config.state_period
-    for number, size in ((messages.JOINT_POSITION.number, 44), (messages.STATUS.number, 28)):
+    for number, size in ((JOINT_POSITION, 44), (STATUS, 28)):
         stamps = [when for when, f in frames if f.number == number]
         if any(
-            f.comm != spec.Comm.TOPIC or f.reply or len(f.data) != size
+            f.comm != Comm.TOPIC or f.reply or len(f.data) != size
             for _, f in frames
             if f.number == number
         ):
@@ -71,10 +80,11 @@ def _state_stream(bench: Bench) -> None:
         for i, when in enumerate(stamps):
             if abs(when - (stamps[0] + i * period)) > period:
                 raise Broken(f"message {number} at {when:.3f} s is more than a period off")
-    if {f.number for _, f in frames} != {messages.JOINT_POSITION.number, messages.STATUS.number}:
+    if {f.number for _, f in frames} != {JOINT_POSITION, STATUS}:
         raise Broken("a client that did not say hello gets messages of ours")
 
 
+@case("state-true", "JOINT and STATUS tell what the robot does")
 def _state_is_true(bench: Bench) -> None:
     link, motion = bench.state(), bench.motion()
     bench.run(1)
@@ -90,7 +100,7 @@ def _state_is_true(bench: Bench) -> None:
         raise Broken("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
-    joints = [decode(f) for _, f in link.frames if f.number == messages.JOINT_POSITION.number]
+    joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
     last = joints[-1]
     assert isinstance(last, messages.JointPosition)
     here = bench.position
@@ -100,6 +110,7 @@ def _state_is_true(bench: Bench) -> None:
         raise Broken("a standing robot says that it is in motion")
 
 
+@case("short-movements", "every movement is in at least one STATUS", "R16")
 def _short_movements_show(bench: Bench) -> None:
     link, motion = bench.state(), bench.motion()
     bench.run(0.5)
@@ -113,19 +124,21 @@ def _short_movements_show(bench: Bench) -> None:
         before = len(link.frames)
         motion.send(bench.download([(here, 10.0), (target, 0.1), (target, 0.1)]))
         bench.run(1.0)
-        seen = [decode(f) for _, f in link.frames[before:] if f.number == messages.STATUS.number]
+        seen = [decode(f) for _, f in link.frames[before:] if f.number == STATUS]
         if not any(isinstance(s, messages.Status) and s.in_motion == 1 for s in seen):
             raise Broken("a movement between two STATUS messages was in none of them")
 
 
+@case("stop-answered", "STOP is answered at once, in the node's bytes")
 def _stop_is_answered(bench: Bench) -> None:
     link = bench.motion()
     link.send(STOP)
     frame = link.expect_reply(_REPLY, "STOP is answered by an idle driver")
-    if frame != (11, spec.Comm.REPLY, spec.ReplyCode.SUCCESS, b""):
+    if frame != (11, Comm.REPLY, ReplyCode.SUCCESS, b""):
         raise Broken(f"the reply to STOP is {frame}")
 
 
+@case("at-the-limits", "every limit of every joint can be reached")
 def _limits_are_reached(bench: Bench) -> None:
     link = bench.motion()
     # What is a limit in 64 bits may lie outside of it by a rounding to 32.
@@ -140,6 +153,7 @@ def _limits_are_reached(bench: Bench) -> None:
             bench.wait_until_at(here, 20 + 4 * seconds)
 
 
+@case("in-pieces", "a trajectory byte by byte", "R2")
 def _in_pieces(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(4)
@@ -151,6 +165,7 @@ def _in_pieces(bench: Bench) -> None:
     bench.followed([p for p, _ in points], since=since)
 
 
+@case("in-one-piece", "a trajectory and a STOP in one segment")
 def _in_one_piece_with_a_stop(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(6)
@@ -161,62 +176,35 @@ def _in_one_piece_with_a_stop(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(4))
 
 
+@case("full-capacity", "as many points as the driver says it holds", "R1", once=True)
 def _full_capacity(bench: Bench) -> None:
     count = bench.config.trajectory.capacity
     link = bench.motion()
     bench.moves_through(link, bench.wave(min(count, 1000), duration=0.2, size=0.01))
 
 
+@case("ping", "PING as a request is answered")
 def _ping(bench: Bench) -> None:
     link = bench.motion()
     link.send(b"\x0c\0\0\0\x01\0\0\0\x02\0\0\0\0\0\0\0")
-    if link.expect_reply(_REPLY, "PING is answered").comm != spec.Comm.REPLY:
+    if link.expect_reply(_REPLY, "PING is answered").comm != Comm.REPLY:
         raise Broken("PING was not answered by a reply")
 
 
+@case("requests", "points sent as requests are answered")
 def _requests_are_answered(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(3)
     for number, (joints, duration) in enumerate(points):
-        link.send(point_frame(number, len(points), joints, duration, spec.Comm.REQUEST))
+        link.send(point_frame(number, len(points), joints, duration, Comm.REQUEST))
         frame = link.expect_reply(_REPLY, f"point {number} sent as a request is answered")
-        if frame.reply != spec.ReplyCode.SUCCESS:
+        if frame.reply != ReplyCode.SUCCESS:
             raise Broken(f"point {number} of a good trajectory was refused: {decode(frame)}")
     bench.wait_until_at(points[-1][0])
 
 
+@case("stray-point", "a point without a start moves nothing")
 def _stray_point(bench: Bench) -> None:
     link = bench.motion()
     link.send(raw_point(3, bench.wave(3)[-1][0], 1.0))
     bench.stays(2, "a point without a start")
-
-
-CASES = (
-    Case("whole-trajectory", "a trajectory sent as topics is executed whole, in order",
-         "compatible", _whole_trajectory),
-    Case("first-point-10s", "the 10 s that the node gives the first point are not waited for",
-         "compatible", _first_point_of_ten_seconds, "R8"),
-    Case("single-point", "a single point, sent as -1 and -3, is reached", "compatible",
-         _single_point_sent_twice),
-    Case("equal-stamps", "equal stamps are a stay, and the rest follows", "compatible",
-         _equal_stamps),
-    Case("more-trajectories", "trajectory after trajectory over one connection", "compatible",
-         _more_trajectories),
-    Case("state-stream", "JOINT and STATUS as plain topics at the set rate", "compatible",
-         _state_stream, "R16"),
-    Case("state-true", "JOINT and STATUS tell what the robot does", "compatible", _state_is_true),
-    Case("short-movements", "every movement is in at least one STATUS", "compatible",
-         _short_movements_show, "R16"),
-    Case("stop-answered", "STOP is answered at once, in the node's bytes", "compatible",
-         _stop_is_answered),
-    Case("at-the-limits", "every limit of every joint can be reached", "compatible",
-         _limits_are_reached),
-    Case("in-pieces", "a trajectory byte by byte", "compatible", _in_pieces, "R2"),
-    Case("in-one-piece", "a trajectory and a STOP in one segment", "compatible",
-         _in_one_piece_with_a_stop),
-    Case("full-capacity", "as many points as the driver says it holds", "compatible",
-         _full_capacity, "R1"),
-    Case("ping", "PING as a request is answered", "compatible", _ping),
-    Case("requests", "points sent as requests are answered", "compatible", _requests_are_answered),
-    Case("stray-point", "a point without a start moves nothing", "compatible", _stray_point),
-)  # fmt: skip

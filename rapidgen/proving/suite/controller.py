@@ -4,9 +4,10 @@ from dataclasses import replace
 from functools import partial
 
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import spec
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.messages import Mode, Reason, TrajectoryState, TriState, split_error_code
+from rapidgen.proving.model import Broken, Theme
+
+case = Theme("controller")
 
 
 def _back_to_work(bench: Bench) -> None:
@@ -45,6 +46,7 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
         bench.run(1.5)
 
 
+@case("not-executing", "what comes while nothing executes is refused", "R7a", background=True)
 def _refused_while_not_executing(bench: Bench) -> None:
     for action, reasons in (
         ("stop", (Reason.NOT_EXECUTING,)),
@@ -57,9 +59,9 @@ def _refused_while_not_executing(bench: Bench) -> None:
         link.send(bench.download(bench.wave(4)))
         bench.stays(5, f"the controller is in {action}")
         status, told = bench.status(state), bench.progress(state)
-        if (told.state, told.point, told.joint) != (spec.TrajectoryState.REFUSED, -1, 0):
+        if (told.state, told.point, told.joint) != (TrajectoryState.REFUSED, -1, 0):
             raise Broken(f"after {action} a trajectory is refused for no point, PROGRESS: {told}")
-        reason, _ = spec.split_error_code(status.error_code)
+        reason, _ = split_error_code(status.error_code)
         if status.in_error != 1 or reason not in reasons:
             raise Broken(f"after {action} a trajectory is answered by {status}")
         if status.motion_possible != 0:
@@ -72,6 +74,7 @@ def _refused_while_not_executing(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("e-stop-status", "STATUS shows an emergency stop", "R15", background=True)
 def _e_stop_shows(bench: Bench) -> None:
     state = bench.state()
     bench.controller.perform("e-stop")
@@ -85,14 +88,16 @@ def _e_stop_shows(bench: Bench) -> None:
         raise Broken(f"after an emergency stop STATUS says {status}")
 
 
+@case("manual-status", "STATUS shows manual mode", background=True)
 def _manual_mode_shows(bench: Bench) -> None:
     state = bench.state()
     bench.controller.perform("manual")
     bench.run(0.5)
-    if bench.status(state).mode != spec.Mode.MANUAL:
+    if bench.status(state).mode != Mode.MANUAL:
         raise Broken("in manual mode STATUS does not say so")
 
 
+@case("pp-to-main", "PP to main leaves nothing taken", "R7a")
 def _pp_to_main_idle(bench: Bench) -> None:
     for _ in range(3):
         bench.controller.perform("stop")
@@ -107,19 +112,21 @@ def _pp_to_main_idle(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("without-signals", "missing signals are not fatal", "R15")
 def _without_signals(bench: Bench) -> None:
     bare = replace(bench.system, signals=(), outputs=(), cross=())
     other = bench.beside(bare)
     try:
         state, link = other.state(), other.motion()
         status = other.status(state)
-        if status.drives_powered != spec.TriState.UNKNOWN:
+        if status.drives_powered != TriState.UNKNOWN:
             raise Broken(f"without signals STATUS says {status}")
         other.moves_through(link, other.wave(4))
     finally:
         other.close()
 
 
+@case("mixed-builds", "modules of different builds refuse to move", once=True)
 def _mixed_builds(bench: Bench) -> None:
     build = bench.system.build_id.encode()
     files = {
@@ -139,7 +146,7 @@ def _mixed_builds(bench: Bench) -> None:
             other.run(0.5)
             told = other.progress(state)
             if (told.state, told.reason, told.point, told.joint) != (
-                spec.TrajectoryState.REFUSED, Reason.BUILD_MISMATCH, -1, 0
+                TrajectoryState.REFUSED, Reason.BUILD_MISMATCH, -1, 0
             ):  # fmt: skip
                 raise Broken(f"{path} is of another build, PROGRESS says {told}")
             link.send(frames[68:])
@@ -151,6 +158,7 @@ def _mixed_builds(bench: Bench) -> None:
             other.close()
 
 
+@case("no-task-ends", "no task ends by itself", "R3")
 def _no_task_ends(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
     bench.moves_through(link, bench.wave(4))
@@ -161,27 +169,17 @@ def _no_task_ends(bench: Bench) -> None:
         raise Broken(f"tasks that ended by themselves: {', '.join(ended)}")
 
 
-CASES = (
-    Case("e-stop", "nothing resumes after an emergency stop", "controller",
-         partial(_interrupted, action="e-stop")),
-    Case("program-stop", "nothing resumes after a program stop", "controller",
-         partial(_interrupted, action="stop"),
-         "R7a"),
-    Case("stop-pp-to-main", "nothing resumes after a stop and PP to main", "controller",
-         partial(_interrupted, action="stop", pp_to_main=True), "R7a"),
-    Case("motors-off", "nothing resumes after motors off", "controller",
-         partial(_interrupted, action="motors-off")),
-    Case("manual-mode", "nothing resumes after a change of mode", "controller",
-         partial(_interrupted, action="manual")),
-    Case("power-loss", "nothing resumes after a power failure", "controller",
-         partial(_interrupted, action="power-loss")),
-    Case("not-executing", "what comes while nothing executes is refused", "controller",
-         _refused_while_not_executing, "R7a"),
-    Case("e-stop-status", "STATUS shows an emergency stop", "controller", _e_stop_shows, "R15"),
-    Case("manual-status", "STATUS shows manual mode", "controller", _manual_mode_shows),
-    Case("pp-to-main", "PP to main leaves nothing taken", "controller", _pp_to_main_idle, "R7a"),
-    Case("without-signals", "missing signals are not fatal", "controller", _without_signals, "R15"),
-    Case("mixed-builds", "modules of different builds refuse to move", "controller",
-         _mixed_builds),
-    Case("no-task-ends", "no task ends by itself", "controller", _no_task_ends, "R3"),
-)  # fmt: skip
+case("e-stop", "nothing resumes after an emergency stop")(partial(_interrupted, action="e-stop"))
+case("program-stop", "nothing resumes after a program stop", "R7a")(
+    partial(_interrupted, action="stop")
+)
+case("stop-pp-to-main", "nothing resumes after a stop and PP to main", "R7a", background=True)(
+    partial(_interrupted, action="stop", pp_to_main=True)
+)
+case("motors-off", "nothing resumes after motors off")(partial(_interrupted, action="motors-off"))
+case("manual-mode", "nothing resumes after a change of mode")(
+    partial(_interrupted, action="manual")
+)
+case("power-loss", "nothing resumes after a power failure")(
+    partial(_interrupted, action="power-loss")
+)

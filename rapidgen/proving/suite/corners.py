@@ -14,10 +14,13 @@ from rapidgen.axes import frames
 from rapidgen.config.model import Joint
 from rapidgen.motion.moves import JointMove, Move, Zone
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import Point, Position
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.suite.moving import begins
+from rapidgen.proving.instructions import fails
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.motion_task import begins
+from rapidgen.proving.track import Point, Position
 from rapidgen.rapid.builtins import signatures
+
+case = Theme("moving")
 
 _SHARE = 0.3
 """Of an axis' acceleration."""
@@ -47,7 +50,7 @@ def _named(name: str) -> Zone:
 
 
 def _legs(bench: Bench, points: Sequence[Point]) -> list[_Leg]:
-    geometry = bench.controller.motion.group(bench.group.name).kinematics
+    geometry = bench.motion_group.kinematics
     tool = (bench.group.tool.frame.position, bench.group.tool.frame.orientation)
 
     def tcp(joints: Position) -> frames.Vector:
@@ -106,7 +109,7 @@ def _part(joint: Joint) -> str:
 def _check(bench: Bench, points: Sequence[Point], what: str) -> None:
     """Send a trajectory that begins where the robot stands; each of its points has its zone."""
     moves: list[Move] = []
-    group = bench.controller.motion.group(bench.group.name)
+    group = bench.motion_group
     group.listeners.append(moves.append)
     link = bench.motion()
     link.send(bench.download(points))
@@ -167,6 +170,7 @@ def _usual(bench: Bench) -> list[float]:
     ]
 
 
+@case("corners", "each point's zone is as small as its axes follow", "R9")
 def _moving(bench: Bench) -> None:
     """One axis after another decides; slow ones, quick ones; ways that take unequal times."""
     usual, count = _usual(bench), len(bench.group.joints)
@@ -181,6 +185,7 @@ def _moving(bench: Bench) -> None:
     _check(bench, walk.points, "joints in turn")
 
 
+@case("largest-corner", "no zone is larger than the configured one", "R9")
 def _largest(bench: Bench) -> None:
     """A quick TCP that turns round: no corner is larger than the zone of the configuration."""
     if bench.group.tcp_speed_limit < 5:
@@ -195,6 +200,7 @@ def _largest(bench: Bench) -> None:
     _check(bench, walk.points, "a quick TCP")
 
 
+@case("resting-corner", "zones of axes that do not move the TCP", "R9")
 def _resting(bench: Bench) -> None:
     """Axes that do not move the TCP, where there are any: the last one, and some external ones."""
     usual, count = _usual(bench), len(bench.group.joints)
@@ -208,29 +214,21 @@ def _resting(bench: Bench) -> None:
             _check(bench, walk.points, f"joint {axis + 1}, which does not move the TCP")
 
 
+@case("unknown-corner", "a corner of unknown speed is as large as it may be", "R9")
 def _unknown(bench: Bench) -> None:
     """The TCP's speed cannot be told: the largest corner, and the trajectory goes on."""
     policy = bench.config.trajectory
     if policy.zone == "fine" or policy.corners == "zone" or not bench.group.chain:
         return
     zones: list[Zone] = []
-    group = bench.controller.motion.group(bench.group.name)
+    group = bench.motion_group
 
     def heard(move: Move) -> None:
         zones.append(move.zone)
 
     group.listeners.append(heard)
-    bench.fails("ROS_motion", "CalcRobT", "ERR_ROBLIMIT")
+    fails(bench, "ROS_motion", "CalcRobT", "ERR_ROBLIMIT")
     bench.moves_through(bench.motion(), bench.wave(6))
     group.listeners.remove(heard)
     if not any(_alike(zone, _named(policy.zone)) for zone in zones):
         raise Broken(f"CalcRobT has failed, the zones are {zones}")
-
-
-CASES = (
-    Case("corners", "each point's zone is as small as its axes follow", "moving", _moving, "R9"),
-    Case("largest-corner", "no zone is larger than the configured one", "moving", _largest, "R9"),
-    Case("unknown-corner", "a corner of unknown speed is as large as it may be", "moving", _unknown,
-         "R9"),
-    Case("resting-corner", "zones of axes that do not move the TCP", "moving", _resting, "R9"),
-)  # fmt: skip

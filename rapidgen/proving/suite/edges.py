@@ -3,13 +3,15 @@
 import math
 from itertools import pairwise
 
-from rapidgen.proving.bench import SETTLED, Bench
-from rapidgen.proving.link import STOP, Link, Point, Position, point_frame, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import changed, distance, small_unit
+from rapidgen.proving import messages
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
+from rapidgen.proving.messages import Comm, Reason, Special, TrajectoryState, decode
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.refusals import refused
-from rapidgen.wire.simple_message import decode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, small_unit
+
+case = Theme("edges")
 
 _LONGEST = 3600.0
 
@@ -25,7 +27,7 @@ def _taken(bench: Bench, points: list[Point], why: str) -> None:
     link = bench.motion()
     frames = [point_frame(n, len(points), *p) for n, p in enumerate(points[:-1])]
     link.send(b"".join(frames))
-    link.send(point_frame(len(points) - 1, len(points), *points[-1], spec.Comm.REQUEST))
+    link.send(point_frame(len(points) - 1, len(points), *points[-1], Comm.REQUEST))
     content = decode(link.expect_reply(5, "the end frame is answered"))
     if not isinstance(content, messages.Accepted):
         raise Broken(f"{why} is refused: {content}")
@@ -36,6 +38,7 @@ def _taken(bench: Bench, points: list[Point], why: str) -> None:
     bench.run(1.2)
 
 
+@case("durations", "the longest duration and those beyond", "R10")
 def _durations(bench: Bench) -> None:
     for seconds in (_LONGEST, 3599.0):
         points = bench.wave(4)
@@ -55,6 +58,7 @@ def _durations(bench: Bench) -> None:
         refused(bench, bench.download(points), [reason], 0, 0)
 
 
+@case("shortest-segment", "the shortest segment, and a short last one", "R9")
 def _shortest_segment(bench: Bench) -> None:
     shortest = bench.config.trajectory.min_segment
     if shortest < 0.005 or bench.config.trajectory.too_fast != "refuse":
@@ -72,6 +76,7 @@ def _shortest_segment(bench: Bench) -> None:
     _taken(bench, points, "a short last segment")
 
 
+@case("fastest", "each axis at its speed and above", "R10")
 def _fastest(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse" or bench.group.tcp_speed_limit < 5:
         return
@@ -95,6 +100,7 @@ def _fastest(bench: Bench) -> None:
                 refused(bench, bench.download(points), [Reason.TOO_FAST], axis + 1, 1)
 
 
+@case("rounding", "limits as rounding leaves them, and farther")
 def _limits_by_rounding(bench: Bench) -> None:
     """What lies outside a limit by rounding is the limit; what lies farther is refused."""
     link = bench.motion()
@@ -114,6 +120,7 @@ def _limits_by_rounding(bench: Bench) -> None:
             bench.stays(1, f"joint {axis + 1} was asked beyond its limit")
 
 
+@case("start-tolerance", "a start within tolerance is driven to, one beyond is refused", "R8")
 def _start_tolerance(bench: Bench) -> None:
     policy = bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
@@ -158,6 +165,7 @@ def _moved(bench: Bench, since: float) -> tuple[float, float]:
     return times[0], changes[-1]
 
 
+@case("takes-its-time", "motion and stays last as long as asked", "R8, R10")
 def _takes_its_time(bench: Bench) -> None:
     """A trajectory takes the sum of its durations, and stays where it is told to stay."""
     first, second, third, fourth = bench.wave(4, duration=0.5)
@@ -199,6 +207,7 @@ def _stood_at(bench: Bench, place: Position, since: float, seconds: float) -> bo
     return any(i + 1 < len(seen) and seen[i + 1][0] - seen[i][0] >= seconds - 0.2 for i in arrived)
 
 
+@case("stop-in-stay", "STOP while the robot stays at a point")
 def _stop_in_a_stay(bench: Bench) -> None:
     link = bench.motion()
     first, second, third = bench.wave(3)
@@ -211,6 +220,7 @@ def _stop_in_a_stay(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("approach", "a single point is approached slowly, or as slowly as asked", "R8")
 def _approach(bench: Bench) -> None:
     """One point, sent twice: at approach speed, or slower where more time is given."""
     link = bench.motion()
@@ -234,6 +244,7 @@ def _approach(bench: Bench) -> None:
             bench.run(0.2)
 
 
+@case("all-sizes", "messages in pieces of every size", "R2")
 def _pieces_of_all_sizes(bench: Bench) -> None:
     link = bench.motion()
     here = bench.position
@@ -254,6 +265,7 @@ def _pieces_of_all_sizes(bench: Bench) -> None:
         _moved(bench, since)
 
 
+@case("in-one-chunk", "messages across the driver's calls", "R2")
 def _in_one_chunk(bench: Bench) -> None:
     """More than a call of the driver can take at once, and points that lie across two calls."""
     link = bench.motion()
@@ -261,6 +273,7 @@ def _in_one_chunk(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(count, duration=0.15, size=0.02))
 
 
+@case("rest-skipped", "the rest of a refused trajectory is nothing")
 def _rest_is_skipped(bench: Bench) -> None:
     link = bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(6)]
@@ -282,36 +295,37 @@ def _rest_is_skipped(bench: Bench) -> None:
     link.send(raw_point(1, bench.position, 1.0))
     bench.stays(0.5, "it has no start")
     _blames(bench, state, number + 3, Reason.NO_START)
-    link.send(raw_point(int(spec.Sequence.END), bench.position, 1.0))
+    link.send(raw_point(int(Special.END), bench.position, 1.0))
     bench.run(0.5)
     bench.moves_through(link, bench.wave(4))
     for wrong in (-2, -5, 2, 1000):
         link.send(raw_point(-1, bench.position, 1.0) + raw_point(wrong, bench.position, 1.0))
         bench.stays(0.4, f"number {wrong} is no next one")
-        link.send(raw_point(int(spec.Sequence.END), bench.position, 1.0))
+        link.send(raw_point(int(Special.END), bench.position, 1.0))
         bench.run(0.3)
         if bench.progress(state).reason != Reason.SEQUENCE_GAP:
             raise Broken(f"number {wrong} behind a start is taken")
 
 
-def _blames(bench: Bench, state: Link, number: int, reason: Reason) -> None:
+def _blames(bench: Bench, state: RawLink, number: int, reason: Reason) -> None:
     bench.run(0.3)
     told = bench.progress(state)
     if (told.trajectory, told.state, told.reason) != (
         number,
-        spec.TrajectoryState.REFUSED,
+        TrajectoryState.REFUSED,
         reason,
     ):
         raise Broken(f"trajectory {number} had to be refused with {reason.name}, {told}")
 
 
+@case("replies-of-refused", "replies tell what became of the trajectory so far")
 def _replies_of_a_refused_one(bench: Bench) -> None:
     """Each request is answered by what has become of the trajectory so far."""
     link = bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(6)]
     points[3] = (changed(points[3][0], 1, bench.group.joints[1].upper + 1), 30.0)
     for number, point in enumerate(points):
-        link.send(point_frame(number, 6, *point, spec.Comm.REQUEST))
+        link.send(point_frame(number, 6, *point, Comm.REQUEST))
         content = decode(link.expect_reply(2, f"point {number} is answered"))
         if number < 3 and not isinstance(content, messages.Acknowledged):
             raise Broken(f"point {number} is right, the reply is {content}")
@@ -321,40 +335,18 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
     axis, here = 0, bench.position
     far = changed(here, axis, _inward(bench, axis, 0.3))
     link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, here, 9.0))
-    link.send(raw_point(1, here, 1.0, spec.Comm.REQUEST))
+    link.send(raw_point(1, here, 1.0, Comm.REQUEST))
     content = decode(link.expect_reply(2, "a point behind a refused end is answered"))
     if not isinstance(content, messages.Refused) or content.reason != Reason.NO_START:
         raise Broken(f"a point behind a refused end is answered by {content}")
-    link.send(raw_point(int(spec.Sequence.END), here, 1.0))
+    link.send(raw_point(int(Special.END), here, 1.0))
     bench.run(0.5)
     state = bench.watcher()
     number = bench.progress(state).trajectory
     good = bench.wave(3)
     for index, point in enumerate(good):
-        link.send(point_frame(index, 3, *point, spec.Comm.REQUEST))
+        link.send(point_frame(index, 3, *point, Comm.REQUEST))
         content = decode(link.expect_reply(3, f"point {index} is answered"))
     if content != messages.Accepted(number + 1):
         raise Broken(f"trajectory {number + 1} was taken, the reply is {content}")
     bench.wait_until_at(good[-1][0])
-
-
-CASES = (
-    Case("durations", "the longest duration and those beyond", "edges", _durations, "R10"),
-    Case("shortest-segment", "the shortest segment, and a short last one", "edges",
-         _shortest_segment, "R9"),
-    Case("fastest", "each axis at its speed and above", "edges", _fastest, "R10"),
-    Case("rounding", "limits as rounding leaves them, and farther", "edges", _limits_by_rounding),
-    Case("start-tolerance", "a start within tolerance is driven to, one beyond is refused",
-         "edges", _start_tolerance, "R8"),
-    Case("takes-its-time", "motion and stays last as long as asked", "edges", _takes_its_time,
-         "R8, R10"),
-    Case("stop-in-stay", "STOP while the robot stays at a point", "edges", _stop_in_a_stay),
-    Case("approach", "a single point is approached slowly, or as slowly as asked", "edges",
-         _approach, "R8"),
-    Case("all-sizes", "messages in pieces of every size", "edges", _pieces_of_all_sizes, "R2"),
-    Case("in-one-chunk", "messages across the driver's calls", "edges", _in_one_chunk, "R2"),
-    Case("rest-skipped", "the rest of a refused trajectory is nothing", "edges",
-         _rest_is_skipped),
-    Case("replies-of-refused", "replies tell what became of the trajectory so far", "edges",
-         _replies_of_a_refused_one),
-)  # fmt: skip

@@ -6,12 +6,14 @@ from itertools import pairwise
 
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.link import STOP, Point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
+from rapidgen.proving.link import STOP
+from rapidgen.proving.messages import TrajectoryState
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import Point, distance
 from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile, System
-from rapidgen.wire.simple_message.spec import TrajectoryState
+
+case = Theme("faults")
 
 
 def _back_to_work(bench: Bench, *actions: str) -> None:
@@ -20,6 +22,9 @@ def _back_to_work(bench: Bench, *actions: str) -> None:
         bench.run(0.05)
 
 
+@case(
+    "stop-every-statement", "a program stop at each statement of the motion task", "R7a", once=True
+)
 def _stopped_at_every_statement(bench: Bench) -> None:
     """A program stop, then Start or PP to main and Start, at each statement of the motion task."""
     other = bench.beside(bench.system, setting=replace(bench.setting, coverage=True))
@@ -63,6 +68,7 @@ def _stopped_at_every_statement(bench: Bench) -> None:
         other.close()
 
 
+@case("stop-and-more", "STOP and a new trajectory in one packet", "R5")
 def _stop_and_more_in_one_packet(bench: Bench) -> None:
     link = bench.motion()
     for delay in (0.0, 0.4):
@@ -81,6 +87,7 @@ def _stop_and_more_in_one_packet(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(3))
 
 
+@case("loop", "a way through its own end", "C6")
 def _loop(bench: Bench) -> None:
     """A way that passes its own end is not over there."""
     watcher, link = bench.watcher(), bench.motion()
@@ -102,6 +109,7 @@ def _loop(bench: Bench) -> None:
         raise Broken("the far end of a loop was left out")
 
 
+@case("close-points", "zones wider than segments, points at no distance", "R9")
 def _close_points(bench: Bench) -> None:
     """Zones wider than segments, and points at no distance worth a move."""
     link = bench.motion()
@@ -127,9 +135,10 @@ def _close_points(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(3))
 
 
+@case("override", "a speed override of 50 %")
 def _override(bench: Bench) -> None:
     """Half the speed: the same way, in twice the time."""
-    group = bench.controller.motion.group(bench.group.name)
+    group = bench.motion_group
     link = bench.motion()
     taken = []
     for override in (1.0, 0.5):
@@ -142,6 +151,7 @@ def _override(bench: Bench) -> None:
         raise Broken(f"at 50 % {taken[0]:.2f} s became {taken[1]:.2f} s")
 
 
+@case("manual-speed", "a trajectory in manual mode", background=True)
 def _manual_mode(bench: Bench) -> None:
     """In manual mode, with the program started by hand, a trajectory is followed more slowly."""
     bench.run(0.5)
@@ -163,6 +173,7 @@ def _garbled(value: object, chance: random.Random) -> object:
     return value
 
 
+@case("stale-data", "whatever persistent data hold at the start", "R7a", once=True)
 def _stale_data(bench: Bench) -> None:
     """Whatever PERS hold at the start, of a lock, a ring or a counter: nothing moves by itself."""
     chance = random.Random(bench.setting.seed)
@@ -200,6 +211,7 @@ def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:
         cell.set(_garbled(cell.v, chance))
 
 
+@case("half-files", "a module that was cut on its way", once=True)
 def _half_files(bench: Bench) -> None:
     """A module that was cut on its way: its task does not load, or nothing moves."""
     for share in (0.3, 0.7, 0.95):
@@ -208,6 +220,7 @@ def _half_files(bench: Bench) -> None:
             _moves_nothing(bench, with_module(bench.system, path, half), f"half of {path}")
 
 
+@case("second-main", "another module with a main")
 def _second_main(bench: Bench) -> None:
     """A module with a main of its own before ours: that one runs, and nothing is taken."""
     text = b"MODULE other\n    PROC main()\n        WaitTime 1;\n    ENDPROC\nENDMODULE\n"
@@ -245,6 +258,7 @@ def _moves_nothing(bench: Bench, system: System, what: str) -> None:
         other.close()
 
 
+@case("two-groups", "several groups at the same time", "R20")
 def _two_groups(bench: Bench) -> None:
     """Groups move at the same time, and a STOP for one stops no other."""
     if len(bench.config.groups) < 2:
@@ -270,6 +284,7 @@ def _two_groups(bench: Bench) -> None:
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
+@case("even-speed", "no slowing down at points of a straight way", "R9")
 def _even(bench: Bench) -> None:
     """A robot that moves at one speed is not slowed down at its points."""
     points = bench.wave(2)
@@ -296,21 +311,3 @@ def _even(bench: Bench) -> None:
             f"on a straight way the robot goes from {max(speeds):.3f} down to {min(speeds):.3f} "
             "rad/s at its points"
         )
-
-
-CASES = (
-    Case("stop-every-statement", "a program stop at each statement of the motion task", "faults",
-         _stopped_at_every_statement, "R7a"),
-    Case("stop-and-more", "STOP and a new trajectory in one packet", "faults",
-         _stop_and_more_in_one_packet, "R5"),
-    Case("loop", "a way through its own end", "faults", _loop, "C6"),
-    Case("close-points", "zones wider than segments, points at no distance", "faults",
-         _close_points, "R9"),
-    Case("override", "a speed override of 50 %", "faults", _override),
-    Case("manual-speed", "a trajectory in manual mode", "faults", _manual_mode),
-    Case("stale-data", "whatever persistent data hold at the start", "faults", _stale_data, "R7a"),
-    Case("half-files", "a module that was cut on its way", "faults", _half_files),
-    Case("second-main", "another module with a main", "faults", _second_main),
-    Case("two-groups", "several groups at the same time", "faults", _two_groups, "R20"),
-    Case("even-speed", "no slowing down at points of a straight way", "faults", _even, "R9"),
-)  # fmt: skip

@@ -4,8 +4,10 @@ import random
 
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import messages, spec
+from rapidgen.proving.messages import POINT_BYTES, Comm, ReplyCode
+from rapidgen.proving.model import Broken, Theme
+
+case = Theme("framing")
 
 ROUNDS = 60
 """Malformed openings of one run; `campaign` has more."""
@@ -29,17 +31,20 @@ def _good_client(bench: Bench) -> None:
     bench.run(0.1)
 
 
+@case("wrong-lengths", "a length out of bounds drops the client, the next one is served", "R2, R3")
 def _wrong_lengths(bench: Bench) -> None:
     for length in (-1, 0, 11, 1021, 65_536, 2**31 - 1, -(2**31)):
         _dropped_and_served(bench, _word(length))
 
 
+@case("wrong-size", "a point of another size drops the client", "R3")
 def _point_of_wrong_size(bench: Bench) -> None:
     for length in (12, 63, 65, 68):
         body = _word(length) + _word(11) + _word(1) + _word(0) + bytes(length - 12)
         _dropped_and_served(bench, body)
 
 
+@case("wrong-comm-type", "a comm_type that is none drops the client")
 def _wrong_comm_type(bench: Bench) -> None:
     good = bytearray(raw_point(-1, bench.position, 1.0))
     for comm in (0, 3, 7, -1):
@@ -47,6 +52,7 @@ def _wrong_comm_type(bench: Bench) -> None:
         _dropped_and_served(bench, bytes(good))
 
 
+@case("unknown-types", "messages of other types are passed over", "R3")
 def _unknown_types(bench: Bench) -> None:
     link = bench.motion()
     for number in (0, 2, 10, 13, 14, 20, 1399, -5):
@@ -59,14 +65,16 @@ def _unknown_types(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("unknown-request", "a request of another type gets a failure reply")
 def _unknown_request(bench: Bench) -> None:
     link = bench.motion()
     link.send(_word(12) + _word(20) + _word(2) + _word(0))
     frame = link.expect_reply(2, "a request of an unknown type is answered")
-    if (frame.comm, frame.reply) != (spec.Comm.REPLY, spec.ReplyCode.FAILURE):
+    if (frame.comm, frame.reply) != (Comm.REPLY, ReplyCode.FAILURE):
         raise Broken(f"a request of an unknown type is answered by {frame}")
 
 
+@case("breaks-in-download", "garbage in a download: nothing moves")
 def _breaks_in_a_download(bench: Bench) -> None:
     link = bench.motion()
     link.send(bench.download(bench.wave(6))[: 68 * 3 + 20] + b"\xff" * 64)
@@ -74,6 +82,7 @@ def _breaks_in_a_download(bench: Bench) -> None:
     _good_client(bench)
 
 
+@case("half-header", "a client that leaves within a message", "R2")
 def _half_header_and_end(bench: Bench) -> None:
     for size in (1, 3, 4, 15, 16, 67):
         link = bench.motion()
@@ -84,6 +93,7 @@ def _half_header_and_end(bench: Bench) -> None:
         _good_client(bench)
 
 
+@case("damage", "random damage moves nothing and stops no task", "R3")
 def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
     """Malformed frames in all ways; each time a good client is served afterwards."""
     chance = random.Random(bench.setting.seed)
@@ -111,7 +121,7 @@ def _malformed(bench: Bench, chance: random.Random) -> bytes:
         return b"".join(map(_word, fields)) + chance.randbytes(chance.randrange(0, 70))
     data = bytearray(bench.download(bench.wave(4)))
     # The end frame is always lost, so nothing may move whatever is left.
-    del data[-messages.JOINT_TRAJ_PT.length - 4 :]
+    del data[-(POINT_BYTES - 4) - 4 :]
     for _ in range(chance.randrange(1, 5)):
         at = chance.randrange(len(data))
         match chance.randrange(3):
@@ -124,22 +134,3 @@ def _malformed(bench: Bench, chance: random.Random) -> bytes:
         if not data:
             break
     return bytes(data)
-
-
-CASES = (
-    Case("wrong-lengths", "a length out of bounds drops the client, the next one is served",
-         "framing", _wrong_lengths, "R2, R3"),
-    Case("wrong-size", "a point of another size drops the client", "framing",
-         _point_of_wrong_size, "R3"),
-    Case("wrong-comm-type", "a comm_type that is none drops the client", "framing",
-         _wrong_comm_type),
-    Case("unknown-types", "messages of other types are passed over", "framing", _unknown_types,
-         "R3"),
-    Case("unknown-request", "a request of another type gets a failure reply", "framing",
-         _unknown_request),
-    Case("breaks-in-download", "garbage in a download: nothing moves", "framing",
-         _breaks_in_a_download),
-    Case("half-header", "a client that leaves within a message", "framing", _half_header_and_end,
-         "R2"),
-    Case("damage", "random damage moves nothing and stops no task", "framing", campaign, "R3"),
-)  # fmt: skip

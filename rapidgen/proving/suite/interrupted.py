@@ -8,20 +8,23 @@ from typing import Any
 
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.link import STOP, Link
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.suite.failing import set_counters
-from rapidgen.proving.suite.moving import at_call, begins, datum, patience, unit_of
+from rapidgen.proving.instructions import at_call, fails
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason, TrajectoryState
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.errors import set_counters
+from rapidgen.proving.suite.motion_task import begins, datum, patience, unit_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
-from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
-_TRAJ = messages.JOINT_TRAJ_PT.number
+case = Theme("interrupted")
+
+_TRAJ = JOINT_TRAJ_PT
 
 
-def _ended(bench: Bench, watcher: Link, reason: Reason, what: str) -> messages.Progress:
+def _ended(bench: Bench, watcher: RawLink, reason: Reason, what: str) -> messages.Progress:
     """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
     told = bench.progress(watcher)
     stopped = reason is Reason.STOPPED
@@ -31,7 +34,7 @@ def _ended(bench: Bench, watcher: Link, reason: Reason, what: str) -> messages.P
     return told
 
 
-def _works(bench: Bench, link: Link) -> None:
+def _works(bench: Bench, link: RawLink) -> None:
     """A trajectory begins soon, and comes to its end in time."""
     unit = unit_of(bench)
     points, sent = bench.wave(2, duration=unit), bench.now
@@ -41,6 +44,7 @@ def _works(bench: Bench, link: Link) -> None:
     bench.run(0.1)
 
 
+@case("before-a-move", "a stop of the program just before a move", "R7a", background=True)
 def _before_a_move(bench: Bench) -> None:
     """Stop and Start while the motion task stands just before a move: it does not begin."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -59,6 +63,7 @@ def _before_a_move(bench: Bench) -> None:
         _works(bench, link)
 
 
+@case("first-reason", "the first of two reasons counts", background=True)
 def _first_reason(bench: Bench) -> None:
     """Of two that come together the first one counts, and the trajectory ends once."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -116,6 +121,7 @@ def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
     return under_way
 
 
+@case("late-point", "a point of a stopped trajectory that comes late", "R5")
 def _late_point(bench: Bench) -> None:
     """A point of a stopped trajectory that is announced late is dropped."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -156,7 +162,7 @@ def _bare(system: System, *events: str) -> System:
     return replace(system, signals=(), outputs=(), cross=(), events=kept)
 
 
-def _moves(bench: Bench, link: Link) -> None:
+def _moves(bench: Bench, link: RawLink) -> None:
     """A trajectory is on its way from its point 1 to 2."""
     unit = unit_of(bench)
     link.send(bench.download(bench.wave(6, duration=unit)))
@@ -164,6 +170,7 @@ def _moves(bench: Bench, link: Link) -> None:
     bench.run(1.6 * unit)
 
 
+@case("unseen", "stops that neither a signal nor an event routine shows", "R15", background=True)
 def _unseen(bench: Bench) -> None:
     """No signals and no event routines: a stop is seen by the mode, or when main begins anew."""
     with _beside(bench, _bare(bench.system)) as other:
@@ -198,6 +205,7 @@ def _unseen(bench: Bench) -> None:
             _works(other, link)
 
 
+@case("start-alone", "event routines drop the path by themselves", "R7a", background=True)
 def _start_alone(bench: Bench) -> None:
     """Start runs an event routine, and an emergency stop does: both drop the path by themselves."""
     with _beside(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
@@ -208,7 +216,7 @@ def _start_alone(bench: Bench) -> None:
                 other.controller.perform(action)
             else:
                 # It ends, and with it the program stops.
-                other.fails("ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+                fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
             other.wait_until_standing(1)
             other.run(patience(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
@@ -220,6 +228,7 @@ def _start_alone(bench: Bench) -> None:
                 _works(other, link)
 
 
+@case("without-routines", "no event routine, and counters that begin anew", "R7a", background=True)
 def _without_routines(bench: Bench) -> None:
     """Signals, and no event routines: the supervisor alone ends all. Counters begin anew."""
     with _beside(bench, replace(bench.system, events=()), early=True) as other:
@@ -266,14 +275,16 @@ def _without_routines(bench: Bench) -> None:
         _works(other, other.motion())
 
 
-def _pause(bench: Bench, control: Link, paused: int) -> None:
+def _pause(bench: Bench, control: RawLink, paused: int) -> None:
     told = control.ask(messages.Pause(paused))
     bench.run(0.1)
     if told != messages.Acknowledged() or bench.standing != bool(paused):
         raise Broken(f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}")
 
 
-def _pauses_at_its_end(bench: Bench, watcher: Link, link: Link, control: Link | None) -> None:
+def _pauses_at_its_end(
+    bench: Bench, watcher: RawLink, link: RawLink, control: RawLink | None
+) -> None:
     """A trajectory that is paused on its way, and in the stay at its end."""
     unit = unit_of(bench)
     way = bench.wave(2, duration=unit)
@@ -294,7 +305,7 @@ def _pauses_at_its_end(bench: Bench, watcher: Link, link: Link, control: Link | 
         raise Broken(f"a trajectory that was paused in its last stay is over: {told}, {status}")
 
 
-def _refills(bench: Bench, link: Link) -> None:
+def _refills(bench: Bench, link: RawLink) -> None:
     """A trajectory that does not fit into the ring goes on behind the first points."""
     count = bench.config.trajectory.ring + 12
     if count > bench.config.trajectory.capacity:
@@ -311,6 +322,7 @@ def _refills(bench: Bench, link: Link) -> None:
     bench.run(patience(bench))
 
 
+@case("stale-build", "a module was exchanged, and its task shows what it did")
 def _stale_build(bench: Bench) -> None:
     """A module of another build, in a task that has shown the right one before."""
     build = bench.system.build_id.encode()
@@ -331,20 +343,3 @@ def _stale_build(bench: Bench) -> None:
         told = other.progress(watcher)
         if (told.state, told.reason) != (TrajectoryState.REFUSED, Reason.BUILD_MISMATCH):
             raise Broken(f"modules of the motion task are of different builds, {told}")
-
-
-CASES = (
-    Case("before-a-move", "a stop of the program just before a move", "interrupted",
-         _before_a_move, "R7a"),
-    Case("first-reason", "the first of two reasons counts", "interrupted", _first_reason),
-    Case("late-point", "a point of a stopped trajectory that comes late", "interrupted",
-         _late_point, "R5"),
-    Case("unseen", "stops that neither a signal nor an event routine shows", "interrupted",
-         _unseen, "R15"),
-    Case("start-alone", "event routines drop the path by themselves", "interrupted",
-         _start_alone, "R7a"),
-    Case("stale-build", "a module was exchanged, and its task shows what it did", "interrupted",
-         _stale_build),
-    Case("without-routines", "no event routine, and counters that begin anew", "interrupted",
-         _without_routines, "R7a"),
-)  # fmt: skip

@@ -3,12 +3,14 @@
 from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import Link, Point, point_frame
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import changed, distance
+from rapidgen.proving.link import RawLink, point_frame
+from rapidgen.proving.messages import Reason, TriState
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
-from rapidgen.proving.suite.streaming import way
-from rapidgen.wire.simple_message.spec import Reason, TriState
+from rapidgen.proving.suite.streams import way
+from rapidgen.proving.track import Point, changed, distance
+
+case = Theme("joints")
 
 _BEYOND = 0.01
 """rad or m outside a limit: more than rounding."""
@@ -54,6 +56,7 @@ class _Blame:
         self._stream.link.close()
 
 
+@case("stream-joints", "limits, speed and start of each joint of a stream", "R10, R11")
 def _joints_of_a_stream(bench: Bench) -> None:
     policy, here = bench.config.trajectory, bench.position
     blame = _Blame(bench)
@@ -84,6 +87,7 @@ def _joints_of_a_stream(bench: Bench) -> None:
         raise Broken("the way to the first point of a stream took as long as its duration says")
 
 
+@case("away-from-zero", "short ways where no joint is near zero")
 def _away_from_zero(bench: Bench) -> None:
     """Where no joint is near zero, short ways are short, and nothing else is changed."""
     link = bench.motion()
@@ -98,6 +102,7 @@ def _away_from_zero(bench: Bench) -> None:
     bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
 
 
+@case("controller-error", "an error of the controller is in STATUS")
 def _controller_error(bench: Bench) -> None:
     """What the controller calls an error, a movement or an emergency stop is one, for so long."""
     names = {s.function: signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS}
@@ -119,6 +124,7 @@ def _controller_error(bench: Bench) -> None:
         raise Broken(f"all signals are as they were, STATUS says {status}")
 
 
+@case("one-signal-missing", "each signal missing alone", "R15", background=True)
 def _one_signal_missing(bench: Bench) -> None:
     """A signal that is not there at a start is unknown; all the others are as they were."""
     signals, off, on = bench.controller.io.signals, TriState.FALSE, TriState.TRUE
@@ -148,7 +154,7 @@ def _one_signal_missing(bench: Bench) -> None:
     _shown(bench, bench.watcher(), "all signals are back", "", on, off, 1)
 
 
-def _is_seen(bench: Bench, state: Link, function: str, value: int, *, seen: bool) -> None:
+def _is_seen(bench: Bench, state: RawLink, function: str, value: int, *, seen: bool) -> None:
     """Broken unless STATUS shows what another signal says, and what it no longer says."""
     name = next(
         signal_name(bench.config, bench.group, s) for s in STATUS_SIGNALS if s.function == function
@@ -172,7 +178,13 @@ def _power_again(bench: Bench) -> None:
 
 
 def _shown(
-    bench: Bench, state: Link, when: str, missing: str, powered: int, e_stopped: int, possible: int
+    bench: Bench,
+    state: RawLink,
+    when: str,
+    missing: str,
+    powered: int,
+    e_stopped: int,
+    possible: int,
 ) -> None:
     status = bench.status(state)
     wanted = (
@@ -182,13 +194,3 @@ def _shown(
     )
     if (status.drives_powered, status.e_stopped, status.motion_possible) != wanted:
         raise Broken(f"{when}, without the signal for {missing}, STATUS says {status}")
-
-
-CASES = (
-    Case("stream-joints", "limits, speed and start of each joint of a stream", "joints",
-         _joints_of_a_stream, "R10, R11"),
-    Case("away-from-zero", "short ways where no joint is near zero", "joints", _away_from_zero),
-    Case("controller-error", "an error of the controller is in STATUS", "joints",
-         _controller_error),
-    Case("one-signal-missing", "each signal missing alone", "joints", _one_signal_missing, "R15"),
-)  # fmt: skip

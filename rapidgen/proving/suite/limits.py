@@ -5,14 +5,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rapidgen.config.model import Joint
-from rapidgen.machine.configuration import arm_name
 from rapidgen.machine.log import EventType
+from rapidgen.machine.system_parameters import arm_name
+from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.link import Link, Position, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import decode, messages
-from rapidgen.wire.simple_message.declaration import Content
-from rapidgen.wire.simple_message.spec import Comm, Reason
+from rapidgen.proving.link import RawLink, raw_point
+from rapidgen.proving.messages import Comm, Reason, decode
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import Position
+
+case = Theme("limits")
 
 _SAID = {
     "are narrower": (EventType.WARNING, "Those of the controller count."),
@@ -78,7 +80,7 @@ def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_Told]:
     ]
 
 
-def _hello(link: Link) -> messages.HelloReply:
+def _hello(link: RawLink) -> messages.HelloReply:
     told = link.ask(HELLO)
     link.close()
     if not isinstance(told, messages.HelloReply):
@@ -137,7 +139,7 @@ class _Cell:
         return told
 
 
-def _answer(link: Link, others: Position, axis: int, value: float) -> Content:
+def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.Content:
     """The reply to a point with that value. Its trajectory gets no end, so nothing moves."""
     link.send(raw_point(-1, (*others[:axis], value, *others[axis + 1 :]), 1.0, Comm.REQUEST))
     return decode(link.expect_reply(2, "a point is answered"))
@@ -152,6 +154,7 @@ def _are(text: str, whose: str, joint: Joint, lower: float, upper: float) -> Non
             raise Broken(f"a limit of {limit:.3f} {unit} is told in {text!r}")
 
 
+@case("limits-as-told", "limits that the controller tells of each joint, or does not", "R11")
 def _limits_as_told(bench: Bench) -> None:
     """Each joint with some kinds of difference, one after another, and at last with its own."""
     joints, cell = bench.group.joints, _Cell(bench)
@@ -190,6 +193,7 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
     bench.stays(0.5, "no trajectory was sent to its end")
 
 
+@case("limits-without-sense", "a joint of which no range is left")
 def _limits_without_sense(bench: Bench) -> None:
     """Nobody knows where such a joint may be: no point is taken, wherever it is."""
     if not bench.setting.dialect.axis_limits_told:
@@ -211,11 +215,3 @@ def _limits_without_sense(bench: Bench) -> None:
             if answer != messages.Refused(Reason.JOINT_LIMIT, 0, axis + 1):
                 raise Broken(f"nothing is left of joint {axis + 1}, it is at {value}: {answer}")
         bench.stays(0.5, "a joint has no range")
-
-
-CASES = (
-    Case("limits-as-told", "limits that the controller tells of each joint, or does not", "limits",
-         _limits_as_told, "R11"),
-    Case("limits-without-sense", "a joint of which no range is left", "limits",
-         _limits_without_sense),
-)  # fmt: skip

@@ -2,15 +2,18 @@
 
 from functools import partial
 
-from rapidgen.proving.bench import SETTLED, Bench
-from rapidgen.proving.link import STOP, Link, Point, point_frame, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
+from rapidgen.proving import messages
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
+from rapidgen.proving.messages import PING, Comm, Reason, decode, encode
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
-from rapidgen.wire.simple_message import decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.track import SETTLED, Point, distance
+
+case = Theme("links")
 
 
+@case("leaves-in-download", "a client that leaves in its download moves nothing")
 def _leaves_in_a_download(bench: Bench) -> None:
     for abort in (False, True):
         link = bench.motion()
@@ -25,7 +28,7 @@ def _leaves_in_a_download(bench: Bench) -> None:
 def _has_no_start(bench: Bench) -> None:
     """Nothing of what one client has sent counts for the next."""
     link = bench.motion()
-    link.send(raw_point(5, bench.position, 1.0, spec.Comm.REQUEST))
+    link.send(raw_point(5, bench.position, 1.0, Comm.REQUEST))
     told = decode(link.expect_reply(2, "a point without a start is answered"))
     if not isinstance(told, messages.Refused) or told.reason != Reason.NO_START:
         raise Broken(f"a point without a start is answered by {told}")
@@ -33,6 +36,7 @@ def _has_no_start(bench: Bench) -> None:
     bench.run(0.2)
 
 
+@case("leaves-moving", "the robot does not go on for a client that has left")
 def _leaves_while_moving(bench: Bench) -> None:
     for abort in (False, True):
         points = bench.wave(20)
@@ -55,12 +59,14 @@ def _moves(bench: Bench) -> None:
     bench.run(0.2)
 
 
+@case("idle-client", "an idle client is never timed out")
 def _idle_client(bench: Bench) -> None:
     link = bench.motion()
     bench.stays(900, "nobody asked for anything")
     bench.moves_through(link, bench.wave(4))
 
 
+@case("newest-takes-over", "the newest client is served", "R12")
 def _newest_takes_over(bench: Bench) -> None:
     old = bench.motion()
     bench.moves_through(old, bench.wave(3))
@@ -69,6 +75,7 @@ def _newest_takes_over(bench: Bench) -> None:
     bench.moves_through(new, bench.wave(3))
 
 
+@case("dead-peer", "a peer that died without a word blocks nobody", "R12")
 def _dead_peer(bench: Bench) -> None:
     old = bench.motion()
     bench.moves_through(old, bench.wave(3))
@@ -79,6 +86,7 @@ def _dead_peer(bench: Bench) -> None:
         bench.moves_through(fresh, bench.wave(3))
 
 
+@case("state-comes-back", "a state client that comes back is served", "R13")
 def _state_client_comes_back(bench: Bench) -> None:
     for abort in (False, True, False):
         link = bench.state()
@@ -89,6 +97,7 @@ def _state_client_comes_back(bench: Bench) -> None:
     bench.status(link, 5)
 
 
+@case("come-and-go", "many short connections")
 def _many_come_and_go(bench: Bench) -> None:
     for _ in range(40):
         link = bench.motion()
@@ -98,18 +107,18 @@ def _many_come_and_go(bench: Bench) -> None:
     _moves(bench)
 
 
-def _pings(bench: Bench, link: Link, seconds: float = 0.1, *, slowly: bool = False) -> None:
+def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = False) -> None:
     """PING and its reply; `slowly`: in single bytes."""
-    data = encode(messages.Ping(), spec.Comm.REQUEST)
+    data = encode(messages.Ping(), Comm.REQUEST)
     for byte in data[:-1] if slowly else b"":
         link.send(bytes([byte]))
         bench.run(0.012)
     link.send(data[-1:] if slowly else data)
-    if not isinstance(link.reply(messages.PING.number, seconds), messages.Acknowledged):
+    if not isinstance(link.reply(PING, seconds), messages.Acknowledged):
         raise Broken("PING is not confirmed")
 
 
-def _silent(bench: Bench, old: Link, what: str, points: list[Point]) -> Link:
+def _silent(bench: Bench, old: RawLink, what: str, points: list[Point]) -> RawLink:
     """A newer client waits until the one before has been silent for a second, whatever moves."""
     place, stream = bench.position, Streamer(bench, old)
     if "stream" in what:
@@ -146,6 +155,7 @@ def _silent(bench: Bench, old: Link, what: str, points: list[Point]) -> Link:
     return new
 
 
+@case("silent-at-rest", "a newer client waits for a second of silence", "R12")
 def _silent_at_rest(bench: Bench) -> None:
     old = bench.motion()
     for _ in range(2):
@@ -153,6 +163,7 @@ def _silent_at_rest(bench: Bench) -> None:
         old = _silent(bench, old, "nothing", [])
 
 
+@case("silent-while-fed", "a client that is silent while its trajectory is fed", "R12")
 def _silent_while_fed(bench: Bench) -> None:
     policy = bench.config.trajectory
     # Slow points: the last few do not find room in the ring for seconds.
@@ -160,6 +171,7 @@ def _silent_while_fed(bench: Bench) -> None:
     _silent(bench, bench.motion(), "fed", bench.wave(count, duration=1.5, size=0.1))
 
 
+@case("silent-while-moving", "a client that is silent while its trajectory or stream moves", "R12")
 def _silent_while_moving(bench: Bench) -> None:
     """Over the other socket of the server, too."""
     place, old = bench.position, bench.motion()
@@ -169,10 +181,11 @@ def _silent_while_moving(bench: Bench) -> None:
         bench.wait_until_at(place, 5)
 
 
-def _is_lost(link: Link) -> bool:
+def _is_lost(link: RawLink) -> bool:
     return link.lost
 
 
+@case("server-breaks", "a server socket that breaks is opened again")
 def _server_breaks(bench: Bench) -> None:
     """A server socket that breaks is opened again."""
     network, ports = bench.controller.network, bench.group.ports
@@ -197,24 +210,3 @@ def _server_breaks(bench: Bench) -> None:
                 _pings(bench, bench.control(), 0.3)
             link.close()
             bench.run(0.2)
-
-
-CASES = (
-    Case("leaves-in-download", "a client that leaves in its download moves nothing", "links",
-         _leaves_in_a_download),
-    Case("leaves-moving", "the robot does not go on for a client that has left", "links",
-         _leaves_while_moving),
-    Case("idle-client", "an idle client is never timed out", "links", _idle_client),
-    Case("newest-takes-over", "the newest client is served", "links", _newest_takes_over, "R12"),
-    Case("dead-peer", "a peer that died without a word blocks nobody", "links", _dead_peer, "R12"),
-    Case("state-comes-back", "a state client that comes back is served", "links",
-         _state_client_comes_back, "R13"),
-    Case("come-and-go", "many short connections", "links", _many_come_and_go),
-    Case("silent-at-rest", "a newer client waits for a second of silence", "links",
-         _silent_at_rest, "R12"),
-    Case("silent-while-fed", "a client that is silent while its trajectory is fed", "links",
-         _silent_while_fed, "R12"),
-    Case("silent-while-moving", "a client that is silent while its trajectory or stream moves",
-         "links", _silent_while_moving, "R12"),
-    Case("server-breaks", "a server socket that breaks is opened again", "links", _server_breaks),
-)  # fmt: skip

@@ -3,11 +3,23 @@
 import math
 from collections.abc import Sequence
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import Point, point_frame, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import decode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.link import point_frame, raw_point
+from rapidgen.proving.messages import (
+    MAX_JOINTS,
+    POINT_BYTES,
+    Comm,
+    Reason,
+    TrajectoryState,
+    decode,
+    split_error_code,
+    text_of,
+)
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import Point
+
+case = Theme("refused")
 
 
 def refused(
@@ -19,16 +31,16 @@ def refused(
     """
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
-    bench.stays(3, f"it had to be refused: {reasons[0].text}")
+    bench.stays(3, f"it had to be refused: {text_of(reasons[0])}")
     status, told = bench.status(state), bench.progress(state)
-    reason, wrong = spec.split_error_code(status.error_code)
+    reason, wrong = split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
         names = " or ".join(r.name for r in reasons)
         raise Broken(
             f"wanted in_error with {names}{f' of joint {joint}' if joint else ''}, STATUS says "
             f"in_error {status.in_error}, error_code {status.error_code}"
         )
-    if (told.state, told.reason, told.joint) != (spec.TrajectoryState.REFUSED, reason, wrong):
+    if (told.state, told.reason, told.joint) != (TrajectoryState.REFUSED, reason, wrong):
         raise Broken(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
     if point == 0 and reason != Reason.START_TOO_FAR and told.received:
         raise Broken(f"the first point had to be refused, PROGRESS says {told}")
@@ -50,12 +62,14 @@ def _changed(points: Sequence[Point], index: int, joints: Sequence[float]) -> li
     return changed
 
 
+@case("too-many-points", "one point over the capacity: nothing moves", "R1")
 def _too_many(bench: Bench) -> None:
     capacity = bench.config.trajectory.capacity
     frames = bench.download(bench.wave(capacity + 1, duration=0.2, size=0.01))
     refused(bench, frames, [Reason.CAPACITY], point=capacity)
 
 
+@case("hole", "a missing point: nothing moves", "C4")
 def _hole(bench: Bench) -> None:
     points = bench.wave(8)
     for missing in (1, 4, 6):
@@ -67,12 +81,14 @@ def _hole(bench: Bench) -> None:
             refused(bench, frames, [Reason.SEQUENCE_GAP], point=missing)
 
 
+@case("twice", "a point that comes twice: nothing moves")
 def _twice(bench: Bench) -> None:
     points = bench.wave(6)
     frames = [point_frame(n, len(points), *point) for n, point in enumerate(points)]
     refused(bench, b"".join([*frames[:3], frames[2], *frames[3:]]), [Reason.SEQUENCE_GAP], point=3)
 
 
+@case("not-finite", "NaN and infinity in any joint")
 def _not_finite(bench: Bench) -> None:
     for value in (math.nan, math.inf, -math.inf):
         for axis in range(len(bench.position)):
@@ -87,6 +103,7 @@ def _not_finite(bench: Bench) -> None:
             )
 
 
+@case("duration-not-finite", "NaN, infinite and negative durations", "R10")
 def _duration_not_finite(bench: Bench) -> None:
     for value in (math.nan, math.inf, -1.0):
         points = bench.wave(4)
@@ -94,6 +111,7 @@ def _duration_not_finite(bench: Bench) -> None:
         refused(bench, bench.download(points), [Reason.NOT_FINITE, Reason.BAD_DURATION])
 
 
+@case("outside-limits", "a joint outside its limits", "R11")
 def _outside_limits(bench: Bench) -> None:
     for axis, joint in enumerate(bench.group.joints):
         for value in (joint.lower - 0.01, joint.upper + 0.01):
@@ -103,6 +121,7 @@ def _outside_limits(bench: Bench) -> None:
             refused(bench, bench.download(longer), [Reason.JOINT_LIMIT], axis + 1, 2)
 
 
+@case("start-too-far", "a first point too far from the robot", "R8")
 def _start_too_far(bench: Bench) -> None:
     points = bench.wave(4)
     for axis, joint in enumerate(bench.group.joints):
@@ -118,6 +137,7 @@ def _start_too_far(bench: Bench) -> None:
         refused(bench, bench.download(points), [Reason.START_TOO_FAR], axis + 1, 0)
 
 
+@case("too-fast", "a duration that an axis cannot meet", "R10")
 def _too_fast(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "refuse":
         return
@@ -134,6 +154,7 @@ def _too_fast(bench: Bench) -> None:
         refused(bench, bench.download(points), [Reason.TOO_FAST, Reason.TCP_TOO_FAST], axis + 1, 1)
 
 
+@case("segment-too-short", "a segment that the planner cannot follow", "R9")
 def _segment_too_short(bench: Bench) -> None:
     shortest = bench.config.trajectory.min_segment
     if bench.config.trajectory.too_fast != "refuse" or shortest < 0.005:
@@ -143,9 +164,10 @@ def _segment_too_short(bench: Bench) -> None:
     refused(bench, bench.download(points), [Reason.SEGMENT_TOO_SHORT], point=2)
 
 
+@case("padding", "values for joints that the robot does not have")
 def _padding(bench: Bench) -> None:
     count = len(bench.position)
-    for extra in range(count, spec.MAX_JOINTS):
+    for extra in range(count, MAX_JOINTS):
         points = bench.wave(3)
         padded = [
             raw_point(s, [*p, *[0.0] * (extra - count), 0.5], d)
@@ -154,13 +176,15 @@ def _padding(bench: Bench) -> None:
         refused(bench, b"".join(padded), [Reason.BAD_PADDING], extra + 1, 0)
 
 
+@case("no-end", "without an end frame nothing moves")
 def _no_end(bench: Bench) -> None:
     points = bench.wave(5)
     link = bench.motion()
-    link.send(bench.download(points)[: -messages.JOINT_TRAJ_PT.length - 4])
+    link.send(bench.download(points)[: -(POINT_BYTES - 4) - 4])
     bench.stays(5, "its end frame has not come")
 
 
+@case("reasons", "a request is told reason, point and joint")
 def _requests_are_told_why(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(4)
@@ -168,7 +192,7 @@ def _requests_are_told_why(bench: Bench) -> None:
     points = [(p, 30.0) for p, _ in _changed(points, 2, joints)]
     replies = []
     for number, (target, duration) in enumerate(points):
-        link.send(point_frame(number, len(points), target, duration, spec.Comm.REQUEST))
+        link.send(point_frame(number, len(points), target, duration, Comm.REQUEST))
         replies.append(link.expect_reply(2, f"point {number} is answered"))
     content = decode(replies[-1])
     if not isinstance(content, messages.Refused) or content.reason != Reason.JOINT_LIMIT:
@@ -176,23 +200,3 @@ def _requests_are_told_why(bench: Bench) -> None:
     if (content.point, content.joint) != (2, 1):
         raise Broken(f"the reply blames point {content.point}, joint {content.joint}")
     bench.stays(2, "it was refused")
-
-
-CASES = (
-    Case("too-many-points", "one point over the capacity: nothing moves", "refused", _too_many,
-         "R1"),
-    Case("hole", "a missing point: nothing moves", "refused", _hole, "C4"),
-    Case("twice", "a point that comes twice: nothing moves", "refused", _twice),
-    Case("not-finite", "NaN and infinity in any joint", "refused", _not_finite),
-    Case("duration-not-finite", "NaN, infinite and negative durations", "refused",
-         _duration_not_finite, "R10"),
-    Case("outside-limits", "a joint outside its limits", "refused", _outside_limits, "R11"),
-    Case("start-too-far", "a first point too far from the robot", "refused", _start_too_far, "R8"),
-    Case("too-fast", "a duration that an axis cannot meet", "refused", _too_fast, "R10"),
-    Case("segment-too-short", "a segment that the planner cannot follow", "refused",
-         _segment_too_short, "R9"),
-    Case("padding", "values for joints that the robot does not have", "refused", _padding),
-    Case("no-end", "without an end frame nothing moves", "refused", _no_end),
-    Case("reasons", "a request is told reason, point and joint", "refused",
-         _requests_are_told_why),
-)  # fmt: skip

@@ -1,12 +1,15 @@
 """What was sent while the program did not execute is nothing, whoever finds it on Start."""
 
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.model import Case
+from rapidgen.proving.model import Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
+
+case = Theme("restarts")
 
 _STOPS = ("stop", "e-stop", "motors-off")
 
 
+@case("sent-meanwhile", "what comes while the program is stopped is nothing on Start", "R7a")
 def _sent_meanwhile(bench: Bench) -> None:
     """Over a link that is known, and over one that waits to be accepted."""
     for action in _STOPS:
@@ -25,6 +28,7 @@ def _sent_meanwhile(bench: Bench) -> None:
         _served(bench)
 
 
+@case("half-sent-before", "a trajectory that a stop divides is none", "R7a")
 def _half_sent_before(bench: Bench) -> None:
     """The end of a trajectory whose beginning came before the stop."""
     for action in _STOPS:
@@ -40,6 +44,7 @@ def _half_sent_before(bench: Bench) -> None:
         _served(bench)
 
 
+@case("stopped-while-taken", "a stop at any moment of the hand-over", "R7a")
 def _stopped_while_taken(bench: Bench) -> None:
     """The stop comes while a trajectory is received and handed over."""
     for number in range(12):
@@ -55,6 +60,7 @@ def _stopped_while_taken(bench: Bench) -> None:
     _served(bench)
 
 
+@case("batches-meanwhile", "batches that come while the program is stopped", "R7a")
 def _batches(bench: Bench) -> None:
     """A stream that begins, or goes on, while the program is stopped."""
     for number, before in enumerate((0, 8), 1):
@@ -84,15 +90,3 @@ def _served(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
     link.close()
     bench.run(0.5)
-
-
-CASES = (
-    Case("sent-meanwhile", "what comes while the program is stopped is nothing on Start",
-         "restarts", _sent_meanwhile, "R7a"),
-    Case("half-sent-before", "a trajectory that a stop divides is none", "restarts",
-         _half_sent_before, "R7a"),
-    Case("stopped-while-taken", "a stop at any moment of the hand-over", "restarts",
-         _stopped_while_taken, "R7a"),
-    Case("batches-meanwhile", "batches that come while the program is stopped", "restarts",
-         _batches, "R7a"),
-)  # fmt: skip

@@ -3,28 +3,30 @@
 import struct
 from itertools import product
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import Link
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import encode, messages, spec
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import JOINT_TRAJ_PT, PING, Comm, encode
+from rapidgen.proving.model import Broken, Theme
 
-_PING = encode(messages.Ping(), spec.Comm.REQUEST)
+case = Theme("framing")
+
+_PING = encode(messages.Ping(), Comm.REQUEST)
 
 
-def _pings(link: Link, what: str) -> None:
-    if not isinstance(link.reply(messages.PING.number, 0.3), messages.Acknowledged):
+def _pings(link: RawLink, what: str) -> None:
+    if not isinstance(link.reply(PING, 0.3), messages.Acknowledged):
         raise Broken(f"{what}: PING is not confirmed")
 
 
+@case("whole-headers", "lengths at their bounds and beyond, in whole headers", "R3")
 def _whole_headers(bench: Bench) -> None:
     """A length out of bounds, whatever type comes with it, and wherever it lies."""
     lengths = (-(2**31), -1024, -16, -1, 0, 11, 1021, 100_000)
-    for length, number in product(
-        lengths, (messages.PING.number, messages.JOINT_TRAJ_PT.number, 1399)
-    ):
+    for length, number in product(lengths, (PING, JOINT_TRAJ_PT, 1399)):
         for before in (b"", _PING):
             link = bench.motion()
-            head = struct.pack("<4i", length, number, spec.Comm.REQUEST, 0)
+            head = struct.pack("<4i", length, number, Comm.REQUEST, 0)
             link.send(before + head)
             what = f"a message of type {number} and {length} bytes"
             if before:
@@ -47,7 +49,7 @@ def _whole_headers(bench: Bench) -> None:
         bench.run(0.02)
     for _ in range(3):
         _pings(link, "PING in pieces, and another one behind it")
-    longest = struct.pack("<4i", 1020, 1399, spec.Comm.TOPIC, 0) + bytes(1008)
+    longest = struct.pack("<4i", 1020, 1399, Comm.TOPIC, 0) + bytes(1008)
     for size in (16, 500, 1024):
         for at in range(0, len(longest), size):
             link.send(longest[at : at + size])
@@ -57,6 +59,7 @@ def _whole_headers(bench: Bench) -> None:
     bench.stays(0.5, "nobody asked for motion")
 
 
+@case("ports-open", "ports that are taken are waited for, then stay open", "R18")
 def _ports_open(bench: Bench) -> None:
     """Ports that are taken at the start are tried again each second, then stay open."""
     network, ports = bench.controller.network, bench.group.ports
@@ -98,11 +101,3 @@ def _ports_open(bench: Bench) -> None:
         bench.run(0.2)
     if changes:
         raise Broken(f"clients came and went, ports were opened or closed at {changes}")
-
-
-CASES = (
-    Case("whole-headers", "lengths at their bounds and beyond, in whole headers", "framing",
-         _whole_headers, "R3"),
-    Case("ports-open", "ports that are taken are waited for, then stay open", "framing",
-         _ports_open, "R18"),
-)  # fmt: skip

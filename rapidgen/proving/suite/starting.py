@@ -2,12 +2,14 @@
 
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import raw_point
-from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.messages import POINT_BYTES, Reason, TrajectoryState
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
-from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+
+case = Theme("controller")
 
 
+@case("one-module-of-another", "a module of another build that several tasks load")
 def _one_other(bench: Bench) -> None:
     """Each task with a module of another build says so, and no other task does."""
     tasks = [t for t in bench.system.tasks if t.mechanical_unit_group == bench.mechanical_unit]
@@ -33,6 +35,7 @@ def _one_other(bench: Bench) -> None:
         other.close()
 
 
+@case("power-returns", "a power failure while a trajectory is received")
 def _power_returns(bench: Bench) -> None:
     """What was being received or ready to move when the power failed is forgotten."""
     for streaming in (False, True):
@@ -41,7 +44,7 @@ def _power_returns(bench: Bench) -> None:
             stream = Streamer(bench, link)
             stream.put(bench.wave(2), BEGIN)
         else:
-            link.send(bench.download(bench.wave(5))[: 3 * (messages.JOINT_TRAJ_PT.length + 4)])
+            link.send(bench.download(bench.wave(5))[: 3 * (POINT_BYTES)])
         bench.run(0.2)
         number = bench.progress(watcher).trajectory
         bench.controller.perform("power-loss")
@@ -57,17 +60,9 @@ def _power_returns(bench: Bench) -> None:
             raise Broken(f"trajectory {number} was there when the power failed: {told}")
         if status.motion_possible != 1 or status.in_motion:
             raise Broken(f"the power came back, STATUS says {status}")
-        link.send(bench.download(bench.wave(5))[3 * (messages.JOINT_TRAJ_PT.length + 4) :])
+        link.send(bench.download(bench.wave(5))[3 * (POINT_BYTES) :])
         bench.stays(0.5, "half of it came before the power failed")
         bench.moves_through(link, bench.wave(2))
         link.close()
         watcher.close()
         bench.run(0.1)
-
-
-CASES = (
-    Case("one-module-of-another", "a module of another build that several tasks load",
-         "controller", _one_other),
-    Case("power-returns", "a power failure while a trajectory is received", "controller",
-         _power_returns),
-)  # fmt: skip

@@ -17,7 +17,7 @@ _LONGEST = 4_294_967
 """Seconds that a clock can hold, about 49 days."""
 
 
-class Clock:
+class StopWatch:
     """A `clock` datum: what it has measured, and since when it runs (ns), if it does."""
 
     __slots__ = ("measured", "started")
@@ -34,18 +34,18 @@ class Clock:
         return total
 
 
-register_type("clock", Clock)
+register_type("clock", StopWatch)
 
 
 @builtin("ClkReset")
-def clk_reset(_task: Task, clock: Clock) -> None:
+def clk_reset(_task: Task, clock: StopWatch) -> None:
     """Stop and set to 0."""
     clock.measured = 0
     clock.started = None
 
 
 @builtin("ClkStart")
-def clk_start(task: Task, clock: Clock) -> None:
+def clk_start(task: Task, clock: StopWatch) -> None:
     """Run on from where it stands."""
     clock.read(task.scheduler.now)
     if clock.started is None:
@@ -53,14 +53,14 @@ def clk_start(task: Task, clock: Clock) -> None:
 
 
 @builtin("ClkStop")
-def clk_stop(task: Task, clock: Clock) -> None:
+def clk_stop(task: Task, clock: StopWatch) -> None:
     """Stop; the value stays."""
     clock.measured = clock.read(task.scheduler.now)
     clock.started = None
 
 
 @builtin("ClkRead")
-def clk_read(task: Task, clock: Clock, high_resolution: bool | None) -> float:
+def clk_read(task: Task, clock: StopWatch, high_resolution: bool | None) -> float:
     """Seconds, in steps of 1 ms (1 µs with \\HighRes)."""
     step = _US if high_resolution else _MS
     return single(clock.read(task.scheduler.now) // step * step / _S)

@@ -7,8 +7,9 @@ is the string EOF, 9.999E36 or -1. \\Line, \\Status and the layout of WriteAnyBi
 
 import os
 import struct
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO
 
 from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
@@ -21,7 +22,7 @@ from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import NotALiteral, parse_value
-from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, dimensions, single
+from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, Value, dimensions, single
 
 _EOF_TEXT = "EOF"
 _EOF_NUM = 9.999e36
@@ -67,7 +68,7 @@ def open_file(
     except RapidError:
         opened.close()
         raise
-    device.file = opened  # type: ignore[assignment]
+    device.file = opened
     device.path = path
     device.binary = bool(binary)
     device.readable = opened.readable()
@@ -102,13 +103,13 @@ def _stamp(task: Task, path: Path, *, written: bool) -> None:
         os.utime(path, (time, time))
 
 
-def _opened(device: IODevice) -> BinaryIO:
+def _opened(device: IODevice) -> IO[bytes]:
     if device.file is None:
         raise RapidError("ERR_FILEACC", "the file is not open")
     return device.file
 
 
-def _reader(device: IODevice, *, binary: bool = False) -> BinaryIO:
+def _reader(device: IODevice, *, binary: bool = False) -> IO[bytes]:
     file = _opened(device)
     if not device.readable or (binary and not device.binary):
         raise RapidError("ERR_FILEACC", "the file is not open for this kind of reading")
@@ -173,18 +174,18 @@ def write_raw_bytes(task: Task, device: IODevice, raw: RawBytes, count: float | 
 
 
 @builtin("WriteAnyBin", cost="socket")
-def write_any_bin(task: Task, device: IODevice, datum: object) -> None:
+def write_any_bin(task: Task, device: IODevice, argument: object) -> None:
     """Write a value of any type so that ReadAnyBin reads it back."""
-    value, kind = value_of(datum)
+    value, kind = value_of(argument)
     body = _encoded(value, kind)
     label = _label(kind, dimensions(value)).encode("latin-1")
     _put(task, device, struct.pack("<BI", len(label), len(body)) + label + body, binary=True)
 
 
 @builtin("ReadAnyBin", cost="socket")
-def read_any_bin(_task: Task, device: IODevice, datum: object, _time: float | None) -> None:
+def read_any_bin(_task: Task, device: IODevice, argument: object, _time: float | None) -> None:
     """Read a value that WriteAnyBin wrote; ERR_RANYBIN_CHK when it is of another type."""
-    target = target_of(datum)
+    target = target_of(argument)
     file = _reader(device, binary=True)
     head = file.read(5)
     if len(head) < 5:
@@ -203,7 +204,7 @@ def _label(type_: Type, dims: tuple[int, ...]) -> str:
     return type_.name + "".join(f"{{{size}}}" for size in dims)
 
 
-def _encoded(value: Any, type_: Type) -> bytes:  # noqa: ANN401
+def _encoded(value: Value, type_: Type) -> bytes:
     if value.__class__ is dict:
         return b"".join(_encoded(part, type_) for part in value.values())
     if isinstance(value, Record):
@@ -216,7 +217,7 @@ def _encoded(value: Any, type_: Type) -> bytes:  # noqa: ANN401
     return struct.pack("<d", value)
 
 
-def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Any, int]:
+def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Value, int]:
     if dims:
         array = {}
         for i in range(1, dims[0] + 1):
@@ -241,7 +242,7 @@ def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tup
 # -- reading ------------------------------------------------------------------------------------
 
 
-def _line(file: BinaryIO, delimiters: bytes, *, skip: bool = False) -> str | None:
+def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | None:
     """Through the next delimiter, at most 80 characters; None at the end of the file."""
     text = bytearray()
     while len(text) < STRING_LIMIT:
@@ -372,7 +373,7 @@ def _pair(task: Task, old: str, new: str) -> tuple[Path, Path]:
     return source, target
 
 
-def _disk(action: Any, path: str) -> None:  # noqa: ANN401 - a bound method of Path
+def _disk(action: Callable[[], object], path: str) -> None:
     try:
         action()
     except OSError as error:

@@ -7,7 +7,6 @@ number into \\BreakFlag and goes on. \\DefaultBtn is what such a message box the
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from rapidgen.machine.log import EventLog, EventType
 from rapidgen.machine.operator import Operator
@@ -17,7 +16,7 @@ from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import DNUM_DIGITS, number_text, value_text
-from rapidgen.runtime.values import STRING_LIMIT, Ref
+from rapidgen.runtime.values import STRING_LIMIT, Ref, Value
 
 _RESULTS = {
     "OK": 1,
@@ -148,7 +147,7 @@ def _ask(
     text: str,
     choices: Mapping[str, float],
     check: Callable[[str], object],
-    tail: tuple[Any, ...],
+    tail: tuple[Value, ...],
 ) -> object:
     """The answer to a dialog; None when it was broken off and \\BreakFlag tells."""
     breaks = _Breaks(*tail)
@@ -216,7 +215,7 @@ def _a_text(value: str) -> str:
 
 
 @builtin("TPReadNum", cost="string")
-def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
+def tp_read_num(task: Task, answer: Ref, text: str, *tail: Value) -> None:
     """Ask for a number."""
     value = _ask(task, "TPReadNum", text, {}, _a_number(), tail)
     if value is not None:
@@ -224,7 +223,7 @@ def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa
 
 
 @builtin("TPReadDnum", cost="string")
-def tp_read_dnum(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
+def tp_read_dnum(task: Task, answer: Ref, text: str, *tail: Value) -> None:
     """Ask for a number, exactly."""
     value = _ask(task, "TPReadDnum", text, {}, _a_number(), tail)
     if value is not None:
@@ -241,7 +240,7 @@ def tp_read_fk(
     fk3: str,
     fk4: str,
     fk5: str,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> None:
     """Ask for one of five keys; one without a text is dead."""
     keys = {key: float(i) for i, key in enumerate((fk1, fk2, fk3, fk4, fk5), 1) if key.strip()}
@@ -280,7 +279,7 @@ def ui_msg_box(
     _icon: float | None,
     _image: str | None,
     result: Ref | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> None:
     """Show a box with buttons and wait for one."""
     choices = _buttons(buttons, None)
@@ -302,7 +301,7 @@ def ui_message_box(
     default: float | None,
     _icon: float | None,
     _image: str | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> float:
     """Show a box with buttons; which one was pressed."""
     choices = _buttons(buttons, array)
@@ -326,7 +325,7 @@ def _number_entry(name: str) -> None:
         low: float | None,
         high: float | None,
         integer: bool | None,
-        *tail: Any,  # noqa: ANN401
+        *tail: Value,
     ) -> float:
         if initial is not None and integer and initial != int(initial):
             raise RapidError("ERR_UI_NOTINT")
@@ -346,7 +345,7 @@ def _entered(
     low: float | None,
     high: float | None,
     integer: bool,
-    tail: tuple[Any, ...],
+    tail: tuple[Value, ...],
 ) -> float:
     if low is not None and high is not None and low > high:
         raise RapidError("ERR_UI_MAXMIN")
@@ -371,7 +370,7 @@ def ui_num_tune(
     _step: float,
     low: float | None,
     high: float | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> float:
     """Ask for a number that is tuned from an initial one."""
     return _entered(
@@ -388,7 +387,7 @@ def ui_alpha_entry(
     _wrap: bool | None,
     _icon: float | None,
     initial: str | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> str:
     """Ask for a text."""
     value = _ask(task, "UIAlphaEntry", _lines(header, message, lines), {}, _a_text, tail)
@@ -400,12 +399,12 @@ def ui_list_view(
     task: Task,
     result: Ref | None,
     header: str | None,
-    items: Mapping[int, Any],
+    items: Mapping[int, Value],
     buttons: float | None,
     array: Mapping[int, str] | None,
     _icon: float | None,
     default: float | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> float:
     """Ask for one of a list's items."""
     choices = {item.text: float(i) for i, item in items.items() if item.text}

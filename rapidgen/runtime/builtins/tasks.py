@@ -1,11 +1,9 @@
 """What a task may ask about itself, the others and the controller."""
 
-from typing import Any
-
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 OP_AUTO, OP_MAN_PROG, OP_MAN_TEST = 1, 2, 3
 RUN_CONT_CYCLE = 1
@@ -75,12 +73,12 @@ def motion_planner_no(task: RapidTask) -> int:
 
 
 @builtin("GetMecUnitName")
-def get_mec_unit_name(task: RapidTask, unit: Any) -> str:  # noqa: ANN401 - an opaque mecunit
+def get_mec_unit_name(task: RapidTask, unit: Value) -> str:
     """GetMecUnitName: name of a mechanical unit."""
     return str(unit.value or "")
 
 
-def _task(task: RapidTask, reference: Any, name: str | None) -> RapidTask:  # noqa: ANN401
+def _task(task: RapidTask, reference: Value, name: str | None) -> RapidTask:
     wanted = name if name is not None else str(reference.value or "")
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() == wanted.lower():
@@ -90,12 +88,12 @@ def _task(task: RapidTask, reference: Any, name: str | None) -> RapidTask:  # no
 
 
 @builtin("TaskIsActive")
-def task_is_active(task: RapidTask, reference: Any, name: str | None) -> bool:  # noqa: ANN401
+def task_is_active(task: RapidTask, reference: Value, name: str | None) -> bool:
     """TaskIsActive: no task is switched off here."""
     return _task(task, reference, name).state != "empty"
 
 
 @builtin("TaskIsExecuting")
-def task_is_executing(task: RapidTask, reference: Any, name: str | None) -> bool:  # noqa: ANN401
+def task_is_executing(task: RapidTask, reference: Value, name: str | None) -> bool:
     """TaskIsExecuting: whether its program runs."""
     return _task(task, reference, name).state == "running"

@@ -8,8 +8,9 @@ stepped forward; what was executed otherwise in between makes all of them unknow
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, Posture
+from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move
 from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.task.recovery import Place
 from rapidgen.runtime.task.task import Task

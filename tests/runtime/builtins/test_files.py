@@ -9,7 +9,7 @@ import pytest
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.files import Directory, FileSystem, IODevice
-from rapidgen.proving.forking import in_a_fork
+from rapidgen.proving.workers import in_a_fork
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
 from rapidgen.runtime.switches import Dialect

@@ -4,7 +4,6 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from types import FrameType
-from typing import Any
 
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.motion.group import MotionGroup
@@ -13,6 +12,7 @@ from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NO_MOTION_TASK, NO_UNIT, planned
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Value
 
 
 def motion_of(task: Task) -> MotionSystem:
@@ -62,7 +62,7 @@ def moving_group(task: Task) -> MotionGroup:
     return group_of(task)
 
 
-def named_group(task: Task, reference: Any, name: str | None) -> MotionGroup:  # noqa: ANN401
+def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
     """The group of \\TaskRef or \\TaskName, else the task's own.
 
     ERR_TASKNAME: no such task; ERR_NOT_MOVETASK: it moves nothing.

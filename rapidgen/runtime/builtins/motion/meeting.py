@@ -7,7 +7,6 @@ end together (`together.py`).
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.builtins.control import wait_standing
@@ -15,7 +14,7 @@ from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_gr
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 _REFUSED = 49_910
 """Event of ours: ABB's numbers are not public."""
@@ -65,7 +64,7 @@ def _meet(
         raise RapidError(error)
 
 
-def _point(task: RapidTask, identity: Any) -> str:  # noqa: ANN401 - an opaque syncident
+def _point(task: RapidTask, identity: Value) -> str:
     """A syncident is known by the name of its variable, the same in each task."""
     program = task.program
     for module in program.modules.values():

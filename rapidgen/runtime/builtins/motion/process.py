@@ -5,8 +5,6 @@ are no dynamics: torques are 0, loads change nothing. gizatt/ABB-IRB140 [code] f
 TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 """
 
-from typing import Any
-
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
@@ -14,8 +12,9 @@ from rapidgen.runtime.errors import FatalError, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.process_errors import ProcessError
+from rapidgen.runtime.task.recovery import Place
 from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 _CHANNELS = range(1, 13)
 _TORQUE = 9
@@ -44,9 +43,9 @@ def procerr_recovery(
 
 def _owner(group: MotionGroup) -> tuple[str, str]:
     """Module and routine of the move that made the path; empty when there is no path."""
-    place: Any = group.legs[0].move.place if group.legs else None
+    place = group.legs[0].move.place if group.legs else None
     found = place() if place is not None else None
-    return (found.module, found.routine) if found is not None else ("", "")
+    return (found.module, found.routine) if isinstance(found, Place) else ("", "")
 
 
 def _axis(group: MotionGroup, number: float) -> int:
@@ -57,14 +56,14 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 
 @builtin("MechUnitLoad")
-def mech_unit_load(task: RapidTask, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
+def mech_unit_load(task: RapidTask, _unit: Value, axis: float, load: Ref) -> None:
     """Payload of an external mechanical unit."""
     group = group_of(task)
     data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 
 @builtin("GetMotorTorque")
-def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa: ANN401
+def get_motor_torque(task: RapidTask, _unit: Value, axis: float) -> float:
     """0 Nm. ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
@@ -78,7 +77,7 @@ def define_test_signal(
     task: RapidTask,
     channel: float,
     signal: float,
-    unit: Any,  # noqa: ANN401
+    unit: Value,
     axis: float,
     _sample: float,
 ) -> None:

@@ -4,16 +4,26 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.config.model import Joint
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Link, Position, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import changed, small_unit
-from rapidgen.proving.suite.moving import datum
-from rapidgen.wire.simple_message import decode, messages, spec
-from rapidgen.wire.simple_message.declaration import Content
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.proving.link import STOP, RawLink, raw_point
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    MAX_JOINTS,
+    Comm,
+    Reason,
+    Special,
+    TrajectoryState,
+    decode,
+    text_of,
+)
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.motion_task import datum
+from rapidgen.proving.track import Position, changed, small_unit
 
-_BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
+case = Theme("taking")
+
+_BEGIN, _END = int(Special.BEGIN), int(Special.END)
 _TAKEN = messages.Acknowledged()
 _LONGEST = 3600.0
 _SLOW = 60.0
@@ -29,13 +39,15 @@ class Table:
         self.watcher = bench.watcher()
         self.number = bench.progress(self.watcher).trajectory
         """Of the newest trajectory, as far as the rows say."""
-        self._rows: list[tuple[bytes, Content, str]] = []
+        self._rows: list[tuple[bytes, messages.Content, str]] = []
 
-    def row(self, sequence: int, joints: Sequence[float], seconds: float, wanted: Content) -> None:
+    def row(
+        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.Content
+    ) -> None:
         """One more point. A trajectory begins with -1."""
         if sequence == _BEGIN:
             self.number += 1
-        frame = raw_point(sequence, joints, seconds, spec.Comm.REQUEST)
+        frame = raw_point(sequence, joints, seconds, Comm.REQUEST)
         shown = ", ".join(f"{value:.9g}" for value in joints)
         self._rows.append((frame, wanted, f"point {sequence} ({shown}) in {seconds:.9g} s"))
 
@@ -52,11 +64,11 @@ class Table:
                 raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
         self._rows.clear()
 
-    def stop(self, link: Link | None = None) -> None:
+    def stop(self, link: RawLink | None = None) -> None:
         """STOP, here or over another connection, and its reply."""
         chosen = link if link is not None else self.link
         chosen.send(STOP)
-        told = chosen.reply(messages.JOINT_TRAJ_PT.number)
+        told = chosen.reply(JOINT_TRAJ_PT)
         if not isinstance(told, messages.Acknowledged):
             raise Broken(f"STOP is answered by {told}")
 
@@ -88,6 +100,7 @@ def fast_ends(joint: Joint, seconds: float, share: float) -> tuple[float, float]
     return (low, low + way) if low + way <= joint.upper - margin else None
 
 
+@case("each-value", "each value of a point at its bounds and beyond", "R10, R11")
 def _each_value(bench: Bench) -> None:
     """Limits, speeds and numbers that are none, of each joint alone; what is padding."""
     table, here = Table(bench), bench.position
@@ -127,7 +140,7 @@ def _each_value(bench: Bench) -> None:
                     table.row(3, one, seconds, _TAKEN)
         table.ask()
     missing = len(here)
-    for axis in range(missing, spec.MAX_JOINTS):
+    for axis in range(missing, MAX_JOINTS):
         zeros = (*here, *[0.0] * (axis - missing))
         for value in (0.5, 1e-45, math.nan):
             wrong = messages.Refused(Reason.BAD_PADDING, 1, axis + 1)
@@ -163,6 +176,7 @@ def _rounded(bench: Bench, table: Table) -> None:
         bench.wait_until_standing(2)
 
 
+@case("each-duration", "durations at their bounds and beyond", "R10")
 def _each_duration(bench: Bench) -> None:
     """Of the first point, of one in between, and of the last one."""
     table, here = Table(bench), bench.position
@@ -203,11 +217,12 @@ def _each_duration(bench: Bench) -> None:
     bench.stays(0.2, "it was asked to stay where it is")
 
 
+@case("each-number", "numbers of points, STOP among them, and what is skipped", "C4")
 def _each_number(bench: Bench) -> None:
     """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
     table, here = Table(bench), bench.position
 
-    def row(sequence: int, wanted: Content, joints: Position = here) -> None:
+    def row(sequence: int, wanted: messages.Content, joints: Position = here) -> None:
         table.row(sequence, joints, _SLOW, wanted)
 
     alone = messages.Refused(Reason.NO_START, 0, 0)
@@ -315,6 +330,7 @@ def _of_other_builds(bench: Bench, table: Table) -> None:
     task[name] = own
 
 
+@case("one-more", "lines for refusals that come at once", "R19")
 def _one_more(bench: Bench) -> None:
     """A line for each second; the next one counts those in between, be it a single one."""
     table, joints = Table(bench), bench.group.joints
@@ -327,7 +343,7 @@ def _one_more(bench: Bench) -> None:
         (1, 0, "2 more like it."),
     ):
         before = bench.last_event
-        sequence, reason, place = int(spec.Sequence.END), Reason.NO_START, ""
+        sequence, reason, place = int(Special.END), Reason.NO_START, ""
         joint, wanted = 0, bench.position
         if axis is not None:
             sequence, reason, joint = _BEGIN, Reason.JOINT_LIMIT, axis + 1
@@ -340,19 +356,9 @@ def _one_more(bench: Bench) -> None:
         table.ask()
         bench.run(1.05)
         said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
-        text = reason.text
+        text = text_of(reason)
         if said != [f"{text} Point 0. {place} {more}".split()]:
             raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
         if lines != [f"ROS refused: {text}"]:
             raise Broken(f"{at_once} refusals for {reason.name}, the pendant says {lines}")
         lines.clear()
-
-
-CASES = (
-    Case("each-value", "each value of a point at its bounds and beyond", "taking", _each_value,
-         "R10, R11"),
-    Case("each-duration", "durations at their bounds and beyond", "taking", _each_duration, "R10"),
-    Case("each-number", "numbers of points, STOP among them, and what is skipped", "taking",
-         _each_number, "C4"),
-    Case("one-more", "lines for refusals that come at once", "taking", _one_more, "R19"),
-)  # fmt: skip

@@ -2,13 +2,15 @@
 
 from collections.abc import Sequence
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Link, Point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason, StreamFlag, TrajectoryState
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.wire.simple_message import messages
-from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
+from rapidgen.proving.track import Point, distance
+
+case = Theme("streaming")
 
 _NONE = StreamFlag(0)
 
@@ -19,7 +21,7 @@ def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
     return [(p, duration) for p, _ in bench.wave(count, duration=duration, size=0.03)]
 
 
-def _progress(bench: Bench, link: Link) -> messages.Progress:
+def _progress(bench: Bench, link: RawLink) -> messages.Progress:
     bench.run(2 * bench.config.state_period)
     return bench.progress(link)
 
@@ -28,6 +30,7 @@ def _executed(bench: Bench, points: Sequence[Point], since: float) -> None:
     bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
 
 
+@case("stream", "a stream longer than the ring is executed whole, in time", "R1", once=True)
 def _whole_stream(bench: Bench) -> None:
     """Longer than the ring, in batches of many sizes."""
     watcher, since = bench.watcher(), bench.now
@@ -50,6 +53,7 @@ def _whole_stream(bench: Bench) -> None:
         points = [*reversed(points)]
 
 
+@case("preload", "motion begins with enough in the ring, or when told")
 def _preload(bench: Bench) -> None:
     """Motion begins with enough in the ring, at the end, or when it is told to."""
     seconds = bench.config.trajectory.preload
@@ -75,6 +79,7 @@ def _preload(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("starves", "starvation is a stop on the path; more points go on", "R9")
 def _starves(bench: Bench) -> None:
     """It stops at the last point, on its path, says so, and goes on when there is more."""
     watcher = bench.watcher()
@@ -147,6 +152,7 @@ def _maker(bench: Bench) -> Streamer:
     return maker
 
 
+@case("stream-checksum", "a damaged batch cuts the stream")
 def _wrong_checksum(bench: Bench) -> None:
     for place in (-1, -8, 40, 24, 60):
         data = bytearray(_maker(bench).frame(way(bench, 3), _NONE))
@@ -154,18 +160,21 @@ def _wrong_checksum(bench: Bench) -> None:
         _cut(bench, bytes(data), Reason.CHECKSUM, f"a bit of byte {place} of a batch turned")
 
 
+@case("stream-hole", "a missing or repeated batch cuts the stream", "C4")
 def _hole(bench: Bench) -> None:
     for first in (19, 21, 0, 30):
         data = _maker(bench).frame(way(bench, 3), _NONE, first=first)
         _cut(bench, data, Reason.SEQUENCE_GAP, f"a batch that begins at {first} instead of 20")
 
 
+@case("stream-size", "a batch whose length does not fit cuts the stream", "R2")
 def _wrong_size(bench: Bench) -> None:
     data = bytearray(_maker(bench).frame(way(bench, 4), _NONE))
     data[28:32] = (3).to_bytes(4, "little")
     _cut(bench, bytes(data), Reason.FRAMING, "a batch of four points that says three")
 
 
+@case("stream-point", "points before a wrong one are executed", "R10")
 def _wrong_point(bench: Bench) -> None:
     here, joints = bench.position, bench.group.joints
     wrong: list[tuple[Reason, Point]] = [
@@ -186,6 +195,7 @@ def _wrong_point(bench: Bench) -> None:
         _cut(bench, data, reason, f"a third point with {reason.name}", 2)
 
 
+@case("stream-names", "a refusal names point and joint")
 def _names_the_point(bench: Bench) -> None:
     stream = Streamer(bench)
     points = [(p, 30.0) for p, _ in way(bench, 6)]
@@ -196,6 +206,7 @@ def _names_the_point(bench: Bench) -> None:
         raise Broken(f"joint 2 of point 4 is outside its limits, the reply is {told}")
 
 
+@case("stream-begins-wrong", "a wrong beginning moves nothing", "R8")
 def _first_batch_is_wrong(bench: Bench) -> None:
     """Nothing moves for a stream whose beginning is wrong."""
     far = [(bench.group.joints[0].upper + 1, *bench.position[1:])]
@@ -229,6 +240,7 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     bench.wait_until_at(stream.points[-1][0], 20)
 
 
+@case("overrun", "more points than there is room for cut the stream", "R1")
 def _overrun(bench: Bench) -> None:
     watcher, since = bench.watcher(), bench.now
     ring = bench.config.trajectory.ring
@@ -254,6 +266,7 @@ def _overrun(bench: Bench) -> None:
         raise Broken(f"after an overrun PROGRESS says {bench.progress(watcher)}")
 
 
+@case("behind-the-end", "nothing follows the end of a stream")
 def _behind_the_end(bench: Bench) -> None:
     stream = Streamer(bench)
     points = way(bench, 12)
@@ -264,6 +277,7 @@ def _behind_the_end(bench: Bench) -> None:
     bench.stays(2, "the stream has ended")
 
 
+@case("stream-ended", "stops end a stream, and batches are told why", "R5, R7a", background=True)
 def _early_end(bench: Bench) -> None:
     """Everything that ends a trajectory early ends a stream, and batches are told why."""
     stopped = (Reason.MOTORS_OFF, Reason.PROGRAM_STOPPED, Reason.EMERGENCY_STOP)
@@ -282,7 +296,7 @@ def _early_end(bench: Bench) -> None:
         bench.run(0.6)
         if action == "STOP":
             stream.link.send(STOP)
-            stream.link.reply(messages.JOINT_TRAJ_PT.number)
+            stream.link.reply(JOINT_TRAJ_PT)
         elif action == "download":
             stream.link.send(bench.download(bench.wave(4))[:68])
         elif action == "stream":
@@ -306,6 +320,7 @@ def _early_end(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("stream-client-lost", "a stream ends with its client")
 def _client_lost(bench: Bench) -> None:
     for begun in (True, False):
         for abort in (False, True):
@@ -330,6 +345,7 @@ def _client_lost(bench: Bench) -> None:
             bench.run(1.5)
 
 
+@case("stream-taken-over", "a new client ends a silent stream", "R12")
 def _taken_over(bench: Bench) -> None:
     """A standard client that comes takes the place of one whose stream has fallen silent."""
     stream = Streamer(bench)
@@ -339,24 +355,3 @@ def _taken_over(bench: Bench) -> None:
     bench.run(3)
     bench.wait_until_standing(10)
     bench.moves_through(link, bench.wave(4))
-
-
-CASES = tuple(
-    Case(name, title, "streaming", prove, answers)
-    for name, title, prove, answers in (
-        ("stream", "a stream longer than the ring is executed whole, in time", _whole_stream, "R1"),
-        ("preload", "motion begins with enough in the ring, or when told", _preload, ""),
-        ("starves", "starvation is a stop on the path; more points go on", _starves, "R9"),
-        ("stream-checksum", "a damaged batch cuts the stream", _wrong_checksum, ""),
-        ("stream-hole", "a missing or repeated batch cuts the stream", _hole, "C4"),
-        ("stream-size", "a batch whose length does not fit cuts the stream", _wrong_size, "R2"),
-        ("stream-point", "points before a wrong one are executed", _wrong_point, "R10"),
-        ("stream-names", "a refusal names point and joint", _names_the_point, ""),
-        ("stream-begins-wrong", "a wrong beginning moves nothing", _first_batch_is_wrong, "R8"),
-        ("overrun", "more points than there is room for cut the stream", _overrun, "R1"),
-        ("behind-the-end", "nothing follows the end of a stream", _behind_the_end, ""),
-        ("stream-ended", "stops end a stream, and batches are told why", _early_end, "R5, R7a"),
-        ("stream-client-lost", "a stream ends with its client", _client_lost, ""),
-        ("stream-taken-over", "a new client ends a silent stream", _taken_over, "R12"),
-    )
-)

@@ -1,22 +1,33 @@
 """The control connection: stop, pause, speed and heartbeats, which no point delays."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.link import STOP, Link
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
+from rapidgen.proving.instructions import fails, watched_orders
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    MAX_JOINTS,
+    STOPPED,
+    Comm,
+    Reason,
+    StreamFlag,
+    TrajectoryState,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
-from rapidgen.proving.suite.moving import patience
-from rapidgen.proving.suite.streaming import way
-from rapidgen.wire.simple_message import encode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.proving.suite.motion_task import patience
+from rapidgen.proving.suite.streams import way
+from rapidgen.proving.track import distance
 
-_TRAJ = messages.JOINT_TRAJ_PT.number
+case = Theme("controlling", port="control")
+
+_TRAJ = JOINT_TRAJ_PT
 
 
-def stop(link: Link, seconds: float = 1) -> None:
+def stop(link: RawLink, seconds: float = 1) -> None:
     """STOP over this connection; Broken unless it is confirmed in time."""
     link.send(STOP)
     if not isinstance(link.reply(_TRAJ, seconds), messages.Acknowledged):
@@ -35,6 +46,7 @@ def done(told: object, what: str) -> None:
         raise Broken(f"{what}: the reply is {told}")
 
 
+@case("control-stop", "STOP over the control port, and where the robot stands", "R5")
 def _stops(bench: Bench) -> None:
     """STOP there ends a download that is executed, and says where the robot then stands."""
     control, watcher = bench.control(), bench.watcher()
@@ -53,7 +65,7 @@ def _stops(bench: Bench) -> None:
         bench.followed([p for p, _ in points], since=since)
         told = control.expect(messages.Stopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
-        here = (*bench.position, *[0.0] * (spec.MAX_JOINTS - len(bench.position)))
+        here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
         if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-4:
             raise Broken(f"the robot stands at {here}, STOPPED says {told.joints}")
         if (told.trajectory, told.reached, told.reason) != (
@@ -68,6 +80,7 @@ def _stops(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("stop-under-load", "STOP is answered whatever lies before the motion server", "R5")
 def _stop_under_load(bench: Bench) -> None:
     """However much lies before the motion server, STOP is answered at once."""
     control = bench.control()
@@ -77,7 +90,7 @@ def _stop_under_load(bench: Bench) -> None:
         stream.put(points[:20], BEGIN)
         bench.wait_until_moving()
         # Questions without points: each is read, checked and answered.
-        question = stream.frame((), spec.StreamFlag(0))
+        question = stream.frame((), StreamFlag(0))
         stream.link.send(question * 400)
         asked = bench.now
         stop(control)
@@ -90,6 +103,7 @@ def _stop_under_load(bench: Bench) -> None:
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
+@case("control-any-moment", "STOP over the control port at every moment", "R7b")
 def _stop_at_any_moment(bench: Bench) -> None:
     """From before the hand-over until well into the motion, over both ports."""
     control, link = bench.control(), bench.motion()
@@ -109,6 +123,7 @@ def _stop_at_any_moment(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(4))
 
 
+@case("pause", "a pause on the path")
 def _pauses(bench: Bench) -> None:
     """It stands on its path, and goes on from there to the end, in order."""
     control, watcher = bench.control(), bench.watcher()
@@ -137,6 +152,7 @@ def _pauses(bench: Bench) -> None:
         not_done(control.ask(messages.Pause(wrong)), Reason.BAD_VALUE, f"PAUSE {wrong}")
 
 
+@case("pause-ends", "what halts a motion halts a paused one", "R6", background=True)
 def _pause_ends(bench: Bench) -> None:
     """What halts a motion halts a paused one; nothing of it goes on."""
     for action in ("STOP", "control STOP", "e-stop", "motors-off", "stop", "leaves", "another"):
@@ -173,6 +189,7 @@ def _pause_ends(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("speed", "a speed for one trajectory")
 def _speed(bench: Bench) -> None:
     """Half the speed for this trajectory, and the full one again for the next."""
     control, link = bench.control(), bench.motion()
@@ -198,6 +215,7 @@ def _speed(bench: Bench) -> None:
         raise Broken(f"at 100, 50 and again 100 % a trajectory took {taken} s")
 
 
+@case("nobody-answers", "a motion task that does not answer", background=True)
 def _nobody_answers(bench: Bench) -> None:
     """Whoever asks something of a motion task that does not run is told so, soon."""
     control, link = bench.control(), bench.motion()
@@ -214,23 +232,24 @@ def _nobody_answers(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
     link.send(bench.download(bench.wave(12)))
     bench.wait_until_moving()
-    bench.fails("ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM")
+    fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM")
     not_done(control.ask(messages.Speed(50)), Reason.INTERNAL, "SPEED that is not set")
     done(control.ask(messages.Speed(50)), "SPEED")
 
 
+@case("own-stop", "a StopMove that only its own task takes back")
 def _own_stop(bench: Bench) -> None:
     """Where a StopMove belongs to its task, the control server takes back its own."""
     motion = replace(bench.setting.motion, stop_owner="task")
     other = bench.beside(bench.system, setting=replace(bench.setting, motion=motion))
     try:
         control, link = other.control(), other.motion()
-        for leaves, fails in ((False, False), (True, False), (False, True)):
+        for leaves, failing in ((False, False), (True, False), (False, True)):
             link.send(other.download(other.wave(12)))
             other.wait_until_moving()
             other.run(0.3)
-            if fails:
-                other.fails("ROS_control", "StartMove", "ERR_PATHDIST", 2)
+            if failing:
+                fails(other, "ROS_control", "StartMove", "ERR_PATHDIST", 2)
             stop(control)
             if leaves:
                 control.close()
@@ -250,6 +269,7 @@ def _own_stop(bench: Bench) -> None:
         other.close()
 
 
+@case("heartbeats", "a missing heartbeat stops the robot", "R12")
 def _heartbeats(bench: Bench) -> None:
     """While they come nothing happens; when one is missing the robot stops."""
     watcher = bench.watcher()
@@ -296,23 +316,25 @@ def _heartbeats(bench: Bench) -> None:
         bench.run(2)
 
 
+@case("heartbeat-in-time", "the stop for a missing heartbeat comes in time", "R12")
 def _heartbeat_in_time(bench: Bench) -> None:
     """The stop for a missing heartbeat comes when it was due, not when somebody looks next."""
     control, link = bench.control(), bench.motion()
-    bench.watch_orders()
+    orders = watched_orders(bench)
     for seconds in (0.25, 0.53):
         link.send(bench.download(bench.wave(20)))
         bench.wait_until_moving()
         control.ask(messages.Heartbeat(seconds))
         last = bench.now
         bench.wait_until_standing(3)
-        stops = [o.time for o in bench.orders if o.instruction == "StopMove" and o.time > last]
+        stops = [o.time for o in orders if o.instruction == "StopMove" and o.time > last]
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.06:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         control.ask(messages.Heartbeat(0))
         bench.moves_through(link, bench.wave(4))
 
 
+@case("control-fails", "instructions of the control server that report errors", "R3")
 def _instructions_fail(bench: Bench) -> None:
     """Whatever the control server's instructions report, the next client can stop the robot."""
     for instruction, error in (
@@ -330,8 +352,8 @@ def _instructions_fail(bench: Bench) -> None:
         points = bench.wave(30)
         link.send(bench.download(points))
         bench.wait_until_moving()
-        recovers = bench.fails("ROS_control", instruction, error)
-        control.send(encode(HELLO, spec.Comm.REQUEST))
+        recovers = fails(bench, "ROS_control", instruction, error)
+        control.send(encode(HELLO, Comm.REQUEST))
         bench.run(0.3)
         control.send(STOP)
         bench.run(1)
@@ -348,12 +370,13 @@ def _instructions_fail(bench: Bench) -> None:
         bench.run(1.3)
 
 
+@case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
 def _supervisor_is_gone(bench: Bench) -> None:
     """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
     other = bench.beside(bench.system)
     try:
         control, link = other.control(), other.motion()
-        other.fails("ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(1)
         link.send(other.download(other.wave(8)))
         other.stays(3, "the supervisor does not answer")
@@ -371,7 +394,7 @@ def _supervisor_is_gone(bench: Bench) -> None:
         control, link = other.control(), other.motion()
         link.send(other.download(other.wave(30)))
         other.wait_until_moving()
-        other.fails("ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(0.5)
         control.send(STOP)
         control.reply(_TRAJ, 3)
@@ -381,6 +404,7 @@ def _supervisor_is_gone(bench: Bench) -> None:
         other.close()
 
 
+@case("old-end", "STOPPED tells what ends, not what has ended")
 def _old_end(bench: Bench) -> None:
     """A client that comes later is not told of what ended before; a cut tells joint and place."""
     link = bench.motion()
@@ -392,7 +416,7 @@ def _old_end(bench: Bench) -> None:
     bench.run(patience(bench))
     control = bench.control()
     bench.run(1)
-    if any(f.number == messages.STOPPED.number for f in control.read()):
+    if any(f.number == STOPPED for f in control.read()):
         raise Broken("a client is told of a trajectory that had ended before it came")
     link.close()
     bench.run(1.2)
@@ -413,6 +437,7 @@ def _old_end(bench: Bench) -> None:
         raise Broken(f"the stream ended at {here}, STOPPED says {told.joints}")
 
 
+@case("stream-control", "pause, speed and STOP of a stream")
 def _stream_over_control(bench: Bench) -> None:
     """Pause, speed and STOP of a stream."""
     control = bench.control()
@@ -446,38 +471,3 @@ def _stream_over_control(bench: Bench) -> None:
     if refusal.trajectory != told.trajectory or refusal.point != told.reached:
         raise Broken(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
     bench.stays(2, "the stream was stopped")
-
-
-def if_there(prove: Callable[[Bench], None]) -> Callable[[Bench], None]:
-    """Nothing to prove where the configuration has no control port."""
-
-    def proved(bench: Bench) -> None:
-        if bench.group.ports.control:
-            prove(bench)
-
-    return proved
-
-
-CASES = tuple(
-    Case(name, title, "controlling", if_there(prove), answers)
-    for name, title, prove, answers in (
-        ("control-stop", "STOP over the control port, and where the robot stands", _stops, "R5"),
-        ("stop-under-load", "STOP is answered whatever lies before the motion server",
-         _stop_under_load, "R5"),
-        ("control-any-moment", "STOP over the control port at every moment", _stop_at_any_moment,
-         "R7b"),
-        ("pause", "a pause on the path", _pauses, ""),
-        ("pause-ends", "what halts a motion halts a paused one", _pause_ends, "R6"),
-        ("speed", "a speed for one trajectory", _speed, ""),
-        ("nobody-answers", "a motion task that does not answer", _nobody_answers, ""),
-        ("own-stop", "a StopMove that only its own task takes back", _own_stop, ""),
-        ("heartbeats", "a missing heartbeat stops the robot", _heartbeats, "R12"),
-        ("heartbeat-in-time", "the stop for a missing heartbeat comes in time",
-         _heartbeat_in_time, "R12"),
-        ("control-fails", "instructions of the control server that report errors",
-         _instructions_fail, "R3"),
-        ("supervisor-gone", "a supervisor that does not answer", _supervisor_is_gone, "R7b"),
-        ("old-end", "STOPPED tells what ends, not what has ended", _old_end, ""),
-        ("stream-control", "pause, speed and STOP of a stream", _stream_over_control, ""),
-    )
-)  # fmt: skip

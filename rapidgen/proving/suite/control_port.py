@@ -3,17 +3,31 @@
 import struct
 from functools import partial
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.link import STOP, Link, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
-from rapidgen.proving.suite.controlling import done, if_there, not_done, stop
-from rapidgen.wire.simple_message import decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.link import STOP, RawLink, raw_point
+from rapidgen.proving.messages import (
+    HEARTBEAT,
+    JOINT_TRAJ_PT,
+    PAUSE,
+    SIGNAL,
+    SPEED,
+    Comm,
+    Reason,
+    ReplyCode,
+    decode,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.control import done, not_done, stop
+from rapidgen.proving.track import distance
 
-_TRAJ = messages.JOINT_TRAJ_PT.number
+case = Theme("controlling", port="control")
+
+_TRAJ = JOINT_TRAJ_PT
 
 
+@case("control-leaves", "a control client leaves")
 def _control_client_leaves(bench: Bench) -> None:
     """Without heartbeats it is no loss; with them it is."""
     for heartbeats in (True, False, True):
@@ -36,6 +50,7 @@ def _control_client_leaves(bench: Bench) -> None:
         bench.run(2)
 
 
+@case("newest-control", "the newest control client is served", "R12")
 def _newest_control_client(bench: Bench) -> None:
     """Whoever comes can stop the robot, whatever hangs on the port."""
     old = bench.control()
@@ -53,6 +68,7 @@ def _newest_control_client(bench: Bench) -> None:
         bench.stays(1, "the newest client has stopped it")
 
 
+@case("control-hello", "HELLO, PING and requests in pieces and lumps", "R2")
 def _control_hello(bench: Bench) -> None:
     control = bench.control()
     told = control.ask(HELLO)
@@ -64,28 +80,29 @@ def _control_hello(bench: Bench) -> None:
     control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
     if not isinstance(_failure(control), messages.Failure):
         raise Broken("a request of an unknown type is not answered by a failure")
-    for byte in encode(messages.Heartbeat(0), spec.Comm.REQUEST):
+    for byte in encode(messages.Heartbeat(0), Comm.REQUEST):
         control.send(bytes([byte]))
         bench.run(0.003)
-    control.reply(messages.HEARTBEAT.number)
+    control.reply(HEARTBEAT)
     # All at once, each answered in turn.
-    control.send(STOP + encode(messages.Speed(5), spec.Comm.REQUEST) + STOP)
-    for number in (_TRAJ, messages.SPEED.number, _TRAJ):
+    control.send(STOP + encode(messages.Speed(5), Comm.REQUEST) + STOP)
+    for number in (_TRAJ, SPEED, _TRAJ):
         control.reply(number)
 
 
-def _failure(link: Link) -> object:
+def _failure(link: RawLink) -> object:
     """What a failure reply of a type without content says."""
     frame = link.expect_reply(2, "a request of an unknown type is answered")
-    if (frame.comm, frame.reply, frame.data) == (spec.Comm.REPLY, spec.ReplyCode.FAILURE, b""):
+    if (frame.comm, frame.reply, frame.data) == (Comm.REPLY, ReplyCode.FAILURE, b""):
         return messages.Failure()
     return decode(frame)
 
 
-def _is_lost(link: Link) -> bool:
+def _is_lost(link: RawLink) -> bool:
     return link.lost
 
 
+@case("control-junk", "junk drops its client and stops nothing", "R3")
 def _control_junk(bench: Bench) -> None:
     """What is no request of this port drops its client, stops nothing and harms nobody."""
     topic = bytearray(STOP)
@@ -95,11 +112,11 @@ def _control_junk(bench: Bench) -> None:
         struct.pack("<i", 11),
         struct.pack("<i", 1021),
         bytes(topic),
-        raw_point(3, bench.position, 1.0, spec.Comm.REQUEST),
-        struct.pack("<5i", 16, messages.PAUSE.number, 1, 0, 1),
-        struct.pack("<6i", 20, messages.PAUSE.number, 2, 0, 1, 1),
-        struct.pack("<4i", 12, messages.SPEED.number, 2, 0),
-        struct.pack("<4i", 12, messages.HEARTBEAT.number, 2, 0),
+        raw_point(3, bench.position, 1.0, Comm.REQUEST),
+        struct.pack("<5i", 16, PAUSE, 1, 0, 1),
+        struct.pack("<6i", 20, PAUSE, 2, 0, 1, 1),
+        struct.pack("<4i", 12, SPEED, 2, 0),
+        struct.pack("<4i", 12, HEARTBEAT, 2, 0),
     ]
     link = bench.motion()
     points = bench.wave(40)
@@ -116,15 +133,16 @@ def _control_junk(bench: Bench) -> None:
     stop(control)
 
 
+@case("signals", "signals that the configuration exposes")
 def _signals(bench: Bench) -> None:
     """Signals as the configuration exposes them: read, written, refused."""
     control = bench.control()
     exposed = bench.config.signals
     count = len(exposed)
     for index in (-1, count, 99):
-        control.send(encode(messages.Signal(index, 0, 0.0), spec.Comm.REQUEST))
+        control.send(encode(messages.Signal(index, 0, 0.0), Comm.REQUEST))
         if count:
-            told = control.reply(messages.SIGNAL.number)
+            told = control.reply(SIGNAL)
             not_done(told, Reason.NO_SIGNAL, f"signal {index} of {count}")
         elif not isinstance(_failure(control), messages.Failure):
             raise Broken("a driver without signals answers SIGNAL")
@@ -132,7 +150,7 @@ def _signals(bench: Bench) -> None:
         _one_signal(bench, control, index, signal.kind, signal.access == "write")
 
 
-def _one_signal(bench: Bench, control: Link, index: int, kind: str, writable: bool) -> None:
+def _one_signal(bench: Bench, control: RawLink, index: int, kind: str, writable: bool) -> None:
     there = bench.config.signals[index].name in bench.controller.signals
     told = control.ask(messages.Signal(index, 0, 0.0))
     if not there:
@@ -155,15 +173,3 @@ def _one_signal(bench: Bench, control: Link, index: int, kind: str, writable: bo
     )
     if control.ask(messages.Signal(index, 1, 0.0)) != messages.SignalReply(index, 0.0):
         raise Broken(f"signal {index} does not go back to 0")
-
-
-CASES = tuple(
-    Case(name, title, "controlling", if_there(prove), answers)
-    for name, title, prove, answers in (
-        ("control-leaves", "a control client leaves", _control_client_leaves, ""),
-        ("newest-control", "the newest control client is served", _newest_control_client, "R12"),
-        ("control-hello", "HELLO, PING and requests in pieces and lumps", _control_hello, "R2"),
-        ("control-junk", "junk drops its client and stops nothing", _control_junk, "R3"),
-        ("signals", "signals that the configuration exposes", _signals, ""),
-    )
-)  # fmt: skip

@@ -9,18 +9,18 @@ import os
 import signal
 from collections import Counter
 from collections.abc import Collection, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import partial
-from types import FrameType
 
-from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.proving.bench import FAILURES, Bench, Setting
-from rapidgen.proving.forking import in_a_fork
-from rapidgen.proving.model import Case, Outcome
-from rapidgen.proving.mutation import Mutant
-from rapidgen.proving.run import Starter, each
-from rapidgen.system.model import System
+from rapidgen.proving.bench import FAILURES, Bench, with_module
+from rapidgen.proving.model import Behaviour
+from rapidgen.proving.run import Starter
+from rapidgen.proving.settings import Setting
+from rapidgen.proving.workers import each, in_a_fork
+from rapidgen.rapid import parse
+from rapidgen.runtime.errors import FatalError
 
 PATIENCE = (2.0, 12.0)
 """A case has this many s of CPU, or so many times what it takes on the driver as it is, whatever
@@ -34,7 +34,7 @@ NEAR = 12
 
 
 # What the runs without a mutation need, inherited by fork.
-_baseline: tuple[Starter, Sequence[Case]] | None = None
+_baseline: tuple[Starter, Sequence[Behaviour]] | None = None
 
 
 class _Hung(Exception):
@@ -42,7 +42,7 @@ class _Hung(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Verdict:
+class Noticed:
     """What became of a mutant: `by` names the case that noticed it, empty: none did.
 
     `tried`: the cases that were; `left`: how many more execute it and were not.
@@ -59,14 +59,14 @@ class Judge:
 
     def __init__(
         self,
-        config: RobotConfig,
-        system: System,
-        cases: Sequence[Case],
+        config,
+        system,
+        cases: Sequence[Behaviour],
         setting: Setting | None = None,
         jobs: int = 1,
     ) -> None:
         """Run all cases once. Raises ValueError when one does not hold without a mutation."""
-        global _baseline  # noqa: PLW0603 - workers inherit it by fork
+        global _baseline
         chosen = setting if setting is not None else Setting()
         self._noticed: list[tuple[str, int, str]] = []
         self._cases = {case.name: case for case in cases}
@@ -92,7 +92,7 @@ class Judge:
         if name in self._cases:
             self._noticed.append((path, line, name))
 
-    def concerned(self, mutant: Mutant) -> list[Case]:
+    def concerned(self, mutant) -> list[Behaviour]:
         """The cases that execute the mutant's statement, in the order to be tried."""
         place = (mutant.path, mutant.statement)
         names = [n for n in self._cases if not mutant.statement or place in self._lines[n]]
@@ -104,9 +104,7 @@ class Judge:
         names.sort(key=lambda n: -worth[n] / self._usual[n])
         return [self._cases[name] for name in names]
 
-    def judge(
-        self, mutant: Mutant, budget: float = math.inf, already: Collection[str] = ()
-    ) -> Verdict:
+    def judge(self, mutant, budget: float = math.inf, already: Collection[str] = ()) -> Noticed:
         """Try one case after another until one notices it, or `budget` s of CPU are spent.
 
         `already`: cases that have been tried, and did not notice it.
@@ -114,19 +112,19 @@ class Judge:
         started = _spent()
         by, tried, left = in_a_fork(partial(self._try, mutant, budget, already))
         self.learn(mutant.path, mutant.line, by)
-        return Verdict(by, _spent() - started, tried, left)
+        return Noticed(by, _spent() - started, tried, left)
 
     def close(self) -> None:
         """Give the controller back."""
         self._bench.close()
 
     def _try(
-        self, mutant: Mutant, budget: float, already: Collection[str]
+        self, mutant, budget: float, already: Collection[str]
     ) -> tuple[str, tuple[str, ...], int]:
         """Who notices the mutant, who was tried, and how many were left out."""
         started = _spent()
         try:
-            self._bench.exchange(mutant.path, mutant.text)
+            exchange(self._bench, mutant.path, mutant.text)
         except DiagnosticError:
             return "(not loaded)", (), 0
         concerned = [case for case in self.concerned(mutant) if case.name not in already]
@@ -143,7 +141,7 @@ class Judge:
                 return by, tried, 0
         return "", tried, 0
 
-    def _noticed_by(self, case: Case) -> str:
+    def _noticed_by(self, case: Behaviour) -> str:
         least, times = PATIENCE
         signal.signal(signal.SIGPROF, _hang)
         signal.setitimer(signal.ITIMER_PROF, max(least, times * self._usual[case.name]))
@@ -168,7 +166,7 @@ def _worth(reached: Mapping[str, set[tuple[str, int]]]) -> dict[str, dict[str, f
     return found
 
 
-def _as_it_is(number: int) -> Outcome:
+def _as_it_is(number: int):
     assert _baseline is not None
     starter, cases = _baseline
     # Plots and the log are of no use here.
@@ -181,5 +179,43 @@ def _spent() -> float:
     return times.user + times.system + times.children_user + times.children_system
 
 
-def _hang(_signal: int, _frame: FrameType | None) -> None:
+def _hang(_signal: int, _frame) -> None:
     raise _Hung
+
+
+def exchange(bench: Bench, path: str, data: bytes) -> None:
+    """Give a module file another text, as if the controller had been booted with it.
+
+    For a bench that has not run yet, and a text that differs inside of routines only; that
+    takes a fraction of a boot's time. Raises DiagnosticError when it is no module.
+    """
+    tree = parse(data, path=path)
+    if tree.diagnostics:
+        raise DiagnosticError(*tree.diagnostics)
+    bench.system = with_module(bench.system, path, data)
+    for task in bench.controller.rapid_tasks.values():
+        for module in task.program.modules.values():
+            if module.file.path == path:
+                _exchange(task.program, module, tree)
+
+
+def _exchange(program, module, tree):
+    """Put the routines of `tree` that differ in the place of a module's own."""
+    before, module.tree = module.tree, tree
+    known = {r.name.casefold(): r for r in before.routines}
+    for node in tree.routines:
+        old = known[node.name.casefold()]
+        new_tokens = tree.source.tokens[node.first : node.last + 1]
+        if new_tokens == before.source.tokens[old.first : old.last + 1]:
+            continue
+        routine = module.routines[node.name.casefold()]
+        routine.node = node
+        program.codes.pop(program.code_name(routine), None)
+        program.space[routine.code] = partial(_call, program, routine)
+        # What cannot be linked ends its task when it is called, not here.
+        with suppress(FatalError):
+            program.function(routine)
+
+
+def _call(program, routine, *arguments, **named):
+    return program.function(routine)(*arguments, **named)

@@ -1,24 +1,28 @@
 """The supervisor seen from outside: how soon it answers, why a trajectory ended, pauses."""
 
 from rapidgen.machine.log import Event, EventType
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Link, point_frame
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.suite.moving import (
-    SOON,
-    at_call,
-    begins,
-    datum,
-    hangs,
-    patience,
-    unit_of,
+from rapidgen.proving.instructions import at_call, fails
+from rapidgen.proving.link import STOP, RawLink, point_frame
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    Comm,
+    Mode,
+    Reason,
+    TrajectoryState,
+    decode,
+    encode,
+    text_of,
 )
-from rapidgen.wire.simple_message import decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.motion_task import SOON, begins, datum, hangs, patience, unit_of
+
+case = Theme("halting")
 
 _PROMPT = 0.055
 """s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
-_TRAJ = messages.JOINT_TRAJ_PT.number
+_TRAJ = JOINT_TRAJ_PT
 
 
 def _prompt(bench: Bench, asked: float, what: str) -> None:
@@ -32,9 +36,10 @@ def _end_as_request(bench: Bench, count: int, duration: float) -> bytes:
     """A trajectory whose end frame is a request."""
     points = bench.wave(count, duration=duration)
     frames = [point_frame(n, count, *p) for n, p in enumerate(points[:-1])]
-    return b"".join((*frames, point_frame(count - 1, count, *points[-1], spec.Comm.REQUEST)))
+    return b"".join((*frames, point_frame(count - 1, count, *points[-1], Comm.REQUEST)))
 
 
+@case("answers-soon", "the supervisor answers by interrupts", "R7a", background=True)
 def _answers_soon(bench: Bench) -> None:
     """Whatever the supervisor is asked, whenever: it does not wait for its next look."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -65,7 +70,7 @@ def _answers_soon(bench: Bench) -> None:
             port = control
             if phase == 3:
                 # Should its own StopMove fail, the supervisor's does not.
-                bench.fails("ROS_control", "StopMove", "ERR_PATH_STOP")
+                fails(bench, "ROS_control", "StopMove", "ERR_PATH_STOP")
         port.read()
         port.send(STOP)
         asked = bench.now
@@ -104,16 +109,17 @@ def _warnings(bench: Bench, since: int) -> list[Event]:
     ]
 
 
+@case("why-it-ended", "the reason for each early end, at once", "R11, R14", background=True)
 def _why_it_ended(bench: Bench) -> None:
     """Each event by its own reason, at once; what comes meanwhile is refused for it."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number = bench.progress(watcher).trajectory
-    auto, failed = spec.Mode.AUTO, TrajectoryState.FAILED
+    auto, failed = Mode.AUTO, TrajectoryState.FAILED
     for action, reason, later, status in (
         ("e-stop", Reason.EMERGENCY_STOP, Reason.EMERGENCY_STOP, (0, 1, auto)),
         ("motors-off", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, auto)),
         ("stop", Reason.PROGRAM_STOPPED, Reason.NOT_EXECUTING, (1, 0, auto)),
-        ("manual", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, spec.Mode.MANUAL)),
+        ("manual", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, Mode.MANUAL)),
         ("leaves", Reason.CLIENT_LOST, Reason.NONE, (1, 0, auto)),
     ):
         last, points = bench.last_event, bench.wave(5, duration=unit)
@@ -137,7 +143,7 @@ def _why_it_ended(bench: Bench) -> None:
         if seen != wanted:
             raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
         said = [e.texts[0] for e in _warnings(bench, last)]
-        if said != ([reason.text] if action == "leaves" else []):
+        if said != ([text_of(reason)] if action == "leaves" else []):
             raise Broken(f"after {action} the event log says {said}")
         if action == "leaves":
             bench.run(0.3)
@@ -165,7 +171,7 @@ def _why_it_ended(bench: Bench) -> None:
             raise Broken(f"what began behind {action}, and ended later, is answered by {content}")
 
 
-def _is_paused(bench: Bench, watcher: Link, planned: int, reached: int) -> None:
+def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> None:
     bench.wait_until_standing(0.1 + SOON + bench.setting.motion.servo_lag)
     bench.run(SOON + 2 * bench.config.state_period)
     told, status = bench.progress(watcher), bench.status(watcher)
@@ -176,11 +182,12 @@ def _is_paused(bench: Bench, watcher: Link, planned: int, reached: int) -> None:
         0,
     ):
         raise Broken(f"a trajectory is paused, PROGRESS says {told}")
-    if status != (1, 0, 0, 0, 0, spec.Mode.AUTO, 0):
+    if status != (1, 0, 0, 0, 0, Mode.AUTO, 0):
         raise Broken(f"a trajectory is paused, STATUS says {status}")
     bench.stays(0.3, "it is paused")
 
 
+@case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends")
 def _pause_by_step(bench: Bench) -> None:
     """Each answer to PAUSE, what is told of it, and what becomes of a paused trajectory."""
     if not bench.group.ports.control:
@@ -204,16 +211,16 @@ def _pause_by_step(bench: Bench) -> None:
     bench.run(1.15 * unit)
     ask(1)
     _is_paused(bench, watcher, 3, 1)
-    bench.fails("ROS_supervisor", "StartMove", "ERR_PATHDIST")
+    fails(bench, "ROS_supervisor", "StartMove", "ERR_PATHDIST")
     ask(0, Reason.INTERNAL)
     _is_paused(bench, watcher, 3, 1)
     ask(1)
     goes_on()
-    bench.fails("ROS_supervisor", "StopMove", "ERR_PATH_STOP")
+    fails(bench, "ROS_supervisor", "StopMove", "ERR_PATH_STOP")
     ask(1, Reason.INTERNAL)
     ask(0)
     bench.run(SOON + 2 * bench.config.state_period)
-    if bench.standing or bench.status(watcher)[3:] != (0, 1, spec.Mode.AUTO, 1):
+    if bench.standing or bench.status(watcher)[3:] != (0, 1, Mode.AUTO, 1):
         raise Broken("a pause that was refused, and the end of none, stop the robot")
     bench.wait_until_at(way[3][0], 5)
     bench.followed([p for p, _ in way], since=begun)
@@ -242,12 +249,13 @@ def _pause_by_step(bench: Bench) -> None:
         bench.wait_until_at(points[2][0], 3 * unit + 2)
 
 
+@case("stop-in-pause", "STOP while a paused robot is about to be started", "R7b")
 def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
     """STOP comes while the supervisor is about to start a paused robot: it does not move."""
     if not bench.group.ports.control:
         return
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
-    supervisor = bench.controller.rapid_tasks[bench.task("ROS_supervisor")]
+    supervisor = bench.rapid_task("ROS_supervisor")
 
     def stop() -> None:
         link.at_once(STOP)
@@ -261,12 +269,13 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
         control.ask(messages.Pause(1))
         bench.wait_until_standing(1)
         at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
-        control.send(encode(messages.Pause(0), spec.Comm.REQUEST))
+        control.send(encode(messages.Pause(0), Comm.REQUEST))
         bench.stays(patience(bench), "STOP came at the end of a pause")
         if link.reply(_TRAJ) != messages.Acknowledged():
             raise Broken("STOP at the end of a pause is not confirmed")
 
 
+@case("builds-differ", "a task that shows another build, at a time", background=True)
 def _builds_differ(bench: Bench) -> None:
     """A task that shows another build: said once after two seconds, and nothing is taken."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -319,17 +328,3 @@ def _builds_differ(bench: Bench) -> None:
         bench.run(0.3)
     link.send(bench.download(bench.wave(3, duration=unit)))
     begins(bench, bench.now)
-
-
-CASES = (
-    Case("answers-soon", "the supervisor answers by interrupts", "halting", _answers_soon,
-         "R7a"),
-    Case("why-it-ended", "the reason for each early end, at once", "halting", _why_it_ended,
-         "R11, R14"),
-    Case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", "halting",
-         _pause_by_step),
-    Case("stop-in-pause", "STOP while a paused robot is about to be started", "halting",
-         _stop_in_the_end_of_a_pause, "R7b"),
-    Case("builds-differ", "a task that shows another build, at a time", "halting",
-         _builds_differ),
-)  # fmt: skip

@@ -5,13 +5,29 @@ from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
+from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.link import STOP, Link
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance, small_unit
-from rapidgen.runtime.builtins.clocks import Clock
-from rapidgen.wire.simple_message import Frame, decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
+from rapidgen.proving.instructions import fails
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import (
+    JOINT_FEEDBACK,
+    JOINT_POSITION,
+    PROGRESS,
+    STATUS,
+    Comm,
+    Feature,
+    Frame,
+    Mode,
+    Reason,
+    TrajectoryState,
+    decode,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import distance, small_unit
+from rapidgen.runtime.builtins.clocks import StopWatch
+
+case = Theme("reading")
 
 C = TypeVar("C")
 _NONE = Feature(0)
@@ -37,23 +53,23 @@ def content(one: Round, kind: type[C]) -> C:
     return found
 
 
-def rounds(link: Link, since: float) -> list[Round]:
+def rounds(link: RawLink, since: float) -> list[Round]:
     """What a client was told since a time, by rounds. Each begins with JOINT; replies are none."""
     found: list[Round] = []
     for when, frame in link.frames:
-        if when < since or frame.comm == spec.Comm.REPLY:
+        if when < since or frame.comm == Comm.REPLY:
             continue
-        if frame.number == messages.JOINT_POSITION.number or not found:
+        if frame.number == JOINT_POSITION or not found:
             found.append(Round(when, []))
         found[-1].frames.append(frame)
     return found
 
 
-def subscribe(bench: Bench, features: Feature, link: Link | None = None) -> Link:
+def subscribe(bench: Bench, features: Feature, link: RawLink | None = None) -> RawLink:
     """A client, new or not, that says HELLO to just these features."""
     client = link if link is not None else bench.state()
     client.read()
-    client.send(encode(HELLO._replace(subscribe=int(features)), spec.Comm.REQUEST))
+    client.send(encode(HELLO._replace(subscribe=int(features)), Comm.REQUEST))
     client.expect(messages.HelloReply, 2, "HELLO is answered")
     return client
 
@@ -72,22 +88,24 @@ def on_turn(bench: Bench, found: Sequence[Round], what: str) -> None:
         raise Broken(f"{what}: rounds are {min(offs):.4f} to {max(offs):.4f} s off their turns")
 
 
-def _pause(bench: Bench, link: Link) -> float:
+def _pause(bench: Bench, link: RawLink) -> float:
     """A moment between two rounds; now, that is."""
     bench.status(link)
     bench.run(0.5 * bench.config.state_period)
     return bench.now
 
 
-PLAIN = [messages.JOINT_POSITION.number, messages.STATUS.number]
+PLAIN = [JOINT_POSITION, STATUS]
 """Messages of a round for those who asked for nothing."""
 _FOLLOW = {
-    Feature.PROGRESS: messages.PROGRESS.number,
-    Feature.FEEDBACK: messages.JOINT_FEEDBACK.number,
+    Feature.PROGRESS: PROGRESS,
+    Feature.FEEDBACK: JOINT_FEEDBACK,
 }
 
 
-def _all_alike(bench: Bench, clients: Sequence[tuple[Link, Feature]], since: float) -> list[Round]:
+def _all_alike(
+    bench: Bench, clients: Sequence[tuple[RawLink, Feature]], since: float
+) -> list[Round]:
     """The rounds of the first client; Broken unless each gets what it asked for, and the same."""
     told = [rounds(link, since) for link, _ in clients]
     for (_, features), own in zip(clients, told, strict=True):
@@ -127,12 +145,13 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
         if status.in_motion != moving and (moving or stood > late):
             raise Broken(f"{progress} is told with {status}")
         plain = (status.drives_powered, status.e_stopped, status.mode, status.motion_possible)
-        if plain != (1, 0, spec.Mode.AUTO, 1):
+        if plain != (1, 0, Mode.AUTO, 1):
             raise Broken(f"all is well, STATUS says {status}")
         before = here
     return seen
 
 
+@case("each-round", "what each of three clients is told in each round")
 def _each_round(bench: Bench) -> None:
     """Three clients with wishes that change: a trajectory, one that is refused, a STOP."""
     some, everything = Feature.PROGRESS, Feature.PROGRESS | Feature.FEEDBACK
@@ -193,17 +212,18 @@ def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
                 raise Broken(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
 
 
-def _clocks(bench: Bench) -> list[Clock]:
-    program = bench.controller.rapid_tasks[bench.task("ROS_stateServer")].program
+def _clocks(bench: Bench) -> list[StopWatch]:
+    program = bench.rapid_task("ROS_stateServer").program
     return [clock for value in program.space.values() for clock in _of(value)]
 
 
-def _of(value: object) -> list[Clock]:
+def _of(value: object) -> list[StopWatch]:
     if isinstance(value, dict):
         return [clock for one in value.values() for clock in _of(one)]
-    return [value] if isinstance(value, Clock) and value.started is not None else []
+    return [value] if isinstance(value, StopWatch) and value.started is not None else []
 
 
+@case("over-the-ends", "schedule and stamps over the ends of the clock")
 def _over_the_ends(bench: Bench) -> None:
     """The schedule and the stamps of feedback, over both ends of the clock, in motion."""
     link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
@@ -241,7 +261,7 @@ def _over_the_ends(bench: Bench) -> None:
     _late_by_half(bench, link)
 
 
-def _late_by_half(bench: Bench, link: Link) -> None:
+def _late_by_half(bench: Bench, link: RawLink) -> None:
     """A round that is late by less than a period is made up for: the next one keeps its turn."""
     period, since = bench.config.state_period, _pause(bench, link)
     _advance(bench, 1.5 * period)
@@ -260,6 +280,7 @@ def _advance(bench: Bench, seconds: float) -> None:
         clock.started -= int(seconds * 10**9)
 
 
+@case("not-over-yet", "a halted trajectory whose path is not cleared yet")
 def _not_over_yet(bench: Bench) -> None:
     """A halted trajectory whose path is not cleared yet: the robot stands, and takes no other."""
     link, motion, period = bench.watcher(), bench.motion(), bench.config.state_period
@@ -270,7 +291,7 @@ def _not_over_yet(bench: Bench) -> None:
         motion.send(bench.download(bench.wave(8)))
         bench.wait_until_moving()
         bench.run(0.6)
-        bench.fails("ROS_motion", "ClearPath", "ERR_PATH_STOP", 3)
+        fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 3)
         if ending == "STOP":
             motion.send(STOP)
         else:
@@ -290,6 +311,7 @@ def _not_over_yet(bench: Bench) -> None:
         motion = bench.motion()
 
 
+@case("first-of-all", "who comes when all have left; movements that no signal shows", "R16")
 def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()
@@ -331,11 +353,11 @@ def _first_of_all(bench: Bench) -> None:
     _moved_by_others(bench, bench.state())
 
 
-def _moved_by_others(bench: Bench, link: Link) -> None:
+def _moved_by_others(bench: Bench, link: RawLink) -> None:
     """Somebody else moves an axis, and no signal shows it: STATUS does, once."""
-    bench.fails("ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
+    fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
     bench.run(0.5)
-    group, period = bench.controller.motion.group(bench.group.name), bench.config.state_period
+    group, period = bench.motion_group, bench.config.state_period
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
         for size, times in ((0.2, 1), (0.03, 0)):
@@ -347,14 +369,3 @@ def _moved_by_others(bench: Bench, link: Link) -> None:
             seen = sum(status.in_motion == 1 for status in told)
             if seen != times:
                 raise Broken(f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so")
-
-
-CASES = (
-    Case("each-round", "what each of three clients is told in each round", "reading", _each_round),
-    Case("over-the-ends", "schedule and stamps over the ends of the clock", "reading",
-         _over_the_ends),
-    Case("first-of-all", "who comes when all have left; movements that no signal shows", "reading",
-         _first_of_all, "R16"),
-    Case("not-over-yet", "a halted trajectory whose path is not cleared yet", "reading",
-         _not_over_yet),
-)  # fmt: skip

@@ -3,15 +3,29 @@
 from collections.abc import Sequence
 
 from rapidgen.generate.context import WRAP
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Point, point_frame, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import changed, small_unit
+from rapidgen.proving.instructions import fails
+from rapidgen.proving.link import STOP, point_frame, raw_point
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    Comm,
+    Reason,
+    Special,
+    StreamFlag,
+    TrajectoryState,
+    batch_points,
+    decode,
+    point_pairs,
+    text_of,
+)
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.proving.suite.streaming import way
-from rapidgen.proving.suite.taking import fast_ends
-from rapidgen.wire.simple_message import decode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason, StreamFlag, TrajectoryState
+from rapidgen.proving.suite.points import fast_ends
+from rapidgen.proving.suite.streams import way
+from rapidgen.proving.track import Point, changed, small_unit
+
+case = Theme("streaming")
 
 _NONE = StreamFlag(0)
 _SLOW = 30.0
@@ -64,7 +78,7 @@ class _Streams:
     def alone(self, sequence: int, what: str) -> None:
         """A point that comes alone, which is refused for that."""
         self.trajectory += 1
-        self.link.send(raw_point(sequence, self._bench.position, 1.0, spec.Comm.REQUEST))
+        self.link.send(raw_point(sequence, self._bench.position, 1.0, Comm.REQUEST))
         told = decode(self.link.expect_reply(2, "a point alone is answered"))
         if told != messages.Refused(Reason.NO_START, 0, 0):
             raise Broken(f"{what}: a point alone is answered by {told}")
@@ -72,7 +86,7 @@ class _Streams:
     def stop(self) -> None:
         """STOP, and its reply."""
         self.link.send(STOP)
-        self.link.reply(messages.JOINT_TRAJ_PT.number)
+        self.link.reply(JOINT_TRAJ_PT)
 
     def shows(self, state: TrajectoryState, counts: tuple[int, ...], reason: int) -> None:
         """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
@@ -87,6 +101,7 @@ class _Streams:
             )
 
 
+@case("stream-values", "each value of a stream's points at its bounds and beyond", "R10, R11")
 def _each_value(bench: Bench) -> None:
     """Limits and speeds of each joint, durations: the reply tells which point and joint."""
     streams, here, policy = _Streams(bench), bench.position, bench.config.trajectory
@@ -153,7 +168,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
 def _said(bench: Bench, reason: Reason) -> None:
     """Broken unless the event log has a refusal for that reason."""
     bench.run(0.05)
-    text = reason.text
+    text = text_of(reason)
     if not any(text in " ".join(event.texts) for event in bench.controller.log):
         raise Broken(f"the event log does not say: {text}")
 
@@ -162,7 +177,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     """Batches that nobody knows to be of the stream under way do nothing to it."""
     stream, points = streams.stream, way(bench, 4)
     for after in (_HEAD, _HEAD + 1):
-        recovers = bench.fails("ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
+        recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         stream.link.send(stream.frame(points, _NONE))
         stream.reply()
         recovers()
@@ -174,10 +189,10 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     if not isinstance(stream.last, messages.PointsRefused) or stream.last.stream:
         raise Broken(f"a damaged head is answered by {stream.last}")
     # Nor does a beginning that cannot be read end anything.
-    last = _HEAD + 2 + 2 * messages.point_pairs(len(bench.position))
+    last = _HEAD + 2 + 2 * point_pairs(len(bench.position))
     for after in (_HEAD + 2, _HEAD + 3, last):
         other = Streamer(bench, stream.link, number=9)
-        recovers = bench.fails("ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
+        recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         other.put(points[:2], BEGIN)
         recovers()
         streams.stream = other
@@ -188,10 +203,11 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     streams.stream = stream
 
 
+@case("odd-batches", "a stream is cut by its own faults alone")
 def _odd_batches(bench: Bench) -> None:
     """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
     streams = _Streams(bench)
-    pairs = messages.point_pairs(len(bench.position))
+    pairs = point_pairs(len(bench.position))
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
@@ -211,8 +227,8 @@ def _odd_batches(bench: Bench) -> None:
         data = bytearray(stream.frame(points[12:], _NONE, first))
         if unreadable is None:
             data[-9] ^= 1
-        recovers = bench.fails(
-            "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=unreadable or 999
+        recovers = fails(
+            bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=unreadable or 999
         )
         stream.link.send(bytes(data))
         stream.reply()
@@ -237,6 +253,7 @@ def _odd_batches(bench: Bench) -> None:
         streams.shows(TrajectoryState.DONE, (4, 4, 4), 0)
 
 
+@case("early-ends", "streams that end before they move", "R5")
 def _early_ends(bench: Bench) -> None:
     """Streams that end before they begin to move, and the one with the number 1 among them."""
     streams, here = _Streams(bench), bench.position
@@ -270,7 +287,7 @@ def _early_ends(bench: Bench) -> None:
         streams.begin()
         streams.alone(2, "a download was refused, then a stream began")
         # A point alone is skipped to its end.
-        streams.link.send(raw_point(int(spec.Sequence.END), here, 1.0))
+        streams.link.send(raw_point(int(Special.END), here, 1.0))
     streams.begin()
     streams.stop()
     short = bytearray(streams.stream.frame([(here, 1.0)] * 2, _NONE))
@@ -316,11 +333,12 @@ def _left(bench: Bench) -> None:
     bench.run(0.3)
 
 
+@case("room", "as many points as there is room for, and one more", "R1")
 def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
-    here, most = bench.position, messages.batch_points(len(bench.position))
+    here, most = bench.position, batch_points(len(bench.position))
     there = bench.wave(2, size=0.01)[1][0]
     goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]
     streams.begin(goal[:3], FLUSH)
@@ -364,13 +382,14 @@ def _count_from(bench: Bench, value: int) -> None:
         task[f"ROS_common:ROS_{name}{end}"] = value
 
 
+@case("stream-move-fails", "the motion task ends a stream")
 def _move_fails(bench: Bench) -> None:
     """The motion task ends a stream by itself; batches are told so, and nothing follows."""
     streams = _Streams(bench)
     points = way(bench, 24)
     streams.begin(points[:10])
     bench.wait_until_moving(1)
-    bench.fails("ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
+    fails(bench, "ROS_motion", "MoveAbsJ", "ERR_COLL_STOP")
     bench.run(0.5)
     bench.wait_until_standing(3)
     streams.stream.put(points[10:14])
@@ -379,13 +398,3 @@ def _move_fails(bench: Bench) -> None:
         raise Broken(f"a batch behind a collision is answered by {told}")
     streams.link.send(point_frame(0, 2, points[0][0], 0.3) + point_frame(1, 2, points[0][0], 0.3))
     bench.wait_until_at(points[0][0], 5)
-
-
-CASES = (
-    Case("stream-values", "each value of a stream's points at its bounds and beyond", "streaming",
-         _each_value, "R10, R11"),
-    Case("odd-batches", "a stream is cut by its own faults alone", "streaming", _odd_batches, ""),
-    Case("early-ends", "streams that end before they move", "streaming", _early_ends, "R5"),
-    Case("room", "as many points as there is room for, and one more", "streaming", _room, "R1"),
-    Case("stream-move-fails", "the motion task ends a stream", "streaming", _move_fails, ""),
-)  # fmt: skip

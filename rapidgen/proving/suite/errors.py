@@ -6,11 +6,13 @@ from dataclasses import replace
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
+from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP
-from rapidgen.proving.model import Broken, Case
-from rapidgen.runtime.builtins.clocks import Clock
-from rapidgen.wire.simple_message import messages, spec
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.messages import STATUS, Reason, TrajectoryState, TriState, text_of
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.runtime.builtins.clocks import StopWatch
+
+case = Theme("failing")
 
 _COUNTERS = (
     ("head", "tail"),
@@ -45,6 +47,7 @@ def _serves(bench: Bench) -> None:
     bench.run(0.3)
 
 
+@case("instructions-fail", "an instruction that reports an error ends no task", "R3")
 def _instructions_fail(bench: Bench) -> None:
     """Each instruction that a controller may refuse does so twice, at a standstill and moving."""
     for module, instruction, error in (
@@ -74,7 +77,7 @@ def _instructions_fail(bench: Bench) -> None:
             if moving:
                 link.send(bench.download(bench.wave(6)))
                 bench.wait_until_moving()
-            recovers = bench.fails(module, instruction, error, 2)
+            recovers = fails(bench, module, instruction, error, 2)
             bench.run(0.3)
             link.send(STOP)
             bench.run(2)
@@ -91,6 +94,7 @@ def _instructions_fail(bench: Bench) -> None:
                 raise Broken(f"{instruction} of {module} has failed {how}: {error}") from error
 
 
+@case("move-fails", "a move that fails ends its trajectory with its own reason", "R11, R14")
 def _move_fails(bench: Bench) -> None:
     for error, reason in (
         ("ERR_COLL_STOP", Reason.COLLISION),
@@ -102,16 +106,16 @@ def _move_fails(bench: Bench) -> None:
         link.send(bench.download(points))
         bench.wait_until_moving()
         bench.run(0.9)
-        bench.fails("ROS_motion", "MoveAbsJ", error)
+        fails(bench, "ROS_motion", "MoveAbsJ", error)
         bench.wait_until_standing(5)
         bench.stays(3, f"a move ended with {error}")
         bench.run(0.3)
         told, status = bench.progress(watcher), bench.status(watcher)
-        if (told.state, told.reason) != (spec.TrajectoryState.FAILED, reason):
+        if (told.state, told.reason) != (TrajectoryState.FAILED, reason):
             raise Broken(f"a move ended with {error}, PROGRESS says {told}")
         if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
             raise Broken(f"a move ended with {error}, STATUS says {status}")
-        said = [text for text in _errors(bench)[len(errors) :] if reason.text in text]
+        said = [text for text in _errors(bench)[len(errors) :] if text_of(reason) in text]
         if len(said) != 1 or f"point {told.planned - 1}" not in said[0]:
             raise Broken(f"a move to point {told.planned - 1} failed, the event log says {said}")
         bench.moves_through(link, bench.wave(3))
@@ -127,6 +131,7 @@ def _errors(bench: Bench) -> list[str]:
     return [str(e) for e in bench.controller.log if e.type is EventType.ERROR]
 
 
+@case("path-stays", "a path that cannot be cleared is not executed")
 def _path_stays(bench: Bench) -> None:
     """Should a path not be cleared at once, the robot stands until it is."""
     for times in (1, 3, 5):
@@ -135,7 +140,7 @@ def _path_stays(bench: Bench) -> None:
         link.send(bench.download(points))
         bench.wait_until_moving()
         bench.run(0.5)
-        bench.fails("ROS_motion", "ClearPath", "ERR_PATH_STOP", times)
+        fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", times)
         link.send(STOP)
         link.expect_reply(2, "STOP is answered, whatever becomes of the path")
         bench.wait_until_standing(5)
@@ -145,6 +150,7 @@ def _path_stays(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("port-taken", "a port that is taken is waited for", "R18")
 def _port_taken(bench: Bench) -> None:
     other = bench.beside(bench.system, setting=bench.setting.early())
     try:
@@ -165,6 +171,7 @@ def _port_taken(bench: Bench) -> None:
         other.close()
 
 
+@case("counters-wrap", "counters begin anew behind their last value", once=True)
 def _counters_wrap(bench: Bench) -> None:
     """The counters' last values come after years; here they are set before the start."""
     for before in (1, 3, 5):
@@ -209,14 +216,15 @@ def _serves_stop(bench: Bench) -> None:
     bench.run(0.2)
 
 
+@case("clocks-end", "a clock at the end of its 49 days")
 def _clocks_at_their_end(bench: Bench) -> None:
     """49 days without a refusal: the clock that rations lines on the pendant has ended."""
     link = bench.motion()
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)
-    program = bench.controller.rapid_tasks[bench.task("ROS_motionServer")].program
+    program = bench.rapid_task("ROS_motionServer").program
     for value in program.space.values():
-        if isinstance(value, Clock) and value.started is not None:
+        if isinstance(value, StopWatch) and value.started is not None:
             value.started -= 50 * 86_400 * 10**9
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)
@@ -224,11 +232,12 @@ def _clocks_at_their_end(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("state-for-hours", "the state schedule over the ends of its clock", once=True)
 def _state_for_hours(bench: Bench) -> None:
     """Messages keep their schedule while clocks and counters of the server start anew."""
     link = bench.state()
     bench.run(1050)
-    stamps = [when for when, f in link.frames if f.number == messages.STATUS.number]
+    stamps = [when for when, f in link.frames if f.number == STATUS]
     period = bench.config.state_period
     for i, when in enumerate(stamps):
         if abs(when - (stamps[0] + i * period)) > period:
@@ -237,6 +246,7 @@ def _state_for_hours(bench: Bench) -> None:
         raise Broken(f"{len(stamps)} STATUS in 1050 s, wanted {1050 / period:.0f}")
 
 
+@case("idle-costs", "a driver that waits takes little of the processor", "R19")
 def _idle_costs_nothing(bench: Bench) -> None:
     """A driver that waits leaves the controller's processor to others."""
     link, state = bench.motion(), bench.state()
@@ -254,19 +264,21 @@ def _idle_costs_nothing(bench: Bench) -> None:
     link.close()
 
 
+@case("signals-fail", "signals that cannot be read are unknown", "R15")
 def _signal_units_fail(bench: Bench) -> None:
     """A signal whose unit is gone is unknown, not off."""
     state = bench.state()
-    bench.fails("ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
+    fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
     bench.run(1)
     status = bench.status(state)
-    unknown = spec.TriState.UNKNOWN
+    unknown = TriState.UNKNOWN
     if (status.drives_powered, status.e_stopped, status.in_motion) != (unknown, unknown, 0):
         raise Broken(f"no signal can be read, STATUS says {status}")
     if status.in_error:
         raise Broken(f"no signal can be read, STATUS calls it an error: {status}")
 
 
+@case("stopped-unseen", "a program stop that no signal shows", "R15", background=True)
 def _stopped_without_signals(bench: Bench) -> None:
     """The supervisor cannot see that the program was stopped: the robot stays stopped."""
     other = bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=()))
@@ -280,7 +292,7 @@ def _stopped_without_signals(bench: Bench) -> None:
         link.send(STOP)
         other.run(3)
         told = other.progress(watcher)
-        if (told.state, told.reason) != (spec.TrajectoryState.STOPPED, Reason.STOPPED):
+        if (told.state, told.reason) != (TrajectoryState.STOPPED, Reason.STOPPED):
             raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
         if told.point != told.reached or not 0 < told.planned <= told.received:
             raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
@@ -296,24 +308,3 @@ def _stopped_without_signals(bench: Bench) -> None:
         other.moves_through(link, other.wave(4))
     finally:
         other.close()
-
-
-CASES = (
-    Case("instructions-fail", "an instruction that reports an error ends no task", "failing",
-         _instructions_fail, "R3"),
-    Case("move-fails", "a move that fails ends its trajectory with its own reason", "failing",
-         _move_fails, "R11, R14"),
-    Case("path-stays", "a path that cannot be cleared is not executed", "failing", _path_stays),
-    Case("port-taken", "a port that is taken is waited for", "failing", _port_taken, "R18"),
-    Case("counters-wrap", "counters begin anew behind their last value", "failing",
-         _counters_wrap),
-    Case("clocks-end", "a clock at the end of its 49 days", "failing", _clocks_at_their_end),
-    Case("state-for-hours", "the state schedule over the ends of its clock", "failing",
-         _state_for_hours),
-    Case("idle-costs", "a driver that waits takes little of the processor", "failing",
-         _idle_costs_nothing, "R19"),
-    Case("signals-fail", "signals that cannot be read are unknown", "failing", _signal_units_fail,
-         "R15"),
-    Case("stopped-unseen", "a program stop that no signal shows", "failing",
-         _stopped_without_signals, "R15"),
-)  # fmt: skip

@@ -2,9 +2,11 @@
 
 from rapidgen.machine.log import Event, EventType
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import Link, point_frame, raw_point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message.spec import Reason
+from rapidgen.proving.link import RawLink, point_frame, raw_point
+from rapidgen.proving.messages import Reason, text_of
+from rapidgen.proving.model import Broken, Theme
+
+case = Theme("telling")
 
 
 class _Pendant:
@@ -30,7 +32,7 @@ class _Pendant:
     def says(self, reason: Reason, point: int, joint: int, *, after: str) -> None:
         """One line and one warning with the reason's text, and the place where there is one."""
         lines, events = self.take()
-        text = reason.text
+        text = text_of(reason)
         place = f"Point {point}. " if point >= 0 else ""
         place += f"Joint {joint}. " if joint else ""
         if lines != [f"ROS refused: {text}"]:
@@ -42,7 +44,7 @@ class _Pendant:
             raise Broken(f"{after}: the event log says {said!r}, wanted {text!r} and {place!r}")
 
 
-def _send_wrong(bench: Bench, link: Link, index: int, *, joint: int = 0) -> None:
+def _send_wrong(bench: Bench, link: RawLink, index: int, *, joint: int = 0) -> None:
     points = [(p, 30.0) for p, _ in bench.wave(5)]
     joints = list(points[index][0])
     joints[joint] = bench.group.joints[joint].upper + 0.5
@@ -50,6 +52,7 @@ def _send_wrong(bench: Bench, link: Link, index: int, *, joint: int = 0) -> None
     link.send(bench.download(points))
 
 
+@case("said", "a refusal is one line and one warning with point and joint", "R19")
 def _refusals_are_said(bench: Bench) -> None:
     pendant, link = _Pendant(bench), bench.motion()
     last = len(bench.position) - 1
@@ -71,6 +74,7 @@ def _refusals_are_said(bench: Bench) -> None:
     pendant.says(Reason.INCOMPLETE, 2, 0, after="the client left after two points")
 
 
+@case("framing-said", "broken framing is told")
 def _framing_is_said(bench: Bench) -> None:
     pendant = _Pendant(bench)
     link = bench.motion()
@@ -87,6 +91,7 @@ def _framing_is_said(bench: Bench) -> None:
     pendant.says(Reason.UNKNOWN_MESSAGE, -1, 0, after="a message of another type")
 
 
+@case("rationed", "many refusals are few lines", "R19")
 def _lines_are_rationed(bench: Bench) -> None:
     pendant, link = _Pendant(bench), bench.motion()
     for _ in range(8):
@@ -107,6 +112,7 @@ def _lines_are_rationed(bench: Bench) -> None:
             raise Broken(f"after eight refusals at once the next one is told as {said!r}")
 
 
+@case("quiet", "what is in order is not told", "R19")
 def _peace_is_quiet(bench: Bench) -> None:
     """Neither work nor clients that come and go are news."""
     pendant = _Pendant(bench)
@@ -123,12 +129,3 @@ def _peace_is_quiet(bench: Bench) -> None:
         raise Broken(
             f"nothing was wrong, yet the operator reads {lines} {[str(e) for e in events]}"
         )
-
-
-CASES = (
-    Case("said", "a refusal is one line and one warning with point and joint", "telling",
-         _refusals_are_said, "R19"),
-    Case("framing-said", "broken framing is told", "telling", _framing_is_said),
-    Case("rationed", "many refusals are few lines", "telling", _lines_are_rationed, "R19"),
-    Case("quiet", "what is in order is not told", "telling", _peace_is_quiet, "R19"),
-)  # fmt: skip

@@ -1,18 +1,29 @@
 """The motion task seen from outside: each step of a trajectory in its time, and how it ends."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from rapidgen.machine.log import EventType
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Link, Point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
+from rapidgen.proving.instructions import at_call, fails
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import (
+    SPEED,
+    Comm,
+    Mode,
+    Reason,
+    TrajectoryState,
+    decode,
+    encode,
+    text_of,
+)
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.wire.simple_message import decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.proving.track import Point, distance
+
+case = Theme("moving")
 
 SOON = 0.15
 """s in which the driver does what nothing hinders."""
@@ -67,7 +78,7 @@ def _in_order(
         raise Broken(f"it is never told that {missing}")
 
 
-def watched(link: Link, since: float) -> list[tuple[float, messages.Progress, messages.Status]]:
+def watched(link: RawLink, since: float) -> list[tuple[float, messages.Progress, messages.Status]]:
     """PROGRESS from `since` on, each with its time and the STATUS that came with it."""
     found: list[tuple[float, messages.Progress, messages.Status]] = []
     status: messages.Status | None = None
@@ -81,7 +92,7 @@ def watched(link: Link, since: float) -> list[tuple[float, messages.Progress, me
 
 
 def _goes_by(
-    bench: Bench, link: Link, begun: float, trajectory: int, count: int, steps: Sequence[_Step]
+    bench: Bench, link: RawLink, begun: float, trajectory: int, count: int, steps: Sequence[_Step]
 ) -> None:
     """Broken unless PROGRESS and STATUS told each step of a good trajectory of `count` points."""
     told = watched(link, begun + _CLOSE)
@@ -95,7 +106,7 @@ def _goes_by(
         if when <= over + lag:
             # The first STATUS behind the end may tell of the motion before it.
             moving.append(1)
-        if status not in [messages.Status(1, 0, 0, 0, m, spec.Mode.AUTO, 1) for m in moving]:
+        if status not in [messages.Status(1, 0, 0, 0, m, Mode.AUTO, 1) for m in moving]:
             raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
@@ -105,30 +116,6 @@ def begins(bench: Bench, sent: float) -> float:
     if bench.now - sent > SOON + 2 * bench.setting.motion.settle:
         raise Broken(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
     return bench.now
-
-
-def at_call(
-    bench: Bench, module: str, instruction: str, number: int, act: Callable[[], None]
-) -> None:
-    """Call `act` once, when a module's task is just about to execute an instruction.
-
-    `number`: how many times from now, this one included.
-    """
-    task = bench.controller.rapid_tasks[bench.task(module)]
-    routine = task.program.find_routine(None, instruction.casefold())
-    assert routine is not None
-    space, left = task.program.space, number
-    as_before = space[routine.code]
-
-    def called(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-        nonlocal left
-        left -= 1
-        if left == 0:
-            act()
-            task.attend()
-        return as_before(*arguments)
-
-    space[routine.code] = called
 
 
 class _Meter:
@@ -152,6 +139,7 @@ class _Meter:
         self.begin()
 
 
+@case("step-by-step", "PROGRESS tells each step of a trajectory in its time")
 def _step_by_step(bench: Bench) -> None:
     """Zones, stop points and stays: what is planned, what is reached, and when it is over."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -198,6 +186,7 @@ def _step_by_step(bench: Bench) -> None:
         _goes_by(bench, watcher, begun, number, 2, steps)
 
 
+@case("stream-by-step", "each step of a stream in its time", "R9")
 def _stream_by_step(bench: Bench) -> None:
     """A stream that starves twice, and one that is cut."""
     watcher, unit = bench.watcher(), unit_of(bench)
@@ -259,6 +248,7 @@ def _stream_by_step(bench: Bench) -> None:
         raise Broken(f"a stream was cut behind two points, but {progress} and {status}")
 
 
+@case("speed-by-step", "a speed is for one trajectory, from the reply on")
 def _speed_by_step(bench: Bench) -> None:
     """Half the speed from the reply on, for this trajectory alone."""
     if not bench.group.ports.control:
@@ -291,16 +281,17 @@ def _speed_by_step(bench: Bench) -> None:
         bench.run(0.3)
 
 
+@case("speed-at-start", "a speed that comes at the beginning of a trajectory")
 def _speed_at_the_start(bench: Bench) -> None:
     """SPEED comes just when the motion task takes back that of the trajectory before."""
     if not bench.group.ports.control or not bench.setting.motion.refresh_timed:
         return
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
     speed = messages.Speed(50)
-    task = bench.controller.rapid_tasks[bench.task("ROS_motion")]
+    task = bench.rapid_task("ROS_motion")
 
     def ask() -> None:
-        control.at_once(encode(speed, spec.Comm.REQUEST))
+        control.at_once(encode(speed, Comm.REQUEST))
         # Long enough for the control server and an interrupt.
         task.sleep(0.05)
 
@@ -313,7 +304,7 @@ def _speed_at_the_start(bench: Bench) -> None:
     link.send(bench.download(points))
     bench.wait_until_moving()
     begun = bench.now
-    told = control.reply(messages.SPEED.number, SOON)
+    told = control.reply(SPEED, SOON)
     if told != messages.Acknowledged():
         raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
     bench.wait_until_at(points[2][0], 10 * unit)
@@ -328,7 +319,7 @@ def hangs(bench: Bench) -> bool:
 
 def _cycles(bench: Bench) -> int:
     """How often the program of the motion task has come to the end of its main."""
-    return bench.controller.rapid_tasks[bench.task("ROS_motion")].cycles
+    return bench.rapid_task("ROS_motion").cycles
 
 
 def _begins_anew(bench: Bench) -> None:
@@ -345,7 +336,7 @@ def patience(bench: Bench) -> float:
     return needed + (2 if hangs(bench) else 0)
 
 
-def _over_soon(bench: Bench, watcher: Link, since: float, what: str) -> messages.Progress:
+def _over_soon(bench: Bench, watcher: RawLink, since: float, what: str) -> messages.Progress:
     """Broken unless PROGRESS and STATUS say soon that a trajectory was stopped."""
     bench.until(
         lambda: any(
@@ -358,6 +349,7 @@ def _over_soon(bench: Bench, watcher: Link, since: float, what: str) -> messages
     return watched(watcher, since)[-1][1]
 
 
+@case("halts", "how soon a stop is over, and how often main begins anew", "R5, R6")
 def _halts(bench: Bench) -> None:
     """Stops at a standstill, in a stay and in a zone; then of a path that cannot be cleared."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -391,7 +383,7 @@ def _halts(bench: Bench) -> None:
         link.send(bench.download(bench.wave(5, duration=unit)))
         begins(bench, bench.now)
         bench.run(1.15 * unit)
-        bench.fails("ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
+        fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
         link.send(STOP)
         _begins_anew(bench)
         since = bench.now
@@ -403,11 +395,12 @@ def _halts(bench: Bench) -> None:
 
 def datum(bench: Bench, name: str) -> str:
     """Full name of a PERS of this group: with several groups they end in its number."""
-    task = bench.controller.rapid_tasks[bench.task("ROS_motion")]
+    task = bench.rapid_task("ROS_motion")
     declared = task.program.modules["ros_common"].declarations
     return next(f"ROS_common:{key}" for key in declared if re.fullmatch(rf"{name}(_\d+)?", key))
 
 
+@case("gives-up", "a fault on the way ends the trajectory there", "R11, R14")
 def _gives_up(bench: Bench) -> None:
     """A move that fails, and a hole in the ring: the robot stops where it is, and says where."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
@@ -423,7 +416,7 @@ def _gives_up(bench: Bench) -> None:
         number += 1
         begun = begins(bench, bench.now)
         if error:
-            bench.fails("ROS_motion", "MoveAbsJ", error, after=1)
+            fails(bench, "ROS_motion", "MoveAbsJ", error, after=1)
         else:
             ring = task[datum(bench, "ros_ring")].values()
             next(p for p in ring if (p.session, p.index) == (number, 4)).index = 5.0
@@ -434,7 +427,7 @@ def _gives_up(bench: Bench) -> None:
         planned = 4 if error else 3
         wanted = (number, TrajectoryState.FAILED, 6, planned, 2, reason, 2, 0)
         progress, status = bench.progress(watcher), bench.status(watcher)
-        if progress != wanted or status != (1, 0, reason, 1, 0, spec.Mode.AUTO, 1):
+        if progress != wanted or status != (1, 0, reason, 1, 0, Mode.AUTO, 1):
             raise Broken(f"{reason.name}, wanted {wanted}: {progress}, {status}")
         # What has failed is over.
         points = bench.wave(2, duration=unit)
@@ -445,22 +438,7 @@ def _gives_up(bench: Bench) -> None:
         bench.wait_until_standing(1)
         said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
         if len(said) != 1 or said[0].texts[:2] != (
-            reason.text,
+            text_of(reason),
             f"At point {planned - 1}.",
         ):
             raise Broken(f"{reason.name}, the event log says {[str(e) for e in said]}")
-
-
-CASES = (
-    Case("step-by-step", "PROGRESS tells each step of a trajectory in its time", "moving",
-         _step_by_step),
-    Case("stream-by-step", "each step of a stream in its time", "moving", _stream_by_step, "R9"),
-    Case("speed-by-step", "a speed is for one trajectory, from the reply on", "moving",
-         _speed_by_step),
-    Case("speed-at-start", "a speed that comes at the beginning of a trajectory", "moving",
-         _speed_at_the_start),
-    Case("halts", "how soon a stop is over, and how often main begins anew", "moving", _halts,
-         "R5, R6"),
-    Case("gives-up", "a fault on the way ends the trajectory there", "moving", _gives_up,
-         "R11, R14"),
-)  # fmt: skip

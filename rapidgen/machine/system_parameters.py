@@ -11,7 +11,7 @@ from rapidgen.system.cfg import Attribute, Instance, Scalar, Section, write_cfg
 _Values = dict[str, Scalar | bool]
 
 
-class Configuration:
+class SystemParameters:
     """Instances by domain, type and name, without case."""
 
     def __init__(self, system: System, groups: tuple[GroupConfig, ...]) -> None:

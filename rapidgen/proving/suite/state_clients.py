@@ -9,13 +9,26 @@ from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
 from rapidgen.machine.network.interface import BUFFER, NetworkFault
 from rapidgen.machine.network.memory import MemoryEndpoint
+from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.link import Link, Point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.suite.reading import PLAIN, on_turn, rounds, subscribe
+from rapidgen.proving.instructions import fails
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import (
+    JOINT_POSITION,
+    PING,
+    STATE_BYTES,
+    Comm,
+    Feature,
+    Reason,
+    decode,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.refusals import refused
-from rapidgen.wire.simple_message import decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Feature
+from rapidgen.proving.suite.state_port import PLAIN, on_turn, rounds, subscribe
+from rapidgen.proving.track import Point
+
+case = Theme("watching")
 
 _CLIENTS = 3
 """Clients that the state port serves at a time, as docs/use/driver.md promises."""
@@ -23,9 +36,10 @@ _WAITING = 16
 """Events that may wait to be told."""
 
 
+@case("several-watch", "three clients at once, and who makes room for a fourth")
 def _several_watch(bench: Bench) -> None:
     """Three are served, a newer one takes the place of the one that came last, or a free one."""
-    links: list[Link] = []
+    links: list[RawLink] = []
     for number in range(_CLIENTS + 3):
         lost = [link.lost for link in links]
         came = bench.now
@@ -59,7 +73,7 @@ def _several_watch(bench: Bench) -> None:
         raise Broken("clients at one time are told different things")
 
 
-def _fill(bench: Bench, link: Link, room: int = 0) -> None:
+def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
     """Messages on the way to a client, as after minutes without reading, but for `room` bytes."""
     end = link.endpoint
     assert isinstance(end, MemoryEndpoint)
@@ -69,7 +83,7 @@ def _fill(bench: Bench, link: Link, room: int = 0) -> None:
     while left:
         size = left if left <= 1024 else min(1024, left - 16)
         # A reply, as nobody has asked for: it is in no round.
-        frame = struct.pack("<4i", size - 4, messages.PING.number, spec.Comm.REPLY, 0)
+        frame = struct.pack("<4i", size - 4, PING, Comm.REPLY, 0)
         while len(pipe.waiting) + size > BUFFER:
             bench.run(0.001)
         try:
@@ -95,7 +109,7 @@ def _until_held(bench: Bench) -> float:
     return since[0]
 
 
-def _is_dropped(bench: Bench, link: Link, reader: Link) -> None:
+def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
     """A client with full buffers is dropped in time; the other goes on from there."""
     since = _until_held(bench)
     bench.until(lambda: not _held(bench), 70, "a send ends")
@@ -113,6 +127,7 @@ def _is_dropped(bench: Bench, link: Link, reader: Link) -> None:
     bench.until(lambda: link.lost, 5, "a client that does not read is dropped")
 
 
+@case("does-not-read", "a state client that does not read holds nobody up for long", "R13")
 def _does_not_read(bench: Bench) -> None:
     """Others miss its time once, and it is dropped; who is only slow is not."""
     silent, reader = bench.state(reading=False), bench.state()
@@ -141,21 +156,22 @@ def _does_not_read(bench: Bench) -> None:
     bench.until(lambda: bool(_events_of(reader, since)), 1, "an event is told")
     bench.run(0.01)
     times = max(1, round(0.1 / bench.config.state_period))
-    size = messages.JOINT_POSITION.length + messages.STATUS.length + 8
+    size = STATE_BYTES
     _fill(bench, silent, room=times * size + 50)
     _write(bench, 2, "Second")
     _is_dropped(bench, silent, reader)
     _fails_to_send(bench, reader)
 
 
-def _fails_to_send(bench: Bench, reader: Link) -> None:
+def _fails_to_send(bench: Bench, reader: RawLink) -> None:
     """Nothing is known of what a send that failed has sent: its client is dropped."""
-    recovers = bench.fails("ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED", _CLIENTS)
+    recovers = fails(bench, "ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED", _CLIENTS)
     bench.until(lambda: reader.lost, 0.3, "a client is dropped when a send to it fails")
     recovers()
     bench.status(bench.state(), 1)
 
 
+@case("breaks-in-send", "a state client that is reset while the server sends", "R13")
 def _breaks_in_a_send(bench: Bench) -> None:
     """A client that does not read is reset while the server has bytes for it."""
     silent, reader = bench.state(reading=False), bench.state()
@@ -170,11 +186,12 @@ def _breaks_in_a_send(bench: Bench) -> None:
     _fails_to_send(bench, reader)
 
 
-def _feedback_of(link: Link) -> list[tuple[float, messages.JointFeedback]]:
+def _feedback_of(link: RawLink) -> list[tuple[float, messages.JointFeedback]]:
     found = [(when, decode(frame)) for when, frame in link.frames]
     return [(when, told) for when, told in found if isinstance(told, messages.JointFeedback)]
 
 
+@case("feedback", "JOINT_FEEDBACK: time, positions and velocities")
 def _feedback(bench: Bench) -> None:
     first = subscribe(bench, Feature.FEEDBACK)
     link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
@@ -188,7 +205,7 @@ def _feedback(bench: Bench) -> None:
         if len(told) < 20:
             raise Broken(f"{len(told)} JOINT_FEEDBACK came")
         _is_motion(bench, told[2:])
-    joints = [decode(f) for _, f in link.frames if f.number == messages.JOINT_POSITION.number]
+    joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
     seen = {j.joints for j in joints if isinstance(j, messages.JointPosition)}
     if any(told.positions not in seen for _, told in _feedback_of(link)):
         raise Broken("JOINT_FEEDBACK tells other joints than JOINT")
@@ -226,12 +243,12 @@ def _write(bench: Bench, number: int, title: str, kind: EventType = EventType.WA
     bench.controller.log.write(10_000 * (number % 9 + 1) + number, kind, title, task=task)
 
 
-def _events_of(link: Link, since: float) -> list[tuple[float, messages.Event]]:
+def _events_of(link: RawLink, since: float) -> list[tuple[float, messages.Event]]:
     found = [(when, decode(frame)) for when, frame in link.frames if when >= since]
     return [(when, told) for when, told in found if isinstance(told, messages.Event)]
 
 
-def _are_told(link: Link, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
+def _are_told(link: RawLink, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
     """Broken unless just these events were told, in order, no more than ten a second."""
     found = _events_of(link, since)
     told = [(e.domain, e.number, e.type, e.title.rstrip("\0 ")) for _, e in found]
@@ -241,7 +258,9 @@ def _are_told(link: Link, since: float, wanted: Sequence[tuple[int, int, int, st
         raise Broken(f"events come at {[when for when, _ in found]}")
 
 
-def _burst(bench: Bench, link: Link, count: int) -> tuple[float, list[tuple[int, int, int, str]]]:
+def _burst(
+    bench: Bench, link: RawLink, count: int
+) -> tuple[float, list[tuple[int, int, int, str]]]:
     """Write an event, and `count` others just when it is told; what is then to be told."""
     since, kinds = bench.now, tuple(EventType)
     before = len(_events_of(link, 0.0))
@@ -259,6 +278,7 @@ def _burst(bench: Bench, link: Link, count: int) -> tuple[float, list[tuple[int,
     return since, wanted
 
 
+@case("events", "EVENT tells the controller's events to those who ask")
 def _events(bench: Bench) -> None:
     links = [subscribe(bench, Feature.EVENTS), bench.state()]
     links.append(subscribe(bench, Feature.EVENTS | Feature.PROGRESS))
@@ -298,6 +318,7 @@ def _events(bench: Bench) -> None:
     bench.run(0.5)
 
 
+@case("read-limits", "limits read from the controller count where they are narrower")
 def _limits_of_the_controller(bench: Bench) -> None:
     """A joint that the controller lets move less has those limits."""
     if not bench.setting.dialect.axis_limits_told:
@@ -313,7 +334,7 @@ def _limits_of_the_controller(bench: Bench) -> None:
     other = bench.beside(bench.system, robots)
     try:
         link = other.state()
-        link.send(encode(HELLO, spec.Comm.REQUEST))
+        link.send(encode(HELLO, Comm.REQUEST))
         told = link.expect(messages.HelloReply, 2, "HELLO is answered")
         if abs(told.lower[0] - narrow.lower) + abs(told.upper[0] - narrow.upper) > 1e-4:
             raise Broken(
@@ -326,7 +347,7 @@ def _limits_of_the_controller(bench: Bench) -> None:
         for value in (narrow.lower - 0.05 * half, narrow.upper + 0.05 * half):
             points = [(p, 60.0) for p, _ in other.wave(4)]
             points[2] = ((value, *points[2][0][1:]), 60.0)
-            refused(other, other.download(points), [spec.Reason.JOINT_LIMIT], 1, 2)
+            refused(other, other.download(points), [Reason.JOINT_LIMIT], 1, 2)
         for value in (narrow.lower, narrow.upper):
             here = other.position
             target = (value, *here[1:])
@@ -338,17 +359,3 @@ def _limits_of_the_controller(bench: Bench) -> None:
             other.run(1.5)
     finally:
         other.close()
-
-
-CASES = (
-    Case("several-watch", "three clients at once, and who makes room for a fourth", "watching",
-         _several_watch),
-    Case("does-not-read", "a state client that does not read holds nobody up for long", "watching",
-         _does_not_read, "R13"),
-    Case("breaks-in-send", "a state client that is reset while the server sends", "watching",
-         _breaks_in_a_send, "R13"),
-    Case("feedback", "JOINT_FEEDBACK: time, positions and velocities", "watching", _feedback),
-    Case("events", "EVENT tells the controller's events to those who ask", "watching", _events),
-    Case("read-limits", "limits read from the controller count where they are narrower",
-         "watching", _limits_of_the_controller),
-)  # fmt: skip

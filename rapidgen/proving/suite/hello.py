@@ -7,11 +7,28 @@ from itertools import pairwise
 from rapidgen import __version__
 from rapidgen.client.core.group import Group
 from rapidgen.generate.hello import features
+from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.link import STOP, Link, Point
-from rapidgen.proving.model import Broken, Case
-from rapidgen.wire.simple_message import decode, encode, messages, spec
-from rapidgen.wire.simple_message.spec import Feature, Reason, TrajectoryState
+from rapidgen.proving.instructions import fails
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import (
+    MAX_JOINTS,
+    PING,
+    POINT_BYTES,
+    PROGRESS,
+    PROTOCOL_VERSION,
+    Comm,
+    Feature,
+    Reason,
+    TrajectoryState,
+    batch_points,
+    decode,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import Point
+
+case = Theme("paired")
 
 
 def _float32(value: float) -> float:
@@ -19,16 +36,17 @@ def _float32(value: float) -> float:
 
 
 def _padded(values: list[float]) -> tuple[float, ...]:
-    return tuple(_float32(v) for v in (*values, *[0.0] * (spec.MAX_JOINTS - len(values))))
+    return tuple(_float32(v) for v in (*values, *[0.0] * (MAX_JOINTS - len(values))))
 
 
+@case("hello", "HELLO tells limits and capacities as they were configured")
 def _hello_tells_all(bench: Bench) -> None:
     link = bench.state()
-    link.send(encode(HELLO, spec.Comm.REQUEST))
+    link.send(encode(HELLO, Comm.REQUEST))
     told = link.expect(messages.HelloReply, 2, "HELLO is answered")
     joints, policy = bench.group.joints, bench.config.trajectory
     wanted: dict[str, object] = {
-        "protocol": spec.PROTOCOL_VERSION,
+        "protocol": PROTOCOL_VERSION,
         "driver": tuple(int(part) for part in __version__.split(".")[:3]),
         "build_id": bench.system.build_id,
         "mapping": Group.of(bench.config, bench.group).mapping,
@@ -46,7 +64,7 @@ def _hello_tells_all(bench: Bench) -> None:
         "control_port": bench.group.ports.control,
         "ring": policy.ring - 1,
         "preload": _float32(policy.preload),
-        "batch": messages.batch_points(len(joints)),
+        "batch": batch_points(len(joints)),
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
     for name, value in wanted.items():
@@ -68,26 +86,28 @@ def _same(told: object, wanted: object) -> bool:
     return told == wanted
 
 
+@case("hello-versions", "a HELLO of another version is refused, PROGRESS only where asked for")
 def _other_versions(bench: Bench) -> None:
     link = bench.state()
-    older = HELLO._replace(protocol=spec.PROTOCOL_VERSION - 1)
-    link.send(encode(older, spec.Comm.REQUEST))
+    older = HELLO._replace(protocol=PROTOCOL_VERSION - 1)
+    link.send(encode(older, Comm.REQUEST))
     told = link.expect(messages.HelloRefusal, 2, "an older HELLO is answered")
-    if told.protocol != spec.PROTOCOL_VERSION:
+    if told.protocol != PROTOCOL_VERSION:
         raise Broken(f"an older HELLO is answered by version {told.protocol}")
     bench.run(1)
-    if any(f.number == messages.PROGRESS.number for f in link.read()):
+    if any(f.number == PROGRESS for f in link.read()):
         raise Broken("PROGRESS comes although HELLO was refused")
-    link.send(encode(HELLO._replace(subscribe=2), spec.Comm.REQUEST))
+    link.send(encode(HELLO._replace(subscribe=2), Comm.REQUEST))
     link.expect(messages.HelloReply, 2, "the next HELLO on the same link is answered")
     bench.run(1)
-    if any(f.number == messages.PROGRESS.number for f in link.read()):
+    if any(f.number == PROGRESS for f in link.read()):
         raise Broken("PROGRESS comes although it was not asked for")
 
 
+@case("hello-in-pieces", "a HELLO in pieces is answered", "R2")
 def _hello_in_pieces(bench: Bench) -> None:
     link = bench.state()
-    data = encode(HELLO, spec.Comm.REQUEST)
+    data = encode(HELLO, Comm.REQUEST)
     for size in (1, 3, len(data) - 5):
         link.send(data[:size])
         data = data[size:]
@@ -96,12 +116,13 @@ def _hello_in_pieces(bench: Bench) -> None:
     link.expect(messages.HelloReply, 2, "a HELLO in pieces is answered")
 
 
+@case("state-port-junk", "what is no HELLO breaks that link and no other")
 def _state_port_takes_nothing_else(bench: Bench) -> None:
-    good = encode(HELLO, spec.Comm.REQUEST)
+    good = encode(HELLO, Comm.REQUEST)
     words = struct.unpack(f"<{len(good) // 4}i", good)
     wrong = {
         "another length": (words[0] - 1, *words[1:]),
-        "another type": (words[0], messages.PING.number, *words[2:]),
+        "another type": (words[0], PING, *words[2:]),
         "a topic": (*words[:2], 1, *words[3:]),
         "a reply": (*words[:2], 3, *words[3:]),
     }
@@ -118,7 +139,7 @@ def _state_port_takes_nothing_else(bench: Bench) -> None:
         bench.run(0.5)
 
 
-def _is_lost(link: Link) -> bool:
+def _is_lost(link: RawLink) -> bool:
     return link.lost
 
 
@@ -143,11 +164,12 @@ def _passed(bench: Bench, points: list[Point]) -> float:
     return 1 + share * (len(points) - 1)
 
 
-def _newest(bench: Bench, link: Link) -> messages.Progress:
+def _newest(bench: Bench, link: RawLink) -> messages.Progress:
     bench.run(2 * bench.config.state_period)
     return bench.progress(link)
 
 
+@case("progress", "PROGRESS counts points received, planned and reached")
 def _progress_tells_the_way(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     before = bench.progress(link).trajectory
@@ -190,10 +212,11 @@ def _is_consistent(told: messages.Progress, number: int, count: int) -> None:
         raise Broken(f"trajectory {number} of {count} points is under way, PROGRESS says {told}")
 
 
+@case("progress-download", "PROGRESS of a download and its STOP")
 def _progress_of_a_download(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     frames = bench.download(bench.wave(6))
-    size = messages.JOINT_TRAJ_PT.length + 4
+    size = POINT_BYTES
     for sent in range(1, 5):
         motion.send(frames[(sent - 1) * size : sent * size])
         told = _newest(bench, link)
@@ -208,6 +231,7 @@ def _progress_of_a_download(bench: Bench) -> None:
         raise Broken("a download that was stopped is an error in STATUS")
 
 
+@case("progress-refused", "PROGRESS of a refusal: reason, point, joint", "R1, R10")
 def _progress_of_a_refusal(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     points = [(p, 30.0) for p, _ in bench.wave(6)]
@@ -227,6 +251,12 @@ def _progress_of_a_refusal(bench: Bench) -> None:
         raise Broken(f"STOP ends the report of a refusal, but {told}, {status}")
 
 
+@case(
+    "progress-ended",
+    "PROGRESS of a trajectory that ended early: why and where",
+    "R11, R14",
+    background=True,
+)
 def _progress_of_an_early_end(bench: Bench) -> None:
     """Each event that ends a trajectory is told by its own reason, and where it ended."""
     stopped = (Reason.MOTORS_OFF, Reason.PROGRAM_STOPPED)
@@ -268,6 +298,7 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         bench.run(1.5)
 
 
+@case("progress-superseded", "PROGRESS is of the newest trajectory")
 def _progress_of_a_successor(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     motion.send(bench.download(bench.wave(30)))
@@ -290,6 +321,7 @@ def _progress_of_a_successor(bench: Bench) -> None:
         raise Broken(f"half a trajectory was received, PROGRESS says {states}")
 
 
+@case("progress-in-between", "PROGRESS while another task writes what it tells")
 def _progress_in_between(bench: Bench) -> None:
     """What another task has written of two numbers is told as one: of nothing, or of the newer."""
     link, motion = bench.watcher(), bench.motion()
@@ -321,44 +353,20 @@ def _progress_in_between(bench: Bench) -> None:
     bench.moves_through(motion, bench.wave(3))
 
 
+@case("other-hellos", "a HELLO of later versions, and one that cannot be read")
 def _other_hellos(bench: Bench) -> None:
     """Of a newer client, with wishes that nobody knows, and one that cannot be read."""
     link, later = bench.state(), 1 << 20
-    newer = HELLO._replace(protocol=spec.PROTOCOL_VERSION + 1, subscribe=later | 1)
-    link.send(encode(newer, spec.Comm.REQUEST))
+    newer = HELLO._replace(protocol=PROTOCOL_VERSION + 1, subscribe=later | 1)
+    link.send(encode(newer, Comm.REQUEST))
     link.expect(messages.HelloReply, 2, "a newer HELLO is answered")
     bench.progress(link)
-    bench.fails("ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
-    link.send(encode(HELLO, spec.Comm.REQUEST))
+    fails(bench, "ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
+    link.send(encode(HELLO, Comm.REQUEST))
     bench.until(lambda: link.lost, 1, "a HELLO that cannot be read breaks the link")
-    good = encode(HELLO, spec.Comm.REQUEST)
+    good = encode(HELLO, Comm.REQUEST)
     for data in (good + b"\0", good[:8] + b"\3" + good[9:], b"\x21" + good[1:]):
         link = bench.watcher()
         link.send(data)
         bench.until(partial(_is_lost, link), 1, "what is no HELLO breaks the link")
     bench.progress(bench.watcher())
-
-
-CASES = (
-    Case("hello", "HELLO tells limits and capacities as they were configured", "paired",
-         _hello_tells_all),
-    Case("hello-versions", "a HELLO of another version is refused, PROGRESS only where asked for",
-         "paired", _other_versions),
-    Case("hello-in-pieces", "a HELLO in pieces is answered", "paired", _hello_in_pieces, "R2"),
-    Case("state-port-junk", "what is no HELLO breaks that link and no other", "paired",
-         _state_port_takes_nothing_else),
-    Case("progress", "PROGRESS counts points received, planned and reached", "paired",
-         _progress_tells_the_way),
-    Case("progress-download", "PROGRESS of a download and its STOP", "paired",
-         _progress_of_a_download),
-    Case("progress-refused", "PROGRESS of a refusal: reason, point, joint", "paired",
-         _progress_of_a_refusal, "R1, R10"),
-    Case("progress-ended", "PROGRESS of a trajectory that ended early: why and where", "paired",
-         _progress_of_an_early_end, "R11, R14"),
-    Case("progress-superseded", "PROGRESS is of the newest trajectory", "paired",
-         _progress_of_a_successor),
-    Case("progress-in-between", "PROGRESS while another task writes what it tells", "paired",
-         _progress_in_between),
-    Case("other-hellos", "a HELLO of later versions, and one that cannot be read", "paired",
-         _other_hellos),
-)  # fmt: skip

@@ -1,19 +1,30 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, Link
-from rapidgen.proving.model import Broken, Case
+from rapidgen.proving.instructions import fails, watched_orders
+from rapidgen.proving.link import STOP, RawLink
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    MAX_JOINTS,
+    Comm,
+    Reason,
+    TrajectoryState,
+    encode,
+)
+from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
-from rapidgen.proving.suite.controlling import if_there, not_done, stop
-from rapidgen.proving.suite.streaming import way
-from rapidgen.wire.simple_message import encode, messages, spec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.proving.suite.control import not_done, stop
+from rapidgen.proving.suite.streams import way
 
-_TRAJ = messages.JOINT_TRAJ_PT.number
+case = Theme("controlling", port="control")
+
+_TRAJ = JOINT_TRAJ_PT
 _FAILED = TrajectoryState.FAILED
-_PING = encode(messages.Ping(), spec.Comm.REQUEST)
+_PING = encode(messages.Ping(), Comm.REQUEST)
 
 
+@case("stops-alone", "STOP while the supervisor hangs", "R7b")
 def _alone(bench: Bench) -> None:
     """While the supervisor hangs STOP stops the robot all the same, and nobody says it is done."""
     control, link = bench.control(), bench.motion()
@@ -22,14 +33,14 @@ def _alone(bench: Bench) -> None:
     link.send(bench.download(points))
     bench.wait_until_moving()
     bench.run(0.5)
-    bench.watch_orders()
+    orders = watched_orders(bench)
     supervisor.stop()
     asked = bench.now
     for chosen in (control, link):
         chosen.send(STOP)
     bench.run(0.02)
-    if [o.instruction for o in bench.orders].count("StopMove") != 1:
-        raise Broken(f"the supervisor hangs, STOP came, then {bench.orders}")
+    if [o.instruction for o in orders].count("StopMove") != 1:
+        raise Broken(f"the supervisor hangs, STOP came, then {orders}")
     for chosen in (control, link):
         told = chosen.reply(_TRAJ, 2)
         if not isinstance(told, messages.Failure) or not 0.9 < bench.now - asked < 1.5:
@@ -45,14 +56,15 @@ def _alone(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("beats", "heartbeats to the moment", "R12")
 def _beats(bench: Bench) -> None:
     """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
     control, link = bench.control(), bench.motion()
-    bench.watch_orders()
+    orders = watched_orders(bench)
     for seconds in (0.25, 1.03):
         link.send(bench.download(bench.wave(12)))
         bench.wait_until_moving()
-        bench.orders.clear()
+        orders.clear()
         control.ask(messages.Heartbeat(0.1))
         control.ask(messages.Heartbeat(seconds))
         last = bench.now
@@ -61,7 +73,7 @@ def _beats(bench: Bench) -> None:
             control.send(_PING)
             bench.run(0.001)
         bench.wait_until_standing(3)
-        stops = [o.time for o in bench.orders if o.instruction == "StopMove"]
+        stops = [o.time for o in orders if o.instruction == "StopMove"]
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.04:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         if seconds > 1:
@@ -72,6 +84,7 @@ def _beats(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(5))
 
 
+@case("beating-clients", "clients that beat, and are lost in each way", "R12")
 def _leave(bench: Bench) -> None:
     """Each of several clients that beat leaves, is replaced, or is dropped: the robot stops."""
     link, control = bench.motion(), bench.control()
@@ -82,13 +95,13 @@ def _leave(bench: Bench) -> None:
         if how != "has not beaten":
             control.ask(messages.Heartbeat(0.6))
         bench.run(0.2)
-        next_one: Link | None = None
+        next_one: RawLink | None = None
         if how == "is replaced":
             next_one = bench.control()
         elif how == "is dropped":
             # By an error in serving it, where the task survives one, else by what it sends.
             if bench.setting.dialect.unhandled_error == "propagate":
-                bench.fails("ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
+                fails(bench, "ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
             control.send(_PING + b"\xff" * 8)
         else:
             control.close(abort=how == "is reset")
@@ -104,6 +117,7 @@ def _leave(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(6, duration=0.25))
 
 
+@case("stops-before", "STOP before a stream moves")
 def _not_begun(bench: Bench) -> None:
     """A stream that has points but did not begin to move is stopped: no point was reached."""
     if bench.config.trajectory.preload <= 0:
@@ -114,7 +128,7 @@ def _not_begun(bench: Bench) -> None:
     number = stream.accepted("the first points").trajectory
     stop(control)
     told = control.expect(messages.Stopped, 2, "STOPPED arrives")
-    here = (*bench.position, *[0.0] * (spec.MAX_JOINTS - len(bench.position)))
+    here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
     if (
         told[:3] != (number, 0, Reason.STOPPED)
         or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
@@ -131,14 +145,3 @@ def _not_begun(bench: Bench) -> None:
     ):
         raise Broken(f"a stream was stopped before it moved, PROGRESS says {progress}")
     bench.stays(0.5, "the stream was stopped before it moved")
-
-
-CASES = tuple(
-    Case(name, title, "controlling", if_there(prove), answers)
-    for name, title, prove, answers in (
-        ("stops-alone", "STOP while the supervisor hangs", _alone, "R7b"),
-        ("beats", "heartbeats to the moment", _beats, "R12"),
-        ("beating-clients", "clients that beat, and are lost in each way", _leave, "R12"),
-        ("stops-before", "STOP before a stream moves", _not_begun, ""),
-    )
-)

@@ -1,13 +1,15 @@
-"""A function in a process of its own, from the very state that this one is in.
+"""Work on several processes of this machine, and a function in a copy of this one.
 
-A booted controller is copied by that in a few milliseconds; whatever is done to the copy ends
+A booted controller is copied by a fork in a few milliseconds; whatever is done to the copy ends
 with it.
 """
 
 import os
 import pickle
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing import get_context
 from typing import TypeVar
 
 from rapidgen.machine.files import remove_scratch_folders
@@ -17,6 +19,30 @@ R = TypeVar("R")
 
 class ForkFailed(Exception):
     """The copy ended without a result: killed, or by a fault of the interpreter."""
+
+
+def each(
+    work: Sequence[object],
+    function: Callable[..., R],
+    jobs: int | None,
+    what: str = "",
+    progress: Callable[[str, int, int], None] | None = None,
+) -> list[R]:
+    """Results of a module's function for each piece of work, in order, on several processes."""
+    count = jobs or os.cpu_count() or 1
+    results = []
+    if count == 1:
+        for done, item in enumerate(work, 1):
+            results.append(function(item))
+            if progress is not None:
+                progress(what, done, len(work))
+        return results
+    with ProcessPoolExecutor(count, mp_context=get_context("fork")) as pool:
+        for done, result in enumerate(pool.map(function, work, chunksize=4), 1):
+            results.append(result)
+            if progress is not None:
+                progress(what, done, len(work))
+    return results
 
 
 def in_a_fork(function: Callable[[], R]) -> R:

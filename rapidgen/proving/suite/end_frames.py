@@ -2,15 +2,17 @@
 
 from itertools import pairwise
 
-from rapidgen.proving.bench import SETTLED, Bench
-from rapidgen.proving.link import Point, Position, point_frame
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import changed, distance
-from rapidgen.proving.suite.taking import Table
-from rapidgen.wire.simple_message import messages, spec
-from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
+from rapidgen.proving import messages
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import point_frame
+from rapidgen.proving.messages import Reason, Special, TrajectoryState
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.suite.points import Table
+from rapidgen.proving.track import SETTLED, Point, Position, changed, distance
 
-_BEGIN, _END = int(spec.Sequence.START_DOWNLOAD), int(spec.Sequence.END)
+case = Theme("taking")
+
+_BEGIN, _END = int(Special.BEGIN), int(Special.END)
 _TAKEN = messages.Acknowledged()
 _NO_START = messages.Refused(Reason.NO_START, 0, 0)
 _SLACK = 0.05
@@ -60,6 +62,7 @@ def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
     raise Broken(f"{count} points are executed, PROGRESS says {told}")
 
 
+@case("one-place", "one point, sent twice, in its time", "R8")
 def _one_place(bench: Bench) -> None:
     """One point, sent twice: in the time given, or at approach speed, whichever takes longer."""
     table, joints = Table(bench), bench.group.joints
@@ -88,6 +91,7 @@ def _one_place(bench: Bench) -> None:
         _done(bench, table, 2, 0.1 if needed else given + 0.1)
 
 
+@case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "R8, R10")
 def _start(bench: Bench) -> None:
     """How far from the robot a first point may be; the ways and stays behind it in their time."""
     table, policy, joints = Table(bench), bench.config.trajectory, bench.group.joints
@@ -159,6 +163,7 @@ def _ways(bench: Bench, table: Table, near: Position) -> None:
             raise Broken("a stay at the end was left out")
 
 
+@case("not-now", "an end frame while no motion is possible, or another one moves", "R7a")
 def _not_now(bench: Bench) -> None:
     """What has stopped or stops the robot meanwhile is the reason; a halt is waited for."""
     table, here = Table(bench), bench.position
@@ -225,6 +230,7 @@ def _long(bench: Bench, count: int) -> list[Point]:
     return [(p, seconds) for p, _ in bench.wave(count, duration=seconds, size=0.02)]
 
 
+@case("fed", "more points than the ring takes", "R1")
 def _fed(bench: Bench) -> None:
     """More points than the ring takes are all executed, in time, and the server goes on reading."""
     policy = bench.config.trajectory
@@ -247,6 +253,7 @@ def _fed(bench: Bench) -> None:
     bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
 
 
+@case("ends-while-fed", "the end of a trajectory that is still fed", "R5", background=True)
 def _ends_while_fed(bench: Bench) -> None:
     """Nothing of what had not found room yet is ever executed."""
     policy = bench.config.trajectory
@@ -280,15 +287,3 @@ def _ends_while_fed(bench: Bench) -> None:
     bench.wait_until_at(goal, 5)
     _done(bench, table, 2, 0.1)
     bench.stays(0.3, "the one before was superseded")
-
-
-CASES = (
-    Case("one-place", "one point, sent twice, in its time", "taking", _one_place, "R8"),
-    Case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "taking",
-         _start, "R8, R10"),
-    Case("not-now", "an end frame while no motion is possible, or another one moves", "taking",
-         _not_now, "R7a"),
-    Case("fed", "more points than the ring takes", "taking", _fed, "R1"),
-    Case("ends-while-fed", "the end of a trajectory that is still fed", "taking",
-         _ends_while_fed, "R5"),
-)  # fmt: skip

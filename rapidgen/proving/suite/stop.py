@@ -1,12 +1,16 @@
 """STOP, and trajectories that take each other's place."""
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
-from rapidgen.proving.model import Broken, Case
-from rapidgen.proving.positions import distance
-from rapidgen.wire.simple_message import decode, messages
+from rapidgen.proving.messages import JOINT_POSITION, decode
+from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.track import distance
+
+case = Theme("stopping")
 
 
+@case("stop-on-path", "STOP ends the motion on the path and nothing follows")
 def _stops_on_the_path(bench: Bench) -> None:
     link = bench.motion()
     for delay in (0.02, 0.3, 0.55, 1.1):
@@ -25,6 +29,7 @@ def _stops_on_the_path(bench: Bench) -> None:
         bench.stays(3, "it was stopped")
 
 
+@case("again-after-stop", "a new trajectory moves after a STOP, again and again", "R5, R6")
 def _moves_again_after_stop(bench: Bench) -> None:
     link = bench.motion()
     for _ in range(4):
@@ -39,6 +44,7 @@ def _moves_again_after_stop(bench: Bench) -> None:
         bench.moves_through(link, bench.wave(3))
 
 
+@case("stop-any-moment", "STOP at every moment of the hand-over", "R7b")
 def _stop_at_every_moment(bench: Bench) -> None:
     link = bench.motion()
     # From before the end frame is looked at until well into the motion.
@@ -53,6 +59,7 @@ def _stop_at_every_moment(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(4))
 
 
+@case("stop-in-download", "STOP in a download: what follows belongs to nothing")
 def _stop_in_a_download(bench: Bench) -> None:
     link = bench.motion()
     frames = bench.download(bench.wave(8))
@@ -64,6 +71,7 @@ def _stop_in_a_download(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("stop-thrice", "several STOPs at once are all answered")
 def _twice_stopped(bench: Bench) -> None:
     link = bench.motion()
     link.send(bench.download(bench.wave(10)))
@@ -75,6 +83,7 @@ def _twice_stopped(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("superseded", "a new trajectory ends the one under way", "R5")
 def _new_trajectory_while_moving(bench: Bench) -> None:
     link = bench.motion()
     first = bench.wave(10)
@@ -99,6 +108,7 @@ def _new_trajectory_while_moving(bench: Bench) -> None:
     bench.moves_through(link, bench.wave(3))
 
 
+@case("ends-once", "a finished trajectory is not executed again")
 def _ends_once(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(5)
@@ -106,6 +116,7 @@ def _ends_once(bench: Bench) -> None:
     bench.stays(30, "the trajectory is done")
 
 
+@case("ring-is-empty", "a stopped long trajectory leaves nothing behind")
 def _short_way_to_stop(bench: Bench) -> None:
     """Nothing of an old ring is executed when a long trajectory was stopped early."""
     link = bench.motion()
@@ -121,6 +132,7 @@ def _short_way_to_stop(bench: Bench) -> None:
     bench.stays(2, "the old points are gone")
 
 
+@case("stop-in-status", "STATUS after a STOP")
 def _state_tells_of_the_stop(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
     link.send(bench.download(bench.wave(10)))
@@ -133,25 +145,6 @@ def _state_tells_of_the_stop(bench: Bench) -> None:
     status = bench.status(state)
     if (status.in_error, status.in_motion, status.motion_possible) != (0, 0, 1):
         raise Broken(f"after a STOP STATUS says {status}")
-    joints = [decode(f) for f in state.read() if f.number == messages.JOINT_POSITION.number]
+    joints = [decode(f) for f in state.read() if f.number == JOINT_POSITION]
     if any(not isinstance(j, messages.JointPosition) for j in joints):
         raise Broken("JOINT cannot be read")
-
-
-CASES = (
-    Case("stop-on-path", "STOP ends the motion on the path and nothing follows", "stopping",
-         _stops_on_the_path),
-    Case("again-after-stop", "a new trajectory moves after a STOP, again and again", "stopping",
-         _moves_again_after_stop, "R5, R6"),
-    Case("stop-any-moment", "STOP at every moment of the hand-over", "stopping",
-         _stop_at_every_moment, "R7b"),
-    Case("stop-in-download", "STOP in a download: what follows belongs to nothing", "stopping",
-         _stop_in_a_download),
-    Case("stop-thrice", "several STOPs at once are all answered", "stopping", _twice_stopped),
-    Case("superseded", "a new trajectory ends the one under way", "stopping",
-         _new_trajectory_while_moving, "R5"),
-    Case("ends-once", "a finished trajectory is not executed again", "stopping", _ends_once),
-    Case("ring-is-empty", "a stopped long trajectory leaves nothing behind", "stopping",
-         _short_way_to_stop),
-    Case("stop-in-status", "STATUS after a STOP", "stopping", _state_tells_of_the_stop),
-)  # fmt: skip

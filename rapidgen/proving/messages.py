@@ -1,0 +1,529 @@
+"""simple_message as the proof speaks it: layouts by hand, from docs/protocol.md.
+
+Nothing of the codec in `wire` is used here: the driver's constants come from there, and a number
+that was wrong in both would prove itself. Little endian; rad, m and s.
+"""
+
+import struct
+from collections.abc import Sequence
+from enum import IntEnum, IntFlag
+from itertools import islice
+from typing import NamedTuple, TypeAlias
+
+from rapidgen.proving.model import Broken
+from rapidgen.proving.track import Point
+from rapidgen.wire.simple_message import spec
+
+PROTOCOL_VERSION = 2
+MAX_JOINTS = 10
+SHORTEST, LONGEST = 12, 1020
+"""Values of the length field: a header without data, and the largest message."""
+INDEX_WRAP = 2**23
+"""Points of a stream count modulo this."""
+
+PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
+HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
+POINT_BYTES, STATE_BYTES = 68, 60 + 44
+"""Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
+
+
+class Comm(IntEnum):
+    """What a message asks of its receiver."""
+
+    TOPIC = 1
+    REQUEST = 2
+    REPLY = 3
+
+
+class ReplyCode(IntEnum):
+    """How a request went."""
+
+    NONE = 0
+    SUCCESS = 1
+    FAILURE = 2
+
+
+class Special(IntEnum):
+    """Numbers of points that are none: where a trajectory begins, where it ends, and STOP."""
+
+    BEGIN = -1
+    END = -3
+    STOP = -4
+
+
+class TriState(IntEnum):
+    """A yes or no that the controller may not know."""
+
+    UNKNOWN = -1
+    FALSE = 0
+    TRUE = 1
+
+
+class Mode(IntEnum):
+    """Operating mode of the controller."""
+
+    MANUAL = 1
+    AUTO = 2
+
+
+class Feature(IntFlag):
+    """What a driver can do, told in HELLO, and what a client asks for in it."""
+
+    PROGRESS = 1
+    CONTROL = 2
+    STREAMING = 4
+    SIGNALS = 8
+    EVENTS = 16
+    FEEDBACK = 32
+
+
+class StreamFlag(IntFlag):
+    """What a batch of points says about its stream."""
+
+    BEGIN = 1
+    END = 2
+    FLUSH = 4
+
+
+class TrajectoryState(IntEnum):
+    """State of the newest trajectory, told in PROGRESS."""
+
+    NONE = 0
+    RECEIVING = 1
+    MOVING = 2
+    DONE = 3
+    REFUSED = 4
+    FAILED = 5
+    STOPPED = 6
+    STARVED = 7
+    PAUSED = 8
+
+
+class Reason(IntEnum):
+    """Why a trajectory was refused, or ended early."""
+
+    NONE = 0
+    CAPACITY = 1
+    SEQUENCE_GAP = 2
+    NOT_FINITE = 3
+    JOINT_LIMIT = 4
+    START_TOO_FAR = 5
+    TOO_FAST = 6
+    TCP_TOO_FAST = 7
+    BAD_DURATION = 8
+    SEGMENT_TOO_SHORT = 9
+    NO_START = 10
+    INCOMPLETE = 11
+    FRAMING = 12
+    UNKNOWN_MESSAGE = 13
+    BAD_PADDING = 14
+    OVERRUN = 15
+    CHECKSUM = 16
+    NO_SIGNAL = 17
+    READ_ONLY = 18
+    BAD_VALUE = 19
+    NOT_EXECUTING = 20
+    MOTORS_OFF = 21
+    EMERGENCY_STOP = 22
+    BUILD_MISMATCH = 24
+    IDLE = 27
+    STOPPED = 40
+    SUPERSEDED = 41
+    CLIENT_LOST = 42
+    PROGRAM_STOPPED = 43
+    MOTION_ERROR = 44
+    COLLISION = 45
+    POWER_FAILURE = 46
+    MODE_CHANGED = 47
+    INTERNAL = 49
+
+
+def text_of(reason: Reason) -> str:
+    """What the operator reads of it."""
+    return spec.Reason(reason).text
+
+
+def split_error_code(code: int) -> tuple[int, int]:
+    """Reason and joint (0: none) of STATUS.error_code."""
+    joint, reason = divmod(code, 100)
+    return reason, joint
+
+
+Joints: TypeAlias = tuple[float, ...]
+"""Ten controller axis values in wire order."""
+
+
+class TrajectoryPoint(NamedTuple):
+    """JOINT_TRAJ_PT: `duration` is s from the point before."""
+
+    sequence: int
+    joints: Joints
+    velocity: float
+    duration: float
+
+
+class JointPosition(NamedTuple):
+    """JOINT_POSITION."""
+
+    sequence: int
+    joints: Joints
+
+
+class Status(NamedTuple):
+    """STATUS."""
+
+    drives_powered: int
+    e_stopped: int
+    error_code: int
+    in_error: int
+    in_motion: int
+    mode: int
+    motion_possible: int
+
+
+class Ping(NamedTuple):
+    """PING has no data."""
+
+
+class JointFeedback(NamedTuple):
+    """JOINT_FEEDBACK."""
+
+    robot_id: int
+    valid_fields: int
+    time: float
+    positions: Joints
+    velocities: Joints
+    accelerations: Joints
+
+
+class Hello(NamedTuple):
+    """HELLO as a client asks it."""
+
+    protocol: int
+    client: tuple[int, int, int]
+    subscribe: int
+
+
+class HelloReply(NamedTuple):
+    """HELLO as the driver answers it."""
+
+    protocol: int
+    driver: tuple[int, int, int]
+    build_id: str
+    mapping: str
+    features: int
+    capacity: int
+    joint_count: int
+    prismatic: int
+    state_period: float
+    min_segment: float
+    start_tolerance: float
+    start_tolerance_linear: float
+    lower: Joints
+    upper: Joints
+    speed: Joints
+    control_port: int
+    ring: int
+    preload: float
+    batch: int
+    signals: int
+
+
+class HelloRefusal(NamedTuple):
+    """HELLO of a version that does not fit."""
+
+    protocol: int
+
+
+class Progress(NamedTuple):
+    """PROGRESS; `point` from 0 (-1: none), `joint` from 1 (0: none)."""
+
+    trajectory: int
+    state: int
+    received: int
+    planned: int
+    reached: int
+    reason: int
+    point: int
+    joint: int
+
+
+class Stopped(NamedTuple):
+    """STOPPED: where the robot stands after a halt."""
+
+    trajectory: int
+    reached: int
+    reason: int
+    joints: Joints
+
+
+class Pause(NamedTuple):
+    """PAUSE: 1 hold, 0 go on."""
+
+    paused: int
+
+
+class Speed(NamedTuple):
+    """SPEED, 1 to 100 %."""
+
+    percent: float
+
+
+class Heartbeat(NamedTuple):
+    """HEARTBEAT: s until the next one must come; 0 ends the watch."""
+
+    timeout: float
+
+
+class Signal(NamedTuple):
+    """SIGNAL: read, or with `write` 1 write."""
+
+    signal: int
+    write: int
+    value: float
+
+
+class Event(NamedTuple):
+    """EVENT of the controller's log."""
+
+    domain: int
+    number: int
+    type: int
+    title: str
+
+
+class PointsAccepted(NamedTuple):
+    """Reply to POINTS: all of them are in."""
+
+    stream: int
+    trajectory: int
+    accepted: int
+    room: int
+    planned: int
+    reached: int
+    state: int
+
+
+class PointsRefused(NamedTuple):
+    """Reply to POINTS: those from `accepted` on are not executed."""
+
+    stream: int
+    trajectory: int
+    accepted: int
+    reason: int
+    point: int
+    joint: int
+
+
+class NotDone(NamedTuple):
+    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL."""
+
+    reason: int
+
+
+class HeartbeatReply(NamedTuple):
+    """Reply to HEARTBEAT: the newest trajectory and its state."""
+
+    trajectory: int
+    state: int
+
+
+class SignalReply(NamedTuple):
+    """Reply to SIGNAL: the value as it was read, after any writing."""
+
+    signal: int
+    value: float
+
+
+class Accepted(NamedTuple):
+    """Reply to an end frame: the trajectory was taken under this number."""
+
+    trajectory: int
+
+
+class Refused(NamedTuple):
+    """Reply to a point: nothing moves."""
+
+    reason: int
+    point: int
+    joint: int
+
+
+class Acknowledged(NamedTuple):
+    """A success reply without data."""
+
+
+class Failure(NamedTuple):
+    """A failure reply without data."""
+
+
+Content: TypeAlias = (
+    TrajectoryPoint
+    | JointPosition
+    | Status
+    | Ping
+    | JointFeedback
+    | Hello
+    | HelloReply
+    | HelloRefusal
+    | Progress
+    | Stopped
+    | Pause
+    | Speed
+    | Heartbeat
+    | Signal
+    | Event
+    | PointsAccepted
+    | PointsRefused
+    | NotDone
+    | HeartbeatReply
+    | SignalReply
+    | Accepted
+    | Refused
+    | Acknowledged
+    | Failure
+)
+_LAYOUTS: tuple[tuple[int, int, type[Content], str], ...] = (
+    # Number, reply code (0: a topic or a request), and for each field a code of struct.
+    (PING, 0, Ping, ""),
+    (JOINT_POSITION, 0, JointPosition, "i 10f"),
+    (JOINT_TRAJ_PT, 0, TrajectoryPoint, "i 10f f f"),
+    (JOINT_TRAJ_PT, 1, Accepted, "i"),
+    (JOINT_TRAJ_PT, 2, Refused, "i i i"),
+    (STATUS, 0, Status, "i i i i i i i"),
+    (JOINT_FEEDBACK, 0, JointFeedback, "i i f 10f 10f 10f"),
+    (HELLO, 0, Hello, "i 3i i"),
+    (HELLO, 1, HelloReply, "i 3i 12s 12s i i i i f f f f 10f 10f 10f i i f i i"),
+    (HELLO, 2, HelloRefusal, "i"),
+    (PROGRESS, 0, Progress, "i i i i i i i i"),
+    (POINTS, 1, PointsAccepted, "i i i i i i i"),
+    (POINTS, 2, PointsRefused, "i i i i i i"),
+    (STOPPED, 0, Stopped, "i i i 10f"),
+    (PAUSE, 0, Pause, "i"),
+    (PAUSE, 2, NotDone, "i"),
+    (SPEED, 0, Speed, "f"),
+    (SPEED, 2, NotDone, "i"),
+    (HEARTBEAT, 0, Heartbeat, "f"),
+    (HEARTBEAT, 1, HeartbeatReply, "i i"),
+    (HEARTBEAT, 2, NotDone, "i"),
+    (SIGNAL, 0, Signal, "i i f"),
+    (SIGNAL, 1, SignalReply, "i f"),
+    (SIGNAL, 2, NotDone, "i"),
+    (EVENT, 0, Event, "i i i 80s"),
+)
+_ASKED = {kind: (number, layout) for number, code, kind, layout in _LAYOUTS if code == 0}
+_KNOWN = {
+    (number, code, struct.calcsize("<" + layout)): (kind, layout)
+    for number, code, kind, layout in _LAYOUTS
+}
+_HEAD = struct.Struct("<4i")
+
+
+class Frame(NamedTuple):
+    """One message: the header's three numbers and the data behind them."""
+
+    number: int
+    comm: int
+    reply: int
+    data: bytes
+
+
+class Splitter:
+    """How a stream of bytes falls into messages, whatever TCP has split or merged."""
+
+    def __init__(self) -> None:
+        self._rest = b""
+
+    def feed(self, data: bytes) -> list[Frame]:
+        """Add bytes; the messages that they complete. Broken for a length that none has."""
+        self._rest += data
+        found = []
+        while len(self._rest) >= 4:
+            length = int.from_bytes(self._rest[:4], "little", signed=True)
+            if not SHORTEST <= length <= LONGEST:
+                raise Broken(f"length field is {length}, must be {SHORTEST} to {LONGEST}")
+            if len(self._rest) < 4 + length:
+                break
+            _, number, comm, reply = _HEAD.unpack_from(self._rest)
+            found.append(Frame(number, comm, reply, self._rest[16 : 4 + length]))
+            self._rest = self._rest[4 + length :]
+        return found
+
+
+def framed(number: int, data: bytes, comm: int = Comm.REQUEST, *, more: int = 0) -> bytes:
+    """Any data as a message; its length field says `more` bytes than there are."""
+    return _HEAD.pack(12 + len(data) + more, number, comm, 0) + data
+
+
+def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
+    """A topic or request."""
+    number, layout = _ASKED[type(content)]
+    flat: list[object] = []
+    for value in content:
+        flat.extend(value if isinstance(value, tuple) else (value,))
+    return framed(number, struct.pack("<" + layout, *flat), comm)
+
+
+def decode(frame: Frame) -> Content:
+    """What a message says. Broken for one that docs/protocol.md does not know."""
+    number, comm, code, data = frame
+    good = code in (1, 2) if comm == Comm.REPLY else (comm in (1, 2) and code == 0)
+    if good and comm == Comm.REPLY and not data:
+        return Acknowledged() if code == ReplyCode.SUCCESS else Failure()
+    if not good or (number, code, len(data)) not in _KNOWN:
+        raise Broken(f"no message has type {number}, {comm=}, {code=} and {len(data)} bytes")
+    kind, layout = _KNOWN[number, code, len(data)]
+    values = iter(struct.unpack("<" + layout, data))
+    fields: list[object] = []
+    for field in layout.split():
+        count = int(field[:-1] or 1)
+        if field[-1] == "s":
+            fields.append(next(values).rstrip(b"\0").decode("latin-1"))
+        else:
+            fields.append(next(values) if count == 1 else tuple(islice(values, count)))
+    return kind._make(fields)
+
+
+def point_pairs(joint_count: int) -> int:
+    """Words of one point in POINTS: its duration and its joints, two by two."""
+    return (2 + joint_count) // 2
+
+
+def batch_points(joint_count: int) -> int:
+    """Points that fit into one POINTS: 30 for six axes."""
+    return (LONGEST - 12 - 24) // (8 * point_pairs(joint_count))
+
+
+def points_frame(
+    stream: int, first: int, points: Sequence[Point], flags: int = 0, comm: int = Comm.REQUEST
+) -> bytes:
+    """A batch of a stream."""
+    words = [word for point in points for word in words_of(point)]
+    return words_frame(stream, first % INDEX_WRAP, len(points), words, flags, comm)
+
+
+def words_of(point: Point) -> list[int]:
+    """The words of a point: s, rad and m in millionths, two numbers of 26 bits in each."""
+    joints, duration = point
+    numbers = [round(value * 1e6) + 2**25 for value in (duration, *joints)]
+    if not all(0 < number < 2**26 for number in numbers):
+        raise ValueError(f"{point} does not fit into a batch")
+    if len(numbers) % 2:
+        numbers.append(2**25)
+    return [(high << 26) + low for high, low in zip(numbers[::2], numbers[1::2], strict=True)]
+
+
+def words_frame(
+    stream: int,
+    first: int,
+    count: int,
+    words: Sequence[int],
+    flags: int = 0,
+    comm: int = Comm.REQUEST,
+) -> bytes:
+    """A batch of any words, that says to have `count` points; its checksum is right."""
+    whole = [stream + (flags << 32), first + (count << 32), *words]
+    checksum = 0
+    for word in whole:
+        checksum = (2 * checksum + word) % (2**51 - 129)
+    return framed(POINTS, struct.pack(f"<{len(whole) + 1}Q", *whole, checksum), comm)
