@@ -8,7 +8,7 @@ import ast
 import textwrap
 import tomllib
 
-from tests.docs.tree import PACKAGE, ROOT, imports, lines_of, modules, room, tree_of
+from tests.docs.tree import PACKAGE, ROOT, imports, modules, room, tree_of
 
 PAGE = ROOT / "docs" / "develop" / "architecture.md"
 BEGIN, END = "<!-- drawn by tests/docs/picture.py -->\n```text\n", "```\n<!-- drawn -->\n"
@@ -37,21 +37,15 @@ def entry(name: str, text: str, depth: int) -> list[str]:
 
 def draw() -> str:
     """The picture."""
-    graph, every = imports(), {name for layer in layers() for name in layer}
-    total = sum(lines_of(path) for path in modules().values())
-    out = []
+    graph, out = imports(), []
     for layer in layers():
         out.append("─" * WIDTH)
         for name in layer:
             own = [module for module in modules() if room(module) == name]
-            share = 100 * sum(lines_of(modules()[module]) for module in own) / total
             out += entry(name, says(f"rapidgen.{name}"), 0)
             below = {room(found) for module in own for found in graph[module]} - {name, ""}
             out += textwrap.wrap(
-                f"{share:.0f} % of the lines; imports "
-                + (" ".join(sorted(below)) if below != every - {name} else "all")
-                if below
-                else f"{share:.0f} % of the lines; imports no room",
+                f"imports {' '.join(sorted(below)) or 'no room'}",
                 WIDTH,
                 initial_indent=" " * 22 + "→ ",
                 subsequent_indent=" " * 24,
