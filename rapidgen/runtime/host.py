@@ -3,13 +3,13 @@
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Literal, Protocol
 
-from rapidgen.machine.configuration import Configuration
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.operator import Operator
+from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
@@ -64,7 +64,7 @@ class Host(Protocol):
     sockets: SocketTable
     files: FileSystem
     operator: Operator
-    configuration: Configuration
+    configuration: SystemParameters
     texts: TextTables
     queues: QueueSystem
     robot_data: dict[str, RobotData]

@@ -315,6 +315,9 @@ class RoutineScope:
     @property
     def labels(self) -> dict[str, LabelSymbol]:
         """By lower-case name; the first of a name counts. Looked for when they are asked for."""
+        routine = self.module.routine(self.node)
+        if routine is not self:
+            return routine.labels
         if self._labels is None:
             self._labels = {}
             for at in walk(self.node):
@@ -329,7 +332,7 @@ class RoutineScope:
             node.variable, "LOOP", self.module, node=node, routine=self.node, readonly=True
         )
         names = {**self.names, node.variable.lower(): variable}
-        return RoutineScope(self.module, self.node, names, self._labels)
+        return RoutineScope(self.module, self.node, names)
 
     def find(self, name: str) -> Symbol | None:
         """What a name means in this routine."""

@@ -414,6 +414,10 @@ class Task(Process):
             self.switch()
         return value
 
+    def trace(self, point: int) -> None:
+        """A statement is about to be executed."""
+        self.controller.statements.reached(self, point)
+
     def exit(self) -> None:
         """EXIT [K §4.9]."""
         raise EndOfRun
