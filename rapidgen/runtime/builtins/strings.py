@@ -32,7 +32,7 @@ def _place(text: str, position: float) -> int:
 
 
 def _search_place(task: Task, text: str, position: float) -> int:
-    """Where a search begins; see `Dialect.find_behind`."""
+    """Where a search begins; see `Switches.find_behind`."""
     behind = task.controller.dialect.find_behind == "none" and position == len(text) + 1
     return len(text) + 1 if behind else _place(text, position)
 
@@ -197,7 +197,7 @@ def byte_to_str(
     binary: bool | None,
     char: bool | None,
 ) -> str:
-    """A byte's text: decimal by default. For \\Char see `Dialect.byte_to_str`."""
+    """A byte's text: decimal by default. For \\Char see `Switches.byte_to_str`."""
     byte = byte_value(data)
     if hexadecimal:
         return f"{byte:02X}"

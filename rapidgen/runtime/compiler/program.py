@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 def _trace(task: "Task", point: int) -> None:
     """A statement is about to be executed."""
-    task.controller.statement(task, point)
+    task.controller.statements.reached(task, point)
 
 
 class Program:

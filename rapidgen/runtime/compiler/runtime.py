@@ -142,7 +142,7 @@ def part_of(text: str, position: float, length: float) -> str:
 
 
 def _search_at(text: str, position: float) -> int:
-    """The same for a search, which may begin right behind the text (`Dialect.find_behind`)."""
+    """The same for a search, which may begin right behind the text (`Switches.find_behind`)."""
     return len(text) if position == len(text) + 1 else _at(text, position)
 
 

@@ -1,16 +1,13 @@
-"""Errors of a task: handlers, RETRY, long jumps, UNDO, and who is where [K §7]."""
+"""Errors of a task: handlers, RETRY, long jumps, UNDO [K §7]."""
 
 import sys
 from collections.abc import Callable
-from dataclasses import dataclass
 from types import FrameType, TracebackType
-from typing import TYPE_CHECKING, Any, NoReturn
+from typing import TYPE_CHECKING, NoReturn
 
 from greenlet import GreenletExit
 
-from rapidgen.diagnostics import Span
-from rapidgen.machine.process import Process
-from rapidgen.machine.scheduler import Scheduler
+from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,
@@ -23,64 +20,42 @@ from rapidgen.runtime.errors import (
     error_name,
     python_error,
 )
+from rapidgen.runtime.task.call_stack import outwards, stack_of_error
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import Program
+    from rapidgen.runtime.task.task import Task
 
 RETRY, TRYNEXT, RETURN, RAISE = 0, 1, 2, 3
 RETRIES = 4
 """Recoveries of one statement by RETRY: system parameter No Of Retry [K §7.5]."""
-DEEPEST = 5_000
-"""Python frames of a task; a deeper one is RAPID's stack overflow."""
 
+Handler = Callable[[], int]
 Listed = Callable[[], tuple[float, ...]]
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where a routine of the call stack is."""
+class Errors:
+    """Deals with the errors of one task. Compiled code calls `handle`, `undo` and what RAISE is."""
 
-    module: str
-    routine: str
-    span: Span
-    origin: tuple[str, int] | None
-    """Template and line of a generated module."""
-
-    def __str__(self) -> str:
-        made = f" (from {self.origin[0]}:{self.origin[1]})" if self.origin else ""
-        return f"{self.module}/{self.routine}/{self.span.line}{made}"
-
-
-class Recovery(Process):
-    """The part of a task that deals with errors."""
-
-    __slots__ = ("__dict__",)
-
-    program: "Program"
-
-    def __init__(self, scheduler: Scheduler, name: str, controller: Any) -> None:  # noqa: ANN401
-        super().__init__(scheduler, name)
-        self.controller = controller
-        self.errno = 0
-        self.ret: Any = None
-        """Value of RETURN in a handler."""
+    def __init__(self, task: "Task") -> None:
+        self._task = task
+        self._switches = task.controller.dialect
         self.retry_number = 0
         self.retry_base = 0
         self.skip_warning = False
         self.handler_level = 0
-        self._stops = controller.dialect.unhandled_error == "stop"
-        fatal = controller.dialect.argument_error == "fatal"
-        self._fatal_number = errnum("ERR_ARGVALERR") if fatal else None
-        self._instead: RapidError | None = None
         self.undo_level = 0
         self.undo_failed = False
         """An error in an UNDO handler stops the task (switch `undo_error`)."""
+        self._stops = self._switches.unhandled_error == "stop"
+        fatal = self._switches.argument_error == "fatal"
+        self._fatal_number = errnum("ERR_ARGVALERR") if fatal else None
+        self._instead: RapidError | None = None
 
     # -- handlers --------------------------------------------------------------------------------
 
     def handle(
         self,
-        handler: Callable[[], int],
+        handler: Handler,
         error: Exception,
         budget: int | None,
         retries: int,
@@ -122,10 +97,11 @@ class Recovery(Process):
         raise self.unhandled(known) from None
 
     def run_handler(
-        self, handler: Callable[[], int], error: RapidError, retries: int, frame: FrameType
+        self, handler: Handler, error: RapidError, retries: int, frame: FrameType
     ) -> int:
         """Execute a handler; how it ended."""
-        self.errno = error.number
+        task = self._task
+        task.errno = error.number
         self.retry_number = retries
         self.skip_warning = False
         self.handler_level += 1
@@ -142,18 +118,16 @@ class Recovery(Process):
         finally:
             self.handler_level -= 1
         if not self.skip_warning:
-            self.controller.log.handled(self.name, error.number, error.text)
+            task.controller.recovered(task.name, error.number, error.text)
         return way
 
-    def _retry(
-        self, handler: Callable[[], int], error: RapidError, retries: int, frame: FrameType
-    ) -> int:
+    def _retry(self, handler: Handler, error: RapidError, retries: int, frame: FrameType) -> int:
         """RETRY, as often as it is allowed [K §7.5].
 
         After that the handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; when it asks
         for RETRY again the task stops.
         """
-        if error.raised and not self.controller.dialect.retry_raised:
+        if error.raised and not self._switches.retry_raised:
             raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
         if retries - self.retry_base < RETRIES:
             return RETRY
@@ -177,10 +151,10 @@ class Recovery(Process):
         return other
 
     def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
-        """Dialect: an error that came out of a routine without ERROR is nobody's."""
+        """Switch: an error that came out of a routine without ERROR is nobody's."""
         at = traceback.tb_next if traceback is not None else None
         while at is not None:
-            compiled = self.program.codes.get(at.tb_frame.f_code.co_filename)
+            compiled = self._task.program.codes.get(at.tb_frame.f_code.co_filename)
             if compiled is not None:
                 if not compiled.handled:
                     raise self.unhandled(error) from None
@@ -195,6 +169,7 @@ class Recovery(Process):
         budget: int | None,
     ) -> RapidError:
         """The RAPID error, with the task's budget put right for where it was raised."""
+        task = self._task
         if isinstance(error, RapidError):
             known = error
             if known.settled:
@@ -203,13 +178,13 @@ class Recovery(Process):
             known = RapidError(python_error(error.__class__))
             known.__traceback__ = traceback
             if traceback is not None and traceback.tb_next is None and budget is not None:
-                self.b = budget
+                task.b = budget
                 known.settled = True
                 return known
         known.settled = True
         at = traceback
         inner = None
-        codes = self.program.codes
+        codes = task.program.codes
         while at is not None:
             if at.tb_frame.f_code.co_filename in codes:
                 inner = at
@@ -217,14 +192,12 @@ class Recovery(Process):
         if inner is None:
             return known
         if inner.tb_frame is frame:
-            if budget is not None:
-                self.b = budget
-            return known
-        compiled = codes[inner.tb_frame.f_code.co_filename]
-        if inner.tb_lineno not in compiled.synced:
-            left = inner.tb_frame.f_locals.get("b")
-            if left is not None:
-                self.b = left + compiled.refunds.get(inner.tb_lineno, 0)
+            left = budget
+        else:
+            compiled = codes[inner.tb_frame.f_code.co_filename]
+            left = compiled.budget(inner.tb_frame, inner.tb_lineno)
+        if left is not None:
+            task.b = left
         return known
 
     def throw(self, number: float) -> NoReturn:
@@ -233,7 +206,7 @@ class Recovery(Process):
 
     def instead(self, number: float) -> None:
         """RAISE n in an ERROR handler: the caller gets this error [code]; K §4.8 forbids it."""
-        if self.controller.dialect.raise_in_handler == "error":
+        if self._switches.raise_in_handler == "error":
             raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
         self._instead = self._own_error(number)
 
@@ -242,7 +215,7 @@ class Recovery(Process):
         whole = int(number) if number == number and abs(number) < 1e9 else 0
         allowed = whole == number and (
             1 <= whole <= LARGEST_USER_ERROR
-            or whole in self.controller.booked
+            or whole in self._task.controller.booked
             or error_name(whole).startswith("ERR_")
         )
         error = RapidError(whole) if allowed else RapidError("ERR_ILLRAISE")
@@ -251,47 +224,97 @@ class Recovery(Process):
 
     def _recovery_point(self, frame: FrameType, number: int) -> FrameType | None:
         """The nearest caller whose ERROR (list) has the number [K §7.2]."""
-        codes = self.program.codes
-        at = frame.f_back
+        codes = self._task.program.codes
         in_handler = False
-        while at is not None:
+        for at in outwards(frame.f_back):
             compiled = codes.get(at.f_code.co_filename)
-            if compiled is not None:
-                if at.f_code.co_name in ("_h", "_u"):
-                    in_handler = True
-                else:
-                    own = at.f_locals.get("_l")
-                    if not in_handler and own is not None and lists(own(), number):
-                        return at
-                    in_handler = in_handler and is_part(at)
-            at = at.f_back
+            if compiled is None:
+                continue
+            role = compiled.role(at.f_code)
+            if role.is_handler:
+                in_handler = True
+                continue
+            own = None if in_handler else compiled.listed(at)
+            if own is not None and lists(own, number):
+                return at
+            in_handler = in_handler and role is Role.PART
         return None
 
     def _has_handler_above(self, frame: FrameType) -> bool:
-        codes = self.program.codes
-        at = frame.f_back
-        while at is not None:
+        codes = self._task.program.codes
+        for at in outwards(frame.f_back):
             compiled = codes.get(at.f_code.co_filename)
             if compiled is not None:
-                if at.f_code.co_name in ("_h", "_u"):
+                if compiled.role(at.f_code).is_handler:
                     return False
                 if compiled.handled:
                     return True
-            at = at.f_back
         return False
 
-    def undo(self, handler: Callable[[], int], leaving: BaseException) -> None:
+    # -- RaiseToUser -----------------------------------------------------------------------------
+
+    def give_to_user(self, error: RapidError, *, resume: bool) -> None:
+        """Give an error to the handler of the nearest caller outside NOSTEPIN modules [K §7.3].
+
+        `resume` (\\Continue): the handler runs while the routines between are still there, and
+        its RETRY and TRYNEXT are for what failed inside. Without it they are dropped. Returns
+        when RaiseToUser stood in no handler and TRYNEXT passes over it.
+        """
+        user, handler, inside_handler = self._user(error.number)
+        if user is None or handler is None:
+            raise self.unhandled(error)
+        error.target = user
+        if not resume:
+            raise error
+        for retries in range(RETRIES + 1):
+            error.way = self.run_handler(handler, error, retries, user)
+            if error.way not in (RETRY, TRYNEXT):
+                raise error
+            if inside_handler:
+                raise ResumeInside(error.way)
+            if error.way == TRYNEXT:
+                return
+        raise self.unhandled(RapidError("ERR_EXCRTYMAX"))
+
+    def _user(self, number: int) -> tuple[FrameType | None, Handler | None, bool]:
+        """The frame whose handler gets the error, that handler, and whether a handler of NOSTEPIN
+        raised it."""
+        codes = self._task.program.codes
+        first = True
+        inside = False
+        for at in outwards(sys._getframe(2)):
+            compiled = codes.get(at.f_code.co_filename)
+            if compiled is None:
+                continue
+            hidden = "NOSTEPIN" in compiled.module.tree.attributes
+            role = compiled.role(at.f_code)
+            if role.is_handler:
+                if not (hidden or first):
+                    break  # errors inside a handler go to the system error handler [K §7.1]
+                inside = True
+            elif not (first or hidden) and (handler := compiled.handler(at)) is not None:
+                listed = compiled.listed(at)
+                if listed is None or lists(listed, number):
+                    return at, handler, inside
+            elif role is Role.ROUTINE:
+                first = False
+        return None, None, inside
+
+    # -- UNDO ------------------------------------------------------------------------------------
+
+    def undo(self, handler: Handler, leaving: BaseException) -> None:
         """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
         if isinstance(leaving, GreenletExit | PointerMoved) or self.undo_failed:
             return
+        pointer = self._task.pointer
         if isinstance(leaving, RECOVERABLE):
             known = as_rapid_error(leaving)
             frame = sys._getframe(1)
             if known.target is None and self._has_handler_above(frame):
                 return
-            if known.target is None and self.keep_undo(handler):
+            if known.target is None and pointer.keep_undo(handler):
                 return
-        elif isinstance(leaving, FatalError) and self.keep_undo(handler):
+        elif isinstance(leaving, FatalError) and pointer.keep_undo(handler):
             return
         self.undo_level += 1
         try:
@@ -302,7 +325,7 @@ class Recovery(Process):
             raise
         except RECOVERABLE as error:
             fatal = self.unhandled(error)
-            if self.controller.dialect.undo_error == "ignore":
+            if self._switches.undo_error == "ignore":
                 self.undo_ended(fatal)
                 return
             self.undo_failed = True
@@ -310,17 +333,39 @@ class Recovery(Process):
         finally:
             self.undo_level -= 1
 
+    def undo_late(self, handlers: list[Handler]) -> None:
+        """UNDO handlers that were kept while the program could go on where it was."""
+        for handler in handlers:
+            self.undo_level += 1
+            try:
+                handler()
+            except FatalError as error:
+                self.undo_ended(error)
+                break
+            except RECOVERABLE as error:
+                self.undo_ended(self.unhandled(error))
+                if self._switches.undo_error == "stop":
+                    break
+            finally:
+                self.undo_level -= 1
+
     def undo_ended(self, error: FatalError) -> None:
         """Tell of an error in an UNDO handler that stops nothing."""
         place = str(error.stack[-1]) if error.stack else ""
         texts = [text for text in error.arguments if text]
-        self.controller.log.error(error.event, error.title, place, *texts, task=self.name)
+        task = self._task
+        task.controller.log.error(error.event, error.title, place, *texts, task=task.name)
 
-    def keep_undo(self, handler: Callable[[], int]) -> bool:
-        """Whether an UNDO handler is left for later: the program may go on where it was."""
-        return False
+    # -- nobody's --------------------------------------------------------------------------------
 
-    # -- reports ---------------------------------------------------------------------------------
+    def at_level(self, routine: Callable[[], object]) -> None:
+        """Execute a routine at trap or user level: only a long jump leaves it [K §7.2]."""
+        try:
+            routine()
+        except RECOVERABLE as error:
+            if isinstance(error, RapidError) and error.target is not None:
+                raise
+            raise self.unhandled(error) from error
 
     def unhandled(self, raised: Exception, *, restartable: bool = True) -> FatalError:
         """What the system error handler makes of an error."""
@@ -328,65 +373,8 @@ class Recovery(Process):
         name = error_name(error.number)
         title = f"Unhandled error {name}"
         fatal = FatalError(40199, title, name, error.text, cause=error, restartable=restartable)
-        fatal.stack = self.stack_of(raised.__traceback__)
+        fatal.stack = stack_of_error(self._task.program.codes, raised)
         return fatal
-
-    def place_of(self, file: str, line: int) -> Place | None:
-        """RAPID place of a Python line."""
-        compiled = self.program.codes.get(file)
-        if compiled is None or not 0 <= line < len(compiled.tokens):
-            return None
-        module = compiled.module
-        token = compiled.tokens[line]
-        source = module.tree.source
-        span = source.span(token, token)
-        origin = None
-        for rapid_line, template, template_line in module.file.origin:
-            if rapid_line > span.line:
-                break
-            origin = (template, template_line + span.line - rapid_line)
-        return Place(module.name, compiled.routine.name, span, origin)
-
-    def stack_of(self, traceback: TracebackType | None) -> tuple[Place, ...]:
-        """Call stack of an error, outermost first."""
-        found: list[Place] = []
-        while traceback is not None:
-            frame = traceback.tb_frame
-            place = self.place_of(frame.f_code.co_filename, traceback.tb_lineno)
-            if place is not None:
-                if is_part(frame):
-                    found.pop()
-                found.append(place)
-            traceback = traceback.tb_next
-        return tuple(found)
-
-    def stack(self) -> tuple[Place, ...]:
-        """Call stack of a suspended or running task, outermost first."""
-        frame: Any = self.frame if self.scheduler.running is not self else sys._getframe(1)
-        found: list[Place] = []
-        inside = False
-        while frame is not None:
-            place = self.place_of(frame.f_code.co_filename, frame.f_lineno)
-            if place is not None:
-                if not inside:
-                    found.append(place)
-                inside = is_part(frame)
-            frame = frame.f_back
-        return tuple(reversed(found))
-
-    def poll(self, b: int) -> int:
-        """See Process.poll; also looks at the depth of the call stack."""
-        try:
-            sys._getframe(DEEPEST)
-        except ValueError:
-            return super().poll(b)
-        self.b = b
-        raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
-
-
-def is_part(frame: FrameType) -> bool:
-    """Whether it is a deeply nested part of a routine or handler, whose frame is the next."""
-    return frame.f_code.co_name.startswith("_a")
 
 
 def lists(numbers: tuple[float, ...], number: int) -> bool:
