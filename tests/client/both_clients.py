@@ -5,14 +5,7 @@ import functools
 import inspect
 import threading
 
-from rapidgen.client import AsyncRobot, Robot
-
-
-class Sync:
-    """`Robot` under the same calls as `Blocking`."""
-
-    def __new__(cls, *arguments, **options):
-        return Robot(*arguments, **options)
+from rapidgen.client import AsyncRobot
 
 
 class Blocking:
@@ -25,7 +18,7 @@ class Blocking:
         self._target = AsyncRobot(*arguments, **options)
 
     def _call(self, coroutine):
-        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(20)
+        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(60)
 
     def __enter__(self):
         try:

@@ -21,6 +21,7 @@ from rapidgen.client import (
     Timeouts,
     Trajectory,
 )
+from rapidgen.client.core import checks as checks_module
 from rapidgen.wire.simple_message import spec
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
@@ -444,19 +445,21 @@ def test_heartbeats_come_while_it_moves_and_end_with_it():
     assert 15 <= len(beats) <= 25
 
 
-def test_no_heartbeat_is_asked_for_before_the_pace_of_a_simulation_is_known():
+@pytest.mark.parametrize(("pace", "slack"), [(1, 1), (10, 3)])
+def test_a_simulation_that_runs_faster_misses_nobody_sooner(pace, slack):
     """As long as a controller would wait is a moment on a clock that runs ten times as fast."""
 
     async def main(robot, driver):
         async with robot.stream() as stream:
             await stream.append([0, 2], [[0.0] * 6, [0.1] * 6])
         await stream.result()
+        # no heartbeat is asked for before the pace is known
         first = next(time for time, _, number in driver.log if number == 1306)
-        return first, driver.model.heartbeats
+        return first, [beat for beat in driver.model.heartbeats if beat]
 
-    (first, beats), _ = streamed(main, timeouts=Timeouts(heartbeat=2), pace=10)
+    (first, beats), _ = streamed(main, timeouts=Timeouts(heartbeat=2), pace=pace)
     assert first > 0.4
-    assert min(beats) >= 2 * 10
+    assert beats == pytest.approx([2 * pace * slack] * len(beats), rel=0.01)
 
 
 def test_heartbeats_come_with_a_download_too_and_not_without_a_motion():
@@ -562,6 +565,24 @@ def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
     assert began < 128
     assert result.points == 5000
     assert result.way == "stream"
+
+
+@pytest.mark.parametrize(
+    ("points", "way"),
+    [(100, None), (5000, None), (100, "download"), (100, "stream"), (0, "append")],
+)
+def test_a_trajectory_is_checked_once(monkeypatch, points, way):
+    checks, content = [], checks_module._content
+    monkeypatch.setattr(checks_module, "_content", lambda *a: checks.append(a) or content(*a))
+
+    async def main(robot, driver):
+        if way == "append":
+            await robot.stream().append([0, 1], [[0.0] * 6] * 2)
+        else:
+            await robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
+
+    streamed(main)
+    assert len(checks) == 1
 
 
 def test_somebody_else_stops_it():

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Routine

@@ -353,6 +353,15 @@ class LateArgument:
     type: Type | None = None
     itself: Callable[[], Value] | None = None
     """The object itself, for VAR parameters of record, array and non-value types."""
+    required: bool = False
+    """Named without a backslash."""
+
+    @property
+    def kind(self) -> str:
+        """As of an argument of a call that is known."""
+        if self.name is None or self.required:
+            return "required"
+        return "switch" if self.read is None else "optional"
 
 
 @dataclass(slots=True)

@@ -3,12 +3,15 @@
 
 from collections.abc import Sequence
 
+from rapidgen.rapid.binding.arguments import Misfit, first_fit, match
 from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import FormalParameter, Routine
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import Value
+from rapidgen.runtime.values import ATOMIC, Value
+
+_WRONG = frozenset({Misfit.SURPLUS, Misfit.UNKNOWN, Misfit.TWICE})
 
 
 def find(program: Program, name: str, module: LoadedModule | None) -> Routine:
@@ -32,32 +35,28 @@ def find(program: Program, name: str, module: LoadedModule | None) -> Routine:
     return found
 
 
-def match(routine: Routine, given: Sequence[LateArgument]) -> tuple[list[Value], dict[str, Value]]:
+def arguments(
+    routine: Routine, given: Sequence[LateArgument]
+) -> tuple[list[Value], dict[str, Value]]:
     """Arguments by position and by Python name. ERR_CALLPROC, ERR_ARGNOTVAR: they do not fit."""
+    parameters = routine.parameters
+
+    def fitting(argument: LateArgument, among: Sequence[int]) -> int:
+        kinds = [kind.name if (kind := parameters[i].type) else None for i in among]
+        return first_fit(argument.type.name if argument.type else None, among, kinds)
+
+    found = match(parameters, given, fitting)
+    if found.missing or any(_WRONG.intersection(pair.misfits) for pair in found.pairs):
+        raise RapidError("ERR_CALLPROC", routine.name)
     positional: list[Value] = []
     named: dict[str, Value] = {}
-    required = [p for p in routine.parameters if not p.optional]
-    at = 0
-    for argument in given:
-        if argument.name is None:
-            if at >= len(required):
-                raise RapidError("ERR_CALLPROC", routine.name)
-            parameter = required[at]
-            at += 1
-        else:
-            index = routine.by_name.get(argument.name)
-            if index is None:
-                raise RapidError("ERR_CALLPROC", routine.name)
-            parameter = routine.parameters[index]
-            at += not parameter.optional
-        value = _value(parameter, argument, builtin=routine.node is None)
-        key = parameter.name.lower()
-        if parameter.optional or named or len(positional) != routine.by_name[key]:
-            named[f"v_{key}"] = value
+    for pair in found.pairs:
+        parameter = parameters[pair.parameter]
+        value = _value(parameter, pair.argument, builtin=routine.node is None)
+        if parameter.optional or named or len(positional) != pair.parameter:
+            named[f"v_{parameter.name.lower()}"] = value
         else:
             positional.append(value)
-    if at < len(required):
-        raise RapidError("ERR_CALLPROC", routine.name)
     return positional, named
 
 
@@ -69,7 +68,7 @@ def _value(parameter: FormalParameter, argument: LateArgument, *, builtin: bool)
         raise RapidError("ERR_CALLPROC", f"{parameter.name} is {parameter.type_name}")
     if not parameter.mode:
         return argument.read()
-    atomic = kind is not None and kind.kind in ("num", "dnum", "bool", "string")
+    atomic = kind is not None and kind.kind in ATOMIC
     objects = kind is not None and kind.kind in ("nonvalue", "semivalue")
     if objects or (parameter.mode == "VAR" and not builtin and not atomic):
         if argument.itself is None:

@@ -433,7 +433,7 @@ class Task(Process):
         if routine.node is None and binding is None:
             self.missing(routine.name)
             return
-        positional, named = late_call.match(routine, [a for a in arguments if a is not None])
+        positional, named = late_call.arguments(routine, [a for a in arguments if a is not None])
         if binding is None:
             self.program.function(routine)(*positional, **named)
             return
