@@ -14,6 +14,7 @@ from typing import IO
 from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
 from rapidgen.machine.files import Directory, IODevice
+from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.builtins.operator import appended
 from rapidgen.runtime.disks import file_path, hold, spend
@@ -22,7 +23,7 @@ from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import NotALiteral, parse_value
-from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, Value, dimensions, single
+from rapidgen.runtime.values import NUM, Record, Ref, Type, Value, dimensions
 
 _EOF_TEXT = "EOF"
 _EOF_NUM = 9.999e36
@@ -245,7 +246,7 @@ def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tup
 def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | None:
     """Through the next delimiter, at most 80 characters; None at the end of the file."""
     text = bytearray()
-    while len(text) < STRING_LIMIT:
+    while len(text) < MAX_STRING:
         byte = file.read(1)
         if not byte:
             return text.decode("latin-1") if text else None
@@ -308,7 +309,7 @@ def read_bin(_task: Task, device: IODevice, _time: float | None) -> int:
 def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | None) -> str:
     """The next so many bytes as a string, or the string EOF."""
     number = whole(count, "ERR_ARGVALERR")
-    if not 0 <= number <= STRING_LIMIT:
+    if not 0 <= number <= MAX_STRING:
         raise RapidError("ERR_ARGVALERR", f"{number} characters")
     data = _reader(device, binary=True).read(number)
     return data.decode("latin-1") if data or not number else _EOF_TEXT
@@ -473,7 +474,7 @@ def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
         raise RapidError("ERR_FILEACC", "the folder is not open")
     if not device.names:
         return False
-    name.set(device.names.pop(0)[:STRING_LIMIT])
+    name.set(device.names.pop(0)[:MAX_STRING])
     return True
 
 

@@ -7,11 +7,12 @@ Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \
 from collections.abc import Callable
 
 from rapidgen.machine.io import Signal
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal, SignalAlias
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, single
+from rapidgen.runtime.values import Ref
 
 _TIMES = {"irc5": (0.001, 2000.0), "s4": (0.1, 32.0)}
 _DEFAULT_PULSE = 0.2

@@ -1,12 +1,13 @@
 """Load to ModTime: modules at run time. See `loading.py` for sources."""
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.loading import words_of
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, register_type, single
+from rapidgen.runtime.values import Ref, register_type
 
 _LOAD_RATE = 1_000_000
 """Bytes of a module that StartLoad reads in a second, while the program goes on."""

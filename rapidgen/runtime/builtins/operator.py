@@ -10,12 +10,13 @@ from dataclasses import dataclass
 
 from rapidgen.machine.log import EventType
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import RapidError, errnum
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import DNUM_DIGITS, number_text, value_text
-from rapidgen.runtime.values import STRING_LIMIT, Ref, Value
+from rapidgen.runtime.values import Ref, Value
 
 _RESULTS = {
     "OK": 1,
@@ -203,8 +204,8 @@ def _a_number(
 
 
 def _a_text(value: str) -> str:
-    if len(value) > STRING_LIMIT:
-        raise ValueError(f"at most {STRING_LIMIT} characters")
+    if len(value) > MAX_STRING:
+        raise ValueError(f"at most {MAX_STRING} characters")
     return value
 
 

@@ -12,12 +12,13 @@ from rapidgen.machine.network.interface import (
     NetworkFault,
     NetworkReason,
 )
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.sockets import SocketDevice, SocketStatus
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import STRING_LIMIT, Ref
+from rapidgen.runtime.values import Ref
 
 DEFAULT_TIME = 60.0
 WAIT_MAX = 9_999_999
@@ -325,7 +326,7 @@ def _limit(
     text: Ref | None, raw: RawBytes | None, data: Ref | None, read_count: float | None
 ) -> int:
     if text is not None:
-        room = STRING_LIMIT
+        room = MAX_STRING
     elif raw is not None:
         room = CAPACITY
     elif data is not None:
