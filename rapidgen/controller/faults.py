@@ -9,7 +9,12 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any, Literal, Protocol, get_args
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+from rapidgen.diagnostics import (
+    DiagnosticError,
+    Span,
+    refusal,
+    suggest,
+)
 from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
 
@@ -79,10 +84,10 @@ def read_plan(path: Path) -> FaultPlan:
 
     try:
         content = YAML(typ="safe", pure=True).load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise _unusable(path, error.strerror or str(error)) from error
-    except (UnicodeDecodeError, YAMLError, RecursionError) as error:
-        raise _unusable(path, str(error).splitlines()[0]) from error
+    except OSError as fault:
+        raise _unusable(path, fault.strerror or str(fault)) from fault
+    except (UnicodeDecodeError, YAMLError, RecursionError) as fault:
+        raise _unusable(path, str(fault).splitlines()[0]) from fault
     if not isinstance(content, dict) or set(content) - {"network", "controller"}:
         raise _unusable(path, "it is no mapping with `network` and `controller`")
     network = _rules(path, content.get("network"), "network", NetworkRule)
@@ -134,12 +139,9 @@ def _checked(path: Path, where: str, value: object, wanted: Any) -> object:  # n
 
 
 def _unusable(path: Path, reason: str, help: str = "") -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            code="RG421",
-            severity=Severity.ERROR,
-            message=f"the fault plan cannot be used: {reason}",
-            span=Span(str(path), 1, 1),
-            help=help or "`rapidgen explain RG421` shows a plan",
-        )
+    return refusal(
+        "RG421",
+        Span(str(path), 1, 1),
+        f"the fault plan cannot be used: {reason}",
+        help or "`rapidgen explain RG421` shows a plan",
     )

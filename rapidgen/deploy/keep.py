@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 from datetime import UTC, datetime
-from typing import Any
 
 from rapidgen import __version__
+from rapidgen._json import Members
 from rapidgen.deploy.cfg import keyed, remember
 from rapidgen.deploy.driverset import DriverSet, SetFile, digest
 from rapidgen.deploy.operation import Operation, delete, delete_folder, names, write
@@ -74,7 +74,7 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     undone = plan.repair and had is not None and had.files == files
     if had is not None and not undone:
         history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
-    before: dict[str, Any] = dict(plan.cfg_before)
+    before: Members = dict(plan.cfg_before)
     if plan.cfg_seen:
         before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before)
     return Manifest(

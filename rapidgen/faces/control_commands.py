@@ -1,32 +1,22 @@
 """What the control socket can do with a controller: one small function a request."""
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, get_args
 
-from rapidgen.controller.controller import TaskView, VirtualController
+from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.operation import ACTIONS, Mode
+from rapidgen.controller.views import TaskView
 from rapidgen.faces.control_socket import CommandError, Request
 from rapidgen.machine.io import Signal
 from rapidgen.machine.log import Event
 from rapidgen.machine.operator import Question
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.task.stepping import CannotStep
+from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.text import NotALiteral, parse_value, value_text
 from rapidgen.runtime.values import Type
 
-_ACTIONS = (
-    "e-stop",
-    "reset-e-stop",
-    "motors-on",
-    "motors-off",
-    "auto",
-    "manual",
-    "start",
-    "stop",
-    "pp-to-main",
-    "power-loss",
-)
 _LARGEST = 1e300
-_MODES = ("auto", "manual_reduced", "manual_full")
+_MODES: tuple[Mode, ...] = get_args(Mode)
 
 
 def commands(controller: VirtualController) -> dict[str, Callable[[Request], object]]:
@@ -47,7 +37,7 @@ def commands(controller: VirtualController) -> dict[str, Callable[[Request], obj
         "where": remote.where,
         "step": remote.step,
     }
-    for action in _ACTIONS:
+    for action in ACTIONS:
         found[action] = remote.action(action)
     return found
 
@@ -128,11 +118,10 @@ class _Remote:
     def mode(self, request: Request) -> object:
         """`value`: auto, manual_reduced or manual_full."""
         wanted = request.get("value")
-        for mode in _MODES:
-            if wanted == mode:
-                self._controller.set_mode(mode)  # type: ignore[arg-type]
-                return None
-        raise CommandError(f"value is one of {', '.join(_MODES)}")
+        if wanted not in _MODES:
+            raise CommandError(f"value is one of {', '.join(_MODES)}")
+        self._controller.set_mode(wanted)
+        return None
 
     def override(self, request: Request) -> object:
         """`value` in percent, of all groups or of `group`."""

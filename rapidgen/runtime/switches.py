@@ -10,7 +10,7 @@ from typing import Literal
 
 
 @dataclass(frozen=True, slots=True)
-class Dialect:
+class Switches:
     """How the virtual controller decides what is not settled."""
 
     num_rounding: Literal["store", "operation"] = "store"
@@ -167,10 +167,10 @@ NOT_THE_DRIVERS = frozenset(
 """Switches that no generated driver can notice: it does nothing that they are about."""
 
 
-def parse_dialect(text: str) -> Dialect:
-    """A dialect from `name=value,...`. ValueError: unknown switch or value."""
+def parse_switches(text: str) -> Switches:
+    """Switches from `name=value,...`. ValueError: unknown switch or value."""
     chosen: dict[str, object] = {}
-    known = {f.name: f for f in fields(Dialect)}
+    known = {f.name: f for f in fields(Switches)}
     for part in filter(None, (p.strip() for p in text.split(","))):
         name, _, value = part.partition("=")
         if name not in known:
@@ -185,4 +185,4 @@ def parse_dialect(text: str) -> Dialect:
             if value not in allowed:
                 raise ValueError(f"{name} is one of {', '.join(allowed)}")
             chosen[name] = value
-    return Dialect(**chosen)  # type: ignore[arg-type]
+    return Switches(**chosen)  # type: ignore[arg-type]

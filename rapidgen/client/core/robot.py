@@ -275,7 +275,7 @@ class Core:
             # A stall of this machine shortens the time by so much more; no robot is in danger.
             pace *= _SLACK
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
-        return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
+        return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
         """A request for the control port; it goes out next."""
@@ -325,7 +325,7 @@ class Core:
         """The request that asks who is there."""
         wanted = int(self.subscribe) if subscribe else 0
         major, minor, patch = (int(part) for part in __version__.split(".")[:3])
-        asked = messages.Hello(PROTOCOL_VERSION, (major, minor, patch), wanted)
+        asked = messages.HelloRequest(PROTOCOL_VERSION, (major, minor, patch), wanted)
         return encode(asked, Comm.REQUEST)
 
     @property

@@ -234,7 +234,7 @@ class PointStream(CommandedMotion):
             )
         )
 
-    def _by_progress(self, told: messages.Progress) -> None:
+    def _by_progress(self, told: messages.ProgressReport) -> None:
         if self._state_port.progresses != self._looked_at:
             self._looked_at = self._state_port.progresses
             self._counts(told.planned, told.reached)

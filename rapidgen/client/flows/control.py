@@ -13,19 +13,19 @@ from rapidgen.wire.simple_message.spec import Feature, Port
 
 def pause(core: Core) -> Flow[None]:
     """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
-    yield from _ask(core, messages.Pause(1), "pause")
+    yield from _ask(core, messages.PauseRequest(1), "pause")
 
 
 def resume(core: Core) -> Flow[None]:
     """Go on behind a pause. Raises as `pause`."""
-    yield from _ask(core, messages.Pause(0), "go on")
+    yield from _ask(core, messages.PauseRequest(0), "go on")
 
 
 def set_speed(core: Core, percent: float) -> Flow[None]:
     """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
     if not 1 <= percent <= 100:
         raise ValueError(f"percent must be 1 to 100, not {percent}")
-    yield from _ask(core, messages.Speed(percent), f"go at {percent:g} %")
+    yield from _ask(core, messages.SpeedRequest(percent), f"go at {percent:g} %")
     core.override = percent / 100
 
 
@@ -41,7 +41,7 @@ def write_signal(core: Core, signal: str | int, value: float) -> Flow[float]:
 
 def _signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
     index = _index(core, which, writes=value is not None)
-    asked = messages.Signal(index, int(value is not None), value or 0.0)
+    asked = messages.SignalRequest(index, int(value is not None), value or 0.0)
     what = "read" if value is None else "write"
     reply = yield from _ask(core, asked, f"{what} signal {which}")
     if not isinstance(reply, messages.SignalReply) or reply.signal != index:

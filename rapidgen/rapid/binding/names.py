@@ -223,7 +223,6 @@ class ModuleScope:
                 found.declare(parameter)
             for declaration in node.data:
                 found.declare(datum_symbol(declaration, self, node))
-            found.find_labels()
         return found
 
     # -- types ---------------------------------------------------------------------------
@@ -303,7 +302,7 @@ class RoutineScope:
     node: RoutineDeclaration
     names: dict[str, DataSymbol] = field(default_factory=dict)
     """Parameters, data and loop variables, by lower-case name."""
-    labels: dict[str, LabelSymbol] = field(default_factory=dict)
+    _labels: dict[str, LabelSymbol] | None = None
 
     def declare(self, symbol: DataSymbol) -> DataSymbol | None:
         """Add a parameter or a datum, unless there is one of that name already: gives that one."""
@@ -313,12 +312,19 @@ class RoutineScope:
             self.names[key] = symbol
         return first
 
-    def find_labels(self) -> None:
-        """Fill `labels`; the first of a name counts."""
-        for at in walk(self.node):
-            if isinstance(at, Label):
-                symbol = LabelSymbol(at.name, "LABEL", self.module, node=at)
-                self.labels.setdefault(at.name.lower(), symbol)
+    @property
+    def labels(self) -> dict[str, LabelSymbol]:
+        """By lower-case name; the first of a name counts. Looked for when they are asked for."""
+        routine = self.module.routine(self.node)
+        if routine is not self:
+            return routine.labels
+        if self._labels is None:
+            self._labels = {}
+            for at in walk(self.node):
+                if isinstance(at, Label):
+                    symbol = LabelSymbol(at.name, "LABEL", self.module, node=at)
+                    self._labels.setdefault(at.name.lower(), symbol)
+        return self._labels
 
     def loop(self, node: For) -> "RoutineScope":
         """The scope of a loop's statements: its variable hides any other name [K §4.15]."""
@@ -326,7 +332,7 @@ class RoutineScope:
             node.variable, "LOOP", self.module, node=node, routine=self.node, readonly=True
         )
         names = {**self.names, node.variable.lower(): variable}
-        return RoutineScope(self.module, self.node, names, self.labels)
+        return RoutineScope(self.module, self.node, names)
 
     def find(self, name: str) -> Symbol | None:
         """What a name means in this routine."""

@@ -180,7 +180,7 @@ def socket_accept(
 def socket_connect(
     task: Task, socket: SocketDevice, address: str, port: float, time: float | None
 ) -> None:
-    """Connect to a server. For what a failure leaves see `Dialect.failed_connect`."""
+    """Connect to a server. For what a failure leaves see `Switches.failed_connect`."""
     _require(socket)
     if socket.status is SocketStatus.CONNECTED:
         raise RapidError("ERR_SOCK_IS_CONN")

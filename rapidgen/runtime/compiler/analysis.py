@@ -1,45 +1,12 @@
 """One walk over a routine before it is compiled: what is passed by reference, what is whole."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.symbols import Routine
-
-
-def children(node: n.Node) -> Iterator[n.Node]:
-    """Direct parts of a node."""
-    for name in _slots(type(node)):
-        value = getattr(node, name)
-        if isinstance(value, n.Node):
-            yield value
-        elif value.__class__ is list:
-            for item in value:
-                if isinstance(item, n.Node):
-                    yield item
-
-
-_SLOTS: dict[type, tuple[str, ...]] = {}
-
-
-def _slots(kind: type) -> tuple[str, ...]:
-    found = _SLOTS.get(kind)
-    if found is None:
-        names: list[str] = []
-        for base in kind.__mro__:
-            names += [s for s in getattr(base, "__slots__", ()) if s not in ("first", "last")]
-        found = _SLOTS[kind] = tuple(names)
-    return found
-
-
-def walk(node: n.Node) -> Iterator[n.Node]:
-    """A node and everything below it."""
-    stack = [node]
-    while stack:
-        at = stack.pop()
-        yield at
-        stack.extend(children(at))
 
 
 class Facts:
@@ -81,6 +48,8 @@ class Facts:
         unboxed = key in marked("inplace") or key in marked("steps")
         if routine is None or (routine.node is None and unboxed):
             self._step(at, key)
+            return
+        if not routine.refers:
             return
         parameters = routine.parameters
 

@@ -10,20 +10,20 @@ from typing import TYPE_CHECKING
 
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.task.recovery import Recovery
+    from rapidgen.runtime.task.task import Task
     from rapidgen.runtime.values import Ref
 
 Call = n.ProcedureCall | n.FunctionCall | n.LateCall
 
 
-def arg_name(task: "Recovery", parameter: str, number: "Ref | None" = None) -> str:
+def arg_name(task: "Task", parameter: str, number: "Ref | None" = None) -> str:
     """Name of the datum behind `parameter` of the routine that asks [S4 datasys 3-ArgName].
 
     For an element or a component the whole datum's; ERR_ARGNAME for an expression. With
@@ -38,7 +38,7 @@ def arg_name(task: "Recovery", parameter: str, number: "Ref | None" = None) -> s
         return ""
 
 
-def _named(task: "Recovery", name: str) -> str:
+def _named(task: "Task", name: str) -> str:
     places = _places(task, sys._getframe(2))
     routine, _ = next(places)
     while (at := routine.by_name.get(name.lower())) is not None:
@@ -57,7 +57,7 @@ def _named(task: "Recovery", name: str) -> str:
     return data.name if data is not None else name
 
 
-def _places(task: "Recovery", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
+def _places(task: "Task", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
     """Routines of the call stack, innermost first, and the token at which each is."""
     codes = task.program.codes
     inside: Routine | None = None

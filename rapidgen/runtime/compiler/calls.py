@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from rapidgen.rapid.binding.arguments import Misfit, match
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.context import (
     CALLS,
     CannotCompile,

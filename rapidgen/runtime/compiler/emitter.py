@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import Role
 from rapidgen.runtime.compiler.context import CALLS, SILENT, CannotCompile, E, Unit
 from rapidgen.runtime.compiler.writer import CodeLine, Writer

@@ -36,15 +36,16 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
         value = f"{data.code}.v" if data.storage in ("box", "ref") else data.code
         code = f"LATE({name}, lambda: {value}, lambda: {data.code})"
         return f"(None if {data.code} is None else {code})", []
+    last = ", required=True" if argument.name and argument.kind == "required" else ""
     place = place_of(unit, node)
     if place is None:
         e = unit.expression(node)
         t = unit.program.type_code(e.type)
-        return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t})", [e]
+        return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t}{last})", [e]
     t = unit.program.type_code(place.e.type)
     read = by_value(place.e, place.e.type)
     ref = _reference(unit, place)
-    return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code})", [place.e]
+    return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code}{last})", [place.e]
 
 
 def _reference(unit: Unit, place: DataPlace) -> str:

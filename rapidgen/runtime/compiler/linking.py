@@ -6,7 +6,7 @@ classes are common to all tasks.
 
 from dataclasses import dataclass, field
 
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Span, error
 from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, builtin, installed_objects
 from rapidgen.rapid.binding.symbols import (
     DataSymbol,
@@ -145,7 +145,7 @@ class Linker:
             module.types.clear()
 
     def _fault(self, module: LoadedModule, message: str, node: n.Node) -> None:
-        self.faults.append(Diagnostic("RG401", Severity.ERROR, message, module.span(node)))
+        self.faults.append(error("RG401", module.span(node), message))
 
     # -- types -----------------------------------------------------------------------------------
 
@@ -190,9 +190,10 @@ class Linker:
 
     def routine(self, symbol: Symbol | None) -> Routine | None:
         """The routine that a symbol stands for; None for anything else."""
-        symbol = _meant(symbol)
         if not isinstance(symbol, RoutineSymbol):
-            return None
+            symbol = _meant(symbol)
+            if not isinstance(symbol, RoutineSymbol):
+                return None
         if symbol not in self._routines:
             self._routines[symbol] = self._builtin(symbol.name.lower())
         return self._routines[symbol]
@@ -228,9 +229,10 @@ class Linker:
 
         Module data are evaluated on first need.
         """
-        symbol = _meant(symbol)
         if not isinstance(symbol, DataSymbol):
-            return None
+            symbol = _meant(symbol)
+            if not isinstance(symbol, DataSymbol):
+                return None
         if symbol not in self._data:
             self._data[symbol] = None  # data that need each other come to an end
             if symbol.module is None:

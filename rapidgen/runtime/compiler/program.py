@@ -4,15 +4,14 @@ from collections.abc import Callable, Iterable
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from rapidgen.diagnostics import Diagnostic, Severity
-from rapidgen.rapid.binding.names import Scope
+from rapidgen.diagnostics import error
 from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
 from rapidgen.runtime.compiler.argname import arg_name
 from rapidgen.runtime.compiler.compiled import Compiled
 from rapidgen.runtime.compiler.context import CannotCompile, Options
-from rapidgen.runtime.compiler.linking import Linker, LoadedModule, Shared, Typed
+from rapidgen.runtime.compiler.linking import Linker, LoadedModule, Shared
 from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, compile_rest
 from rapidgen.runtime.compiler.routine import compile_routine
 from rapidgen.runtime.compiler.symbols import Data, Routine
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
 def _trace(task: "Task", point: int) -> None:
     """A statement is about to be executed."""
-    task.controller.statement(task, point)
+    task.controller.statements.reached(task, point)
 
 
 class Program:
@@ -64,6 +63,9 @@ class Program:
         self.names = self._linker.names
         self.modules = self._linker.modules
         self.faults = self._linker.faults
+        self.datum = self._linker.datum
+        self.routine = self._linker.routine
+        self.evaluate = self._linker.evaluate
 
     # -- loading ---------------------------------------------------------------------------------
 
@@ -97,7 +99,7 @@ class Program:
                     continue
                 data = self.find_data(module, key)
                 if data is not None:
-                    self.space[data.code] = self._linker.evaluate(module, module.scope, d)[2]
+                    self.space[data.code] = self.evaluate(module, module.scope, d)[2]
 
     # -- names -----------------------------------------------------------------------------------
 
@@ -107,23 +109,11 @@ class Program:
 
     def find_data(self, module: LoadedModule | None, key: str) -> Data | None:
         """A datum by lower-case name, as seen from a module."""
-        return self._linker.datum(self.find(module, key))
+        return self.datum(self.find(module, key))
 
     def find_routine(self, module: LoadedModule | None, key: str) -> Routine | None:
         """A routine by lower-case name, as seen from a module; built-ins come last."""
-        return self._linker.routine(self.find(module, key))
-
-    def datum(self, symbol: Symbol | None) -> Data | None:
-        """How a datum is kept; None: it is none."""
-        return self._linker.datum(symbol)
-
-    def routine(self, symbol: Symbol | None) -> Routine | None:
-        """The routine that a symbol stands for; None: it is none."""
-        return self._linker.routine(symbol)
-
-    def evaluate(self, module: LoadedModule, scope: Scope, d: n.DataDeclaration) -> Typed:
-        """Type, sizes and initial value of a declaration. CannotCompile."""
-        return self._linker.evaluate(module, scope, d)
+        return self.routine(self.find(module, key))
 
     # -- what generated code names ---------------------------------------------------------------
 
@@ -202,7 +192,7 @@ class Program:
             function, compiled = compile_routine(self, routine.module, routine, self.options)
         except CannotCompile as fault:
             span = routine.module.span(fault.node)
-            self.faults.append(Diagnostic("RG401", Severity.ERROR, str(fault), span))
+            self.faults.append(error("RG401", span, str(fault)))
             raise FatalError(
                 40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault

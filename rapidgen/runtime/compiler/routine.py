@@ -57,7 +57,8 @@ class RoutineCompiler:
         w.token = node.name_token
         w.emit(f"def {self.entry}({self.parameters}):")
         w.depth = 1
-        written = w.reserve()
+        w.emit("")
+        written = w.lines[-1]
         w.emit("b = R.b")
         self.variables()
         top = w.cut(0)

@@ -142,7 +142,7 @@ def part_of(text: str, position: float, length: float) -> str:
 
 
 def _search_at(text: str, position: float) -> int:
-    """The same for a search, which may begin right behind the text (`Dialect.find_behind`)."""
+    """The same for a search, which may begin right behind the text (`Switches.find_behind`)."""
     return len(text) if position == len(text) + 1 else _at(text, position)
 
 
@@ -353,6 +353,15 @@ class LateArgument:
     type: Type | None = None
     itself: Callable[[], Value] | None = None
     """The object itself, for VAR parameters of record, array and non-value types."""
+    required: bool = False
+    """Named without a backslash."""
+
+    @property
+    def kind(self) -> str:
+        """As of an argument of a call that is known."""
+        if self.name is None or self.required:
+            return "required"
+        return "switch" if self.read is None else "optional"
 
 
 @dataclass(slots=True)

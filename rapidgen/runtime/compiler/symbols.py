@@ -85,5 +85,9 @@ class Routine:
     """Parameters of a built-in that looks at their arguments again and again, lower case."""
     by_name: dict[str, int] = field(default_factory=dict)
 
+    refers: bool = False
+    """Some argument is passed by reference."""
+
     def __post_init__(self) -> None:
+        self.refers = any(p.mode for p in self.parameters)
         self.by_name = {p.name.lower(): i for i, p in enumerate(self.parameters)}

@@ -35,7 +35,7 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
         return move
     if identity is None:
         raise FatalError(NOT_ALLOWED, "\\ID is missing", "between SyncMoveOn and SyncMoveOff")
-    gatherings: dict[object, Gathering] = task.controller.meetings
+    gatherings = task.controller.gatherings
     point, own = ("move", data.partners, identity), task.name.lower()
     gathering = gatherings.setdefault(point, Gathering())
     gathering.times[own] = group.whole_time(move)
