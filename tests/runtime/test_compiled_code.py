@@ -1,4 +1,4 @@
-"""What no conformance program can tell: placeholders of the compiler, constants, named arguments."""
+"""What no conformance program can tell: placeholders, constants, named arguments."""
 
 import pytest
 

@@ -131,7 +131,7 @@ def routine(name: str) -> Signature | None:
         return None
     proper, type_name, text, marks = header
     tokens = lexer.tokenize(text, f"<{proper}>", "utf-8", radix=False)
-    parameters, _ = ModuleParser(tokens, builtin=True).parameters(1)
+    parameters, _ = ModuleParser(tokens, builtin=True).data.parameters(1)
     known = _marks(marks or "")
     since, until = (_version(known.pop(word, ())) for word in ("since", "until"))
     kind: Literal["PROC", "FUNC"] = "FUNC" if type_name else "PROC"

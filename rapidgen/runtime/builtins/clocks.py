@@ -19,7 +19,7 @@ _LONGEST = 4_294_967
 
 
 class StopWatch:
-    """A `clock` datum: what it has measured, and since when it runs (ns), if it does."""
+    """A `clock`: what it has measured, and since when it runs (ns), if it does."""
 
     __slots__ = ("measured", "started")
 

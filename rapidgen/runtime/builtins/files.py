@@ -17,7 +17,7 @@ from rapidgen.machine.files import Directory, IODevice
 from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.builtins.operator import appended
-from rapidgen.runtime.disks import disks_of, file_path, hold, spend
+from rapidgen.runtime.disks import file_path, hold, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
@@ -46,7 +46,7 @@ def open_file(
 ) -> None:
     """Open a file."""
     path = file_path(task, object_, file or "")
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     if path.exists() and not path.is_file():
         raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''} is no regular file")
     if read:
@@ -81,7 +81,7 @@ def open_file(
 def close_file(task: Task, device: IODevice) -> None:
     """Close a file; nothing when it is closed."""
     was_written = device.file is not None and device.writable
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     _stamp(task, device.path, written=was_written)
 
 
@@ -334,7 +334,7 @@ def make_dir(task: Task, path: str) -> None:
 def remove_dir(task: Task, path: str) -> None:
     """Remove an empty folder; a disk itself stays."""
     place = file_path(task, path)
-    if place.parent == disks_of(task).folder:
+    if place.parent == task.controller.files.folder:
         raise RapidError("ERR_FILEACC", f"{path} is a disk")
     _disk(place.rmdir, path)
 
@@ -419,7 +419,7 @@ def fs_size(
 ) -> float:
     """Size of a disk, or what is free on it."""
     file_path(task, name)
-    size = DISK if total else disks_of(task).room
+    size = DISK if total else task.controller.files.room
     return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
 
 
@@ -453,7 +453,7 @@ def _status(task: Task, path: str) -> os.stat_result:
 @builtin("OpenDir", cost="socket")
 def open_dir(task: Task, device: Directory, path: str) -> None:
     """Begin to read a folder's names."""
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     place = file_path(task, path)
     if not place.is_dir():
         raise RapidError("ERR_FILEACC", f"there is no folder {path}")
@@ -461,7 +461,7 @@ def open_dir(task: Task, device: Directory, path: str) -> None:
     try:
         names = sorted(os.listdir(place))
     except OSError as error:
-        disks_of(task).release(device)
+        task.controller.files.release(device)
         raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
     shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
     device.names = [".", "..", *shown]
@@ -481,4 +481,4 @@ def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
 @builtin("CloseDir", cost="socket")
 def close_dir(task: Task, device: Directory) -> None:
     """End reading a folder."""
-    disks_of(task).release(device)
+    task.controller.files.release(device)

@@ -14,7 +14,7 @@ _LOAD_RATE = 1_000_000
 
 
 class LoadSession:
-    """A `loadsession` datum: what StartLoad has ordered, if anything."""
+    """A `loadsession`: what StartLoad has ordered, if anything."""
 
     __slots__ = ("dynamic", "ready_at", "words")
 
@@ -47,7 +47,7 @@ def unload(
 def start_load(
     task: Task, dynamic: bool | None, path: str, file: str | None, session: LoadSession
 ) -> None:
-    """Order a module; whether its file exists is only told by WaitLoad [S4 WaitLoad]."""
+    """Order a module; whether its file exists only WaitLoad says [S4 WaitLoad]."""
     if session.words is not None:
         raise RapidError("ERR_LOADNO_INUSE")
     session.words = words_of(path, file)

@@ -23,8 +23,8 @@ def _own(task: Task) -> Queue:
     return _queues(task).queue(task.name)
 
 
-def _message(task: Task, datum: object, user: float | None) -> Message:
-    value, kind = value_of(datum)
+def _message(task: Task, argument: object, user: float | None) -> Message:
+    value, kind = value_of(argument)
     name = QueueSystem.slot_name(task.name)
     return Message(kind, dimensions(value), copy_value(value), name, user or 0)
 
@@ -48,16 +48,16 @@ def rmq_get_slot_name(_task: Task, slot: Slot) -> str:
 
 
 @builtin("RMQSendMessage", cost="string")
-def rmq_send_message(task: Task, slot: Slot, datum: object, user: float | None) -> None:
+def rmq_send_message(task: Task, slot: Slot, argument: object, user: float | None) -> None:
     """Send a value; does not wait."""
-    _queues(task).send(slot.name, _message(task, datum, user))
+    _queues(task).send(slot.name, _message(task, argument, user))
 
 
 @builtin("RMQSendWait", cost="string")
 def rmq_send_wait(
     task: Task,
     slot: Slot,
-    datum: object,
+    argument: object,
     user: float | None,
     box: MessageBox,
     wanted: object,
@@ -67,7 +67,7 @@ def rmq_send_wait(
     value, kind = value_of(wanted)
     dims = dimensions(value)
     own = _own(task)
-    _queues(task).send(slot.name, _message(task, datum, user))
+    _queues(task).send(slot.name, _message(task, argument, user))
 
     def answer() -> Message | None:
         for message in own.messages:
@@ -134,9 +134,9 @@ def rmq_get_msg_header(
 
 
 @builtin("RMQGetMsgData", cost="string")
-def rmq_get_msg_data(_task: Task, box: MessageBox, datum: object) -> None:
+def rmq_get_msg_data(_task: Task, box: MessageBox, argument: object) -> None:
     """The value of a message; ERR_RMQ_VALUE or ERR_RMQ_DIM when it does not fit."""
-    message, target = _held(box), target_of(datum)
+    message, target = _held(box), target_of(argument)
     if message.type.name != target.type.name:
         raise RapidError("ERR_RMQ_VALUE", f"the message is a {message.type.name}")
     if message.dims != target.dims:
@@ -151,9 +151,9 @@ def rmq_empty_queue(task: Task) -> None:
 
 
 @builtin("IRMQMessage", cost="string")
-def i_rmq_message(task: Task, datum: object, interrupt: Ref) -> None:
+def i_rmq_message(task: Task, argument: object, interrupt: Ref) -> None:
     """Order an interrupt for messages of a type."""
-    value, kind = value_of(datum)
+    value, kind = value_of(argument)
     order = task.interrupts.order(interrupt.get(), single=False, safe=False)
     own = _own(task)
     entry = (kind, dimensions(value), lambda: task.interrupts.happen(order))

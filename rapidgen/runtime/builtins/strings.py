@@ -95,9 +95,9 @@ def str_order(_task: Task, one: str, two: str, order: str) -> bool:
 
 
 @builtin("StrToVal", cost="string")
-def str_to_val(_task: Task, text: str, datum: object) -> bool:
+def str_to_val(_task: Task, text: str, argument: object) -> bool:
     """Read a literal of the target's type; FALSE leaves the target as it was [S4 StrToVal]."""
-    target = target_of(datum)
+    target = target_of(argument)
     try:
         value = parse_value(text, target.type, target.dims)
     except NotALiteral:
@@ -107,9 +107,11 @@ def str_to_val(_task: Task, text: str, datum: object) -> bool:
 
 
 @builtin("ValToStr", cost="string")
-def val_to_str(task: Task, datum: object) -> str:
+def val_to_str(task: Task, argument: object) -> str:
     """The text of any value; ERR_STRTOOLNG over 80 characters."""
-    return limited(value_text(*value_of(datum), whole=task.controller.dialect.whole_text == "all"))
+    return limited(
+        value_text(*value_of(argument), whole=task.controller.dialect.whole_text == "all")
+    )
 
 
 @builtin("StrFormat", cost="string", pure=True)
@@ -175,7 +177,7 @@ def str_to_byte(
     binary: bool | None,
     char: bool | None,
 ) -> int:
-    """A byte from its text: decimal unless told."""
+    """A byte from its text: decimal by default."""
     if char:
         if len(text) != 1:
             raise RapidError("ERR_ARGVALERR", "\\Char takes one character")
@@ -195,7 +197,7 @@ def byte_to_str(
     binary: bool | None,
     char: bool | None,
 ) -> str:
-    """A byte's text: decimal unless told. For \\Char see `Switches.byte_to_str`."""
+    """A byte's text: decimal by default. For \\Char see `Switches.byte_to_str`."""
     byte = byte_value(data)
     if hexadecimal:
         return f"{byte:02X}"

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import Protocol
 
 from rapidgen.diagnostics import error
 from rapidgen.rapid.binding.symbols import Symbol
@@ -19,20 +20,21 @@ from rapidgen.runtime.errors import RECOVERABLE, FatalError
 from rapidgen.runtime.values import PersistentCell, Type, Value, make_array
 from rapidgen.system.model import ModuleFile
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
+class Executor(Protocol):
+    """What compiled code runs on: its name and, as `R`, whatever it is asked for."""
 
-def _trace(task: "Task", point: int) -> None:
-    """A statement is about to be executed."""
-    task.controller.statements.reached(task, point)
+    name: str
+
+    def trace(self, point: int) -> None:
+        """A statement is about to be executed."""
 
 
 class Program:
     """Modules of one task and their compiled code."""
 
-    def __init__(self, task: "Task", shared: Shared, options: Options) -> None:
-        self.task = task
+    def __init__(self, executor: Executor, shared: Shared, options: Options) -> None:
+        self.name = executor.name
         self.shared = shared
         self.options = options
         self.codes: dict[str, Compiled] = {}
@@ -44,12 +46,11 @@ class Program:
         self._kept: dict[int, str] = {}
         self.space: dict[str, Value] = {
             **runtime.NAMESPACE,
-            "R": task,
+            "R": executor,
             "ERRS": RECOVERABLE,
             "ARRAY": make_array,
-            "TRACE": _trace,
             "AFTER": after,
-            "ARGNAME": arg_name,
+            "ARGNAME": partial(arg_name, self),
         }
         dialect = options.dialect
         if dialect.for_loop == "tested":
@@ -137,7 +138,7 @@ class Program:
     def code_name(self, routine: Routine) -> str:
         """Python file name of a routine's code."""
         assert routine.module is not None
-        return f"<rapid {self.task.name} {routine.module.name} {routine.name}>"
+        return f"<rapid {self.name} {routine.module.name} {routine.name}>"
 
     def trace_point(self, routine: Routine, statement: n.Statement) -> int:
         """Number of a statement, for tracing."""
