@@ -22,7 +22,6 @@ from rapidgen.runtime.values import (
     ATOMIC,
     NUM,
     PersistentCell,
-    SharedVariable,
     Type,
     Value,
     make_array,
@@ -257,7 +256,7 @@ class Linker:
             return Data(d.name, "PERS", kind, dims, "cell", code)
         if d.kind == "VAR" and module.file.shared and d.scope != "TASK":
             atom = not dims and kind.kind in ATOMIC
-            made = SharedVariable(d.name, kind, dims, value) if atom else value
+            made = PersistentCell(d.name, kind, dims, value, variable=True) if atom else value
             key = (module.name.lower(), d.name.lower())
             self.space[code] = self.shared.common.setdefault(key, made)
             return Data(d.name, "VAR", kind, dims, "cell" if atom else "global", code)
