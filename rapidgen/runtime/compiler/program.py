@@ -40,7 +40,6 @@ class Program:
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
         """What is compiled as the modules are now."""
-        self.missing: set[str] = set()
         self.trace_points: list[tuple[Routine, n.Statement]] = []
         self.switch_type = Type("switch", "bool")
         self._serial = 0
@@ -127,15 +126,6 @@ class Program:
             self.space[known] = value
         return known
 
-    def type_code(self, kind: Type) -> str:
-        """Name of a Type."""
-        return self.keep(kind)
-
-    def record_code(self, kind: Type) -> str:
-        """Name of what makes a datum of a type."""
-        assert kind.make is not None
-        return self.keep(kind.make)
-
     def global_ref(self, data: Data) -> str:
         """Name of a reference to module data."""
         name = f"r_{data.code}"
@@ -144,14 +134,6 @@ class Program:
                 self.space, data.code, data.type, data.dims, data.name
             )
         return name
-
-    def module_code(self, module: LoadedModule) -> str:
-        """Name of a module."""
-        return self.keep(module)
-
-    def trap_code(self, trap: Routine) -> str:
-        """Name of a trap."""
-        return self.keep(trap)
 
     def code_name(self, routine: Routine) -> str:
         """Python file name of a routine's code."""
@@ -169,10 +151,6 @@ class Program:
             self.options = replace(self.options, tracing=True, accounting="statement")
             self.codes.clear()
             self._reset_code()
-
-    def said_missing(self, name: str) -> None:
-        """Remember a routine that is called and does not exist."""
-        self.missing.add(name)
 
     # -- code ------------------------------------------------------------------------------------
 

@@ -99,7 +99,7 @@ def define_test_signal(
 @builtin("TestSignRead")
 def read_test_signal(task: Task, channel: float) -> float:
     """The value of a channel. ERR_ARGVALERR: none is defined for it."""
-    value: float | None = task.controller.test_signals.get(int(channel))
+    value = task.controller.test_signals.get(int(channel))
     if value is None:
         raise RapidError("ERR_ARGVALERR", f"channel {channel:g} has no signal")
     return value
