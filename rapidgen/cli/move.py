@@ -40,7 +40,7 @@ def move(
     record: Annotated[
         Path | None, typer.Option(help="Write the executed joints as CSV.", metavar="FILE")
     ] = None,
-    as_json: options.AsJson = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")] = False,
     stream: Annotated[
         bool | None,
         typer.Option(
