@@ -7,7 +7,7 @@ STAMP := $(VENV)/.made
 SHELL := /bin/bash
 export TIMEFORMAT = %U s of CPU, %R s
 
-.PHONY: demo test lint types contract unit wheel driver-hours room foreign campaigns clean
+.PHONY: demo test lint types contract unit wheel driver-hours room picture foreign campaigns clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
@@ -63,6 +63,10 @@ driver-hours: $(STAMP)
 # Last, so that pytest's own summary closes the output.
 unit: $(STAMP)
 	$(BIN)/python -m pytest -n auto
+
+# The picture of docs/develop/architecture.md, drawn again from the code.
+picture: $(STAMP)
+	$(BIN)/python -m tests.docs.picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
 # PROGRAM the trial (abb_driver, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).

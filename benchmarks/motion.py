@@ -18,9 +18,11 @@ from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionGroup, MotionSystem
 from rapidgen.motion.moves import CartesianMove, JointMove, Move, MoveSpeed, Zone
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.model import System
+from rapidgen.system.model import System, TaskSpec
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
@@ -35,7 +37,8 @@ def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tupl
     group = MotionSystem(scheduler, [config], log, io).group(config.name)
     group.jump(HOME)
     program = moves(group)
-    task = Task(scheduler, "T_ROB1", SimpleNamespace(dialect=Dialect()))
+    controller = SimpleNamespace(dialect=Switches(), options=Options())
+    task = Task(scheduler, TaskSpec("T_ROB1"), controller, Shared())
     ended = 0
 
     def body() -> None:

@@ -65,13 +65,15 @@ def _hello(host: str, port: int, timeout: float = 3.0) -> str | None:
     from rapidgen import __version__
     from rapidgen.wire.simple_message.codec import decode, encode
     from rapidgen.wire.simple_message.frames import FrameSplitter, WireError
-    from rapidgen.wire.simple_message.messages import Hello, HelloReply
+    from rapidgen.wire.simple_message.messages import HelloReply, HelloRequest
     from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Comm
 
     major, minor, patch = (int(part) for part in __version__.split(".")[:3])
     end = time.monotonic() + timeout
     with socket.create_connection((host, port), timeout) as connection:
-        connection.sendall(encode(Hello(PROTOCOL_VERSION, (major, minor, patch), 0), Comm.REQUEST))
+        connection.sendall(
+            encode(HelloRequest(PROTOCOL_VERSION, (major, minor, patch), 0), Comm.REQUEST)
+        )
         splitter = FrameSplitter()
         try:
             while (left := end - time.monotonic()) > 0:

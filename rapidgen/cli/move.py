@@ -142,12 +142,11 @@ def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float, way: "Way
 
 
 def _ask(robot: "Robot") -> None:
-    from rapidgen.client.errors import NotReady, fault
+    from rapidgen.client.errors import NotReady
 
     if not sys.stdin.isatty():
-        raise NotReady(
-            fault("RG641", "nobody is here to be asked: nothing was sent", "--yes answers"),
-            exit_code=2,
+        raise NotReady.because(
+            "RG641", "nobody is here to be asked: nothing was sent", "--yes answers", exit_code=2
         )
     typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
 

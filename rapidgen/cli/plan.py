@@ -32,7 +32,7 @@ def plan(
     rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --out plan.json
     """
     from rapidgen.deploy.fleet import parse_targets
-    from rapidgen.deploy.session import Job, plan_all, wanted_set, write_plans
+    from rapidgen.deploy.session import FleetJob, plan_all, wanted_set, write_plans
     from rapidgen.deploy.show import plan_text
     from rapidgen.deploy.target import Access
     from rapidgen.diagnostics import DiagnosticError
@@ -41,7 +41,7 @@ def plan(
         wanted = wanted_set(config, overrides or ())
         access = Access(user, secrets, identity, known_hosts, ask=True)
         plans = plan_all(
-            Job("deploy", parse_targets(to), access, lambda _: wanted, parallel=parallel)
+            FleetJob("deploy", parse_targets(to), access, lambda _: wanted, parallel=parallel)
         )
         if out is not None:
             write_plans(out, plans)

@@ -31,20 +31,17 @@ def rollback(
 
     rapidgen rollback cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --list
     """
+    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
-        apply_all,
+        FleetJob,
         config_name,
-        confirm,
         earlier_set,
         history,
         plan_all,
         refuse_conflicts,
     )
-    from rapidgen.deploy.show import plan_text, table
     from rapidgen.deploy.target import Access
-    from rapidgen.diagnostics import DiagnosticError
 
     name = config_name(config)
     targets = parse_targets(to)
@@ -54,7 +51,7 @@ def rollback(
             for past in history(target, access, name):
                 typer.echo(f"{target.shown}  {past.id}  {past.time}  build {past.build_id}")
         return 0
-    job = Job(
+    job = FleetJob(
         "rollback",
         targets,
         access,
@@ -63,17 +60,7 @@ def rollback(
         parallel,
     )
     plans = plan_all(job)
-    for made in plans:
-        typer.echo(plan_text(made), err=True, nl=False)
+    show_plans(plans)
     refuse_conflicts(job, plans)
-    confirm(
-        f"Roll back {len(plans)} controller(s)?",
-        yes=yes,
-        ask=lambda text: typer.confirm(text, err=True),
-    )
-    outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
-    typer.echo(table(outcomes), nl=False)
-    failures = [o.error for o in outcomes if o.error is not None]
-    if failures:
-        raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)
-    return 0
+    make_sure(f"Roll back {len(plans)} controller(s)?", yes=yes)
+    return carry_out(job, plans)

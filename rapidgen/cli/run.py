@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.runtime.errors import FatalError
-    from rapidgen.runtime.switches import Dialect
+    from rapidgen.runtime.switches import Switches
     from rapidgen.system.model import System
 
 
@@ -213,16 +213,16 @@ def _writable(path: Path) -> None:
         ) from fault
 
 
-def _dialect(text: str) -> "Dialect":
+def _dialect(text: str) -> "Switches":
     from dataclasses import fields
 
     from rapidgen.diagnostics import refusal
-    from rapidgen.runtime.switches import Dialect, parse_dialect
+    from rapidgen.runtime.switches import Switches, parse_switches
 
     try:
-        return parse_dialect(text)
+        return parse_switches(text)
     except ValueError as fault:
-        names = ", ".join(switch.name for switch in fields(Dialect))
+        names = ", ".join(switch.name for switch in fields(Switches))
         raise refusal(
             "RG901", None, f"--dialect: {fault}", f"SWITCH=VALUE; there are {names}"
         ) from fault

@@ -78,18 +78,18 @@ def test(
 
 
 def _check_names(names: list[str]) -> None:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+    from rapidgen.diagnostics import DiagnosticError, error, suggest
     from rapidgen.proving.suite import CASES
 
     known = [case.name for case in CASES]
     wrong = [name for name in names if name not in known]
     if wrong:
         raise DiagnosticError(
-            Diagnostic(
+            error(
                 "RG801",
-                Severity.ERROR,
+                None,
                 f"there is no case '{name}'",
-                help=suggest(name, known) or f"the cases are: {', '.join(known)}",
+                suggest(name, known) or f"the cases are: {', '.join(known)}",
             )
             for name in wrong
         )
@@ -98,21 +98,19 @@ def _check_names(names: list[str]) -> None:
 def _check_writable(path: Path | None) -> None:
     """Say before a long run that its report has nowhere to go."""
     from rapidgen._writing import check_writable
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     if path is None:
         return
     try:
         check_writable(path)
-    except OSError as error:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG803",
-                Severity.ERROR,
-                f"{path} cannot be written: {error.strerror}",
-                help="name a file in a folder that exists and may be written",
-            )
-        ) from error
+    except OSError as fault:
+        raise refusal(
+            "RG803",
+            None,
+            f"{path} cannot be written: {fault.strerror}",
+            "name a file in a folder that exists and may be written",
+        ) from fault
 
 
 class _Progress:

@@ -18,7 +18,6 @@ from rapidgen.client.errors import (
     MotionStopped,
     RobotError,
     RobotTimeout,
-    fault,
     not_reached,
     os_reason,
 )
@@ -148,7 +147,7 @@ class Loop:
         data = effect.data
         for count, at in enumerate(range(0, len(data), FRAME_BYTES), 1):
             if effect.is_stopped:
-                raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
+                raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
             if self._links.get(link.port) is not link:
                 raise self.core.disconnected()
             transport.write(data[at : at + FRAME_BYTES])
@@ -162,8 +161,8 @@ class Loop:
             async with asyncio.timeout(timeout):
                 await link.room.wait()
         except TimeoutError as error:
-            raise RobotTimeout(
-                fault("RG603", f"the controller took no byte for {timeout:g} s", "look at it")
+            raise RobotTimeout.because(
+                "RG603", f"the controller took no byte for {timeout:g} s", "look at it"
             ) from error
 
     async def _wait(self, effect: Wait) -> bool:

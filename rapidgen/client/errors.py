@@ -23,7 +23,7 @@ states. Time is that of the client's clock, s.
 import os
 import socket
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Self
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
@@ -48,6 +48,11 @@ class RobotError(DiagnosticError):
         super().__init__(diagnostics, exit_code=exit_code)
         self.messages = tuple(messages)
         self.states = tuple(states)
+
+    @classmethod
+    def because(cls, code: str, message: str, mend: str = "", *notes: str, **told: Any) -> Self:  # noqa: ANN401
+        """One with a finding that has no place in a text; `told` is what its kind takes."""
+        return cls(fault(code, message, mend, *notes), **told)
 
 
 class ConnectionFailed(RobotError):
@@ -145,7 +150,7 @@ def not_reached(where: str, raised: OSError, timeout: float) -> ConnectionFailed
         mend = "is the driver's task running? `rapidgen sim` starts a virtual controller"
     if isinstance(raised, socket.gaierror):
         mend = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
-    return ConnectionFailed(fault("RG601", message, mend))
+    return ConnectionFailed.because("RG601", message, mend)
 
 
 def os_reason(raised: OSError) -> str:

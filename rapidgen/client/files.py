@@ -42,13 +42,15 @@ def _read(path: Path) -> str:
         return path.read_text(encoding="utf-8-sig")
     except OSError as raised:
         reason = os_reason(raised)
-        raise InvalidTrajectory(
-            fault("RG610", f"cannot read {path}: {reason}", "give the path of a CSV or JSON file"),
+        raise InvalidTrajectory.because(
+            "RG610",
+            f"cannot read {path}: {reason}",
+            "give the path of a CSV or JSON file",
             exit_code=2,
         ) from raised
     except UnicodeDecodeError as raised:
-        raise InvalidTrajectory(
-            fault("RG610", f"{path} is not text in UTF-8", "save it as UTF-8"), exit_code=2
+        raise InvalidTrajectory.because(
+            "RG610", f"{path} is not text in UTF-8", "save it as UTF-8", exit_code=2
         ) from raised
 
 
@@ -150,7 +152,7 @@ def from_ros(message: Mapping[str, Any], *, path: str = "") -> Content:
     where = f" in {path}" if path else ""
     points = message.get("points")
     if not isinstance(points, Sequence) or isinstance(points, str):
-        raise InvalidTrajectory(fault("RG610", f"'points' is not a list{where}"), exit_code=2)
+        raise InvalidTrajectory.because("RG610", f"'points' is not a list{where}", exit_code=2)
     names = _names(message.get("joint_names", []), path)
     times: list[float] = []
     positions: list[list[float]] = []
@@ -176,8 +178,8 @@ def from_ros(message: Mapping[str, Any], *, path: str = "") -> Content:
 def _names(names: object, path: str) -> tuple[str, ...]:
     if not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
         where = f" in {path}" if path else ""
-        raise InvalidTrajectory(
-            fault("RG610", f"'joint_names' is not a list of texts{where}"), exit_code=2
+        raise InvalidTrajectory.because(
+            "RG610", f"'joint_names' is not a list of texts{where}", exit_code=2
         )
     return tuple(names)
 

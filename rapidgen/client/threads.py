@@ -13,7 +13,7 @@ from rapidgen.client.channels import Channel, Reader
 from rapidgen.client.core.job import batches
 from rapidgen.client.core.robot import STOP_FRAME
 from rapidgen.client.core.state import State
-from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError, fault
+from rapidgen.client.errors import ConnectionLost, MotionStopped, RobotError
 from rapidgen.client.flows.effects import Close, Effect, Flow, HangUp, Open, Wait
 from rapidgen.client.surface import ExecutionSurface, MakeCore, RobotSurface, StreamSurface
 from rapidgen.wire.simple_message.spec import Port
@@ -91,7 +91,7 @@ class Threads:
             if effect.urgent:
                 channel.send_urgent(effect.data, effect.timeout)
             elif not channel.send(effect.data, effect.timeout, lambda: effect.is_stopped):
-                raise MotionStopped(fault("RG631", "stopped before the trajectory was sent"))
+                raise MotionStopped.because("RG631", "stopped before the trajectory was sent")
         except ConnectionLost as error:
             with self.guard:
                 # The reader was first, and knows better why.

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from rapidgen.axes.timing import parametrise, resample
 from rapidgen.client import files
-from rapidgen.client.errors import InvalidTrajectory, fault
+from rapidgen.client.errors import InvalidTrajectory
 
 if TYPE_CHECKING:
     from rapidgen.client.core.group import Group
@@ -49,22 +49,19 @@ class Trajectory:
             times = np.array(times, dtype=np.float64)
             positions = np.array(positions, dtype=np.float64)
         except (TypeError, ValueError) as error:
-            raise InvalidTrajectory(
-                fault("RG611", f"a trajectory needs numbers: {error}"), exit_code=2
+            raise InvalidTrajectory.because(
+                "RG611", f"a trajectory needs numbers: {error}", exit_code=2
             ) from error
         if positions.ndim != 2 or times.shape != (len(positions),):
-            raise InvalidTrajectory(
-                fault(
-                    "RG611",
-                    f"times of shape {times.shape} do not fit positions of shape {positions.shape}",
-                    "give times of shape (n,) and positions of shape (n, joints)",
-                ),
+            raise InvalidTrajectory.because(
+                "RG611",
+                f"times of shape {times.shape} do not fit positions of shape {positions.shape}",
+                "give times of shape (n,) and positions of shape (n, joints)",
                 exit_code=2,
             )
         if names and positions.shape[1] != len(names):
-            raise InvalidTrajectory(
-                fault("RG611", f"{positions.shape[1]} columns for {len(names)} joint names"),
-                exit_code=2,
+            raise InvalidTrajectory.because(
+                "RG611", f"{positions.shape[1]} columns for {len(names)} joint names", exit_code=2
             )
         times.flags.writeable = positions.flags.writeable = False
         told = {"times": times, "positions": positions, "names": tuple(names)}
@@ -170,8 +167,8 @@ class Trajectory:
         not known, ValueError for fewer than two points.
         """
         if not robot.has_limits:
-            raise InvalidTrajectory(
-                fault("RG615", "the robot's speeds are not known", "connect with a configuration")
+            raise InvalidTrajectory.because(
+                "RG615", "the robot's speeds are not known", "connect with a configuration"
             )
         ordered = self.reordered(robot.names)
         wire = robot.to_wire(ordered.positions)

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from rapidgen._data import data_folder
+from rapidgen._json import members, number, text
 from rapidgen.config.layers import (
     Overrides,
     canonical,
@@ -76,10 +76,10 @@ def _group(root: MappingNode, name: str) -> MappingNode:
 
 
 def _figures(group: MappingNode) -> Figures:
-    data: Any = to_python(group)
+    joints = members(members(to_python(group))["joints"])
     return {
-        (joint["axis"], figure): joint[figure]
-        for joint in data["joints"].values()
+        (text(joint["axis"]), figure): number(joint[figure])
+        for joint in map(members, joints.values())
         for figure in ("lower", "upper", "speed")
     }
 

@@ -1,8 +1,8 @@
 """What the shipped models are, in a line each."""
 
 from dataclasses import asdict, dataclass
-from typing import Any
 
+from rapidgen._json import Members
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
 from rapidgen.config.tree import MappingNode, ScalarNode, decode, parse, read_bytes
@@ -19,7 +19,7 @@ class ShippedModel:
     groups: tuple[tuple[str, int], ...]
     unsure: bool
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Members:
         """Plain data."""
         return {**asdict(self), "groups": {name: joints for name, joints in self.groups}}
 

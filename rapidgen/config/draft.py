@@ -44,7 +44,7 @@ class GroupDraft:
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
 
 
-class Findings:
+class DraftFindings:
     """Collects findings with places; what lies in a part already found faulty is not repeated."""
 
     def __init__(self, root: MappingNode, removed: Iterable[Path]) -> None:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rapidgen._json import Json
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 MAX_BYTES = 1_000_000
@@ -20,7 +21,7 @@ MAX_NODES = 50_000
 _INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _INF = re.compile(r"[-+]?\.(inf|Inf|INF)")
-_CONSTANTS: dict[str, object] = {
+_CONSTANTS: dict[str, bool | float | None] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),
     **dict.fromkeys(("false", "False", "FALSE"), False),
@@ -44,7 +45,7 @@ class Number(float):
 class ScalarNode:
     """A leaf: None, bool, int, float or str."""
 
-    value: object
+    value: bool | int | float | str | None
     span: Span
 
 
@@ -203,7 +204,7 @@ class _Builder:
         if self._nodes > MAX_NODES:
             raise self._refuse(f"more than {MAX_NODES:,} values, aliases written out", span)
 
-    def _resolve(self, text: str, span: Span) -> object:
+    def _resolve(self, text: str, span: Span) -> bool | int | float | str | None:
         if text in _CONSTANTS:
             return _CONSTANTS[text]
         if _INT.fullmatch(text):
@@ -266,7 +267,7 @@ def from_python(value: object, span: Span) -> Node:
     raise refusal("RG008", span, f"an override cannot be a {type(value).__name__}")
 
 
-def to_python(node: Node) -> Any:
+def to_python(node: Node) -> Json:
     """Plain dicts, lists and scalars."""
     if isinstance(node, MappingNode):
         return {key: to_python(value) for key, (_, value) in node.entries.items()}

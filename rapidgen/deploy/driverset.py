@@ -5,8 +5,9 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import Json, items
 from rapidgen.deploy.transports.transport import TransportFault, safe
 from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.system import CfgText, parse_cfg, read_manifest
@@ -45,7 +46,7 @@ class DriverSet:
     build_id: str
     robotware: tuple[int, int]
     files: tuple[SetFile, ...]
-    generated: Mapping[str, Any] = field(default_factory=dict)
+    generated: Mapping[str, Json] = field(default_factory=dict)
     """manifest.json of the generated folder without its line map."""
 
     @property
@@ -121,7 +122,7 @@ def from_folder(folder: Path) -> DriverSet:
     """The set in a generated folder. Raises DiagnosticError RG530, RG704, RG711."""
     manifest = read_manifest(folder)
     files = {"manifest.json": (folder / "manifest.json").read_bytes()}
-    for entry in manifest["files"]:
+    for entry in items(manifest["files"]):
         path = str(entry.get("path")) if isinstance(entry, dict) else ""
         try:
             target = folder / safe(path)

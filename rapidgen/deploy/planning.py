@@ -3,8 +3,9 @@
 import difflib
 import json
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import Members
 from rapidgen.deploy.cfg import compare, keyed, names_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_of
@@ -142,7 +143,7 @@ class _Base:
     records: dict[str, FileRecord]
     known: dict[str, set[str]]
     origin: dict[str, FileRecord]
-    cfg_before: dict[str, Any]
+    cfg_before: Members
     interrupted: str
     repair: bool
     pieces: dict[str, list[bytes]]
@@ -176,7 +177,7 @@ def _base(transport: Transport, home: str, state: StateFolder) -> _Base:
     known = {p: set(h) for p, h in journal.known.items()} if journal and repair else {}
     records: dict[str, FileRecord] = {}
     origin: dict[str, FileRecord] = {}
-    before: dict[str, Any] = {}
+    before: Members = {}
     for manifest in filter(None, manifests):
         origin |= {r.path: r for r in manifest.origin}
         before = {**manifest.cfg_before, **before}

@@ -5,8 +5,8 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from rapidgen._json import items, members
 from rapidgen._writing import write_whole
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
@@ -24,7 +24,7 @@ Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class FleetJob:
     """One verb on several controllers. `find` gives the set that has to lie on a controller."""
 
     verb: Verb
@@ -55,7 +55,7 @@ def config_name(config: str) -> str:
     return load_config(config).name
 
 
-def plan_all(job: Job) -> list[Plan]:
+def plan_all(job: FleetJob) -> list[Plan]:
     """Plans of all targets. Raises the faults of those that could not be planned."""
 
     def work(target: Target) -> Plan:
@@ -72,7 +72,7 @@ def plan_all(job: Job) -> list[Plan]:
     return [r for r in results if isinstance(r, Plan)]
 
 
-def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
+def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     """Carry the plans out; a controller that has changed since refuses (RG522)."""
     by_target = dict(zip(job.targets, plans, strict=True))
 
@@ -105,7 +105,7 @@ def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     return outcomes
 
 
-def refuse_conflicts(job: Job, plans: Sequence[Plan]) -> None:
+def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
     """RG520, RG521 of all targets, before anything is changed on any."""
     if job.overwrite:
         return
@@ -182,7 +182,7 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
     """
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
-        by_target: dict[str, dict[str, Any]] = {str(p["target"]): p for p in stored}
+        by_target = {str(p["target"]): p for p in map(members, items(stored))}
     except OSError as fault:
         raise _plan_file(path, fault.strerror or str(fault)) from fault
     except (ValueError, KeyError, TypeError, RecursionError) as fault:

@@ -9,8 +9,8 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
+from rapidgen._json import Json, Members, items, members, whole
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, digest
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
 from rapidgen.diagnostics import DiagnosticError, refusal
@@ -68,9 +68,9 @@ class Manifest:
     origin: tuple[FileRecord, ...] = ()
     """Strangers' files that were overwritten: kept for `uninstall`."""
     history: tuple[Past, ...] = ()
-    cfg_before: Mapping[str, Any] = field(default_factory=dict)
+    cfg_before: Mapping[str, Json] = field(default_factory=dict)
     """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
-    generated: Mapping[str, Any] = field(default_factory=dict)
+    generated: Mapping[str, Json] = field(default_factory=dict)
 
     def record(self, path: str) -> FileRecord | None:
         """The record of a path in HOME."""
@@ -144,7 +144,7 @@ def read_state(transport: Transport, home: str) -> StateFolder:
     )
 
 
-def manifest_json(manifest: Manifest) -> dict[str, Any]:
+def manifest_json(manifest: Manifest) -> Members:
     """As it stands on the controller."""
     return {
         "format": FORMAT,
@@ -164,29 +164,30 @@ def manifest_json(manifest: Manifest) -> dict[str, Any]:
     }
 
 
-def manifest_from(data: Any) -> Manifest:  # noqa: ANN401 - whatever JSON held
+def manifest_from(read: Json) -> Manifest:
     """Raises one of DAMAGE for anything unexpected."""
+    data = members(read)
     if data["format"] != FORMAT:
         raise ValueError("a later format")
-    first, second = data["robotware"]
+    first, second = items(data["robotware"])
     return Manifest(
-        int(data["id"]),
+        whole(data["id"]),
         _text(data["time"]),
         _text(data["name"]),
         _text(data["build_id"]),
-        (int(first), int(second)),
-        tuple(_record(r) for r in data["files"]),
-        tuple(_record(r) for r in data["origin"]),
+        (whole(first), whole(second)),
+        tuple(_record(r) for r in items(data["files"])),
+        tuple(_record(r) for r in items(data["origin"])),
         tuple(
-            Past(int(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
-            for p in data["history"]
+            Past(whole(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
+            for p in map(members, items(data["history"]))
         ),
-        dict(data["cfg_before"]),
-        dict(data["generated"]),
+        members(data["cfg_before"]),
+        members(data["generated"]),
     )
 
 
-def journal_json(journal: Journal) -> dict[str, Any]:
+def journal_json(journal: Journal) -> Members:
     """As it stands on the controller."""
     return {
         "format": FORMAT,
@@ -201,23 +202,27 @@ def journal_json(journal: Journal) -> dict[str, Any]:
     }
 
 
-def journal_from(data: Any) -> Journal:  # noqa: ANN401 - whatever JSON held
+def journal_from(read: Json) -> Journal:
     """Raises one of DAMAGE for anything unexpected."""
+    data = members(read)
     if data["format"] != FORMAT:
         raise ValueError("a later format")
     return Journal(
-        int(data["id"]),
-        int(data["attempt"]),
+        whole(data["id"]),
+        whole(data["attempt"]),
         _text(data["verb"]),
         _text(data["started"]),
         manifest_from(data["old"]) if data["old"] is not None else None,
         manifest_from(data["new"]) if data["new"] is not None else None,
-        {safe(path): tuple(_sha(h) for h in hashes) for path, hashes in data["known"].items()},
-        tuple(_staged(path) for path in data["staged"]),
+        {
+            safe(path): tuple(_sha(h) for h in items(hashes))
+            for path, hashes in members(data["known"]).items()
+        },
+        tuple(_staged(path) for path in items(data["staged"])),
     )
 
 
-def encode(data: dict[str, Any]) -> bytes:
+def encode(data: Members) -> bytes:
     """JSON as it is stored: stable, readable, ASCII."""
     return (json.dumps(data, indent=1, sort_keys=False) + "\n").encode("ascii")
 
@@ -250,8 +255,8 @@ def _no_backup(message: str) -> DiagnosticError:
     )
 
 
-def _record_json(record: FileRecord) -> dict[str, Any]:
-    data: dict[str, Any] = {
+def _record_json(record: FileRecord) -> Members:
+    data: Members = {
         "path": record.path,
         "sha256": record.sha256,
         "size": record.size,
@@ -263,14 +268,15 @@ def _record_json(record: FileRecord) -> dict[str, Any]:
     return data
 
 
-def _record(data: Any) -> FileRecord:  # noqa: ANN401 - whatever JSON held
+def _record(read: Json) -> FileRecord:
+    data = members(read)
     return FileRecord(
         safe(_text(data["path"])),
         _sha(data["sha256"]),
-        int(data["size"]),
+        whole(data["size"]),
         _text(data["kind"]),
-        tuple(_text(t) for t in data["task"]),
-        safe(data["stored"]) if "stored" in data else "",
+        tuple(_text(t) for t in items(data["task"])),
+        safe(_text(data["stored"])) if "stored" in data else "",
     )
 
 

@@ -114,7 +114,7 @@ def _tight(config: RobotConfig, group: GroupConfig) -> bool:
     return policy.corners == "tight" and policy.zone != "fine" and bool(group.chain)
 
 
-def _one_build(role: layout.Role) -> list[str]:
+def _one_build(role: layout.TaskRole) -> list[str]:
     """The constants that have to equal ROS_BUILD_ID for a task to be of one build."""
     return [_build_constant(module) for module in role.modules if module != layout.COMMON]
 

@@ -7,8 +7,8 @@ import shutil
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from rapidgen._json import Json, Members, items
 from rapidgen.diagnostics import DiagnosticError, refusal
 
 MANIFEST = "manifest.json"
@@ -44,9 +44,9 @@ class Change:
     new: bytes | None
 
 
-def manifest_file(files: list[OutputFile], head: dict[str, Any]) -> OutputFile:
+def manifest_file(files: list[OutputFile], head: Members) -> OutputFile:
     """manifest.json over `files`; `head` has what comes before the list of files."""
-    manifest = {
+    manifest: Members = {
         **head,
         "files": [
             {
@@ -70,14 +70,14 @@ def manifest_file(files: list[OutputFile], head: dict[str, Any]) -> OutputFile:
     return OutputFile(MANIFEST, text.encode("ascii"), "manifest")
 
 
-def _rows(value: Any) -> str:  # noqa: ANN401
+def _rows(value: Json) -> str:
     """A list or an object with one member a line: it reads and compares well."""
     if isinstance(value, dict):
         rows = [
             f"    {json.dumps(k)}: {json.dumps(v, ensure_ascii=True)}" for k, v in value.items()
         ]
         return "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
-    rows = [f"    {json.dumps(v, ensure_ascii=True)}" for v in value]
+    rows = [f"    {json.dumps(v, ensure_ascii=True)}" for v in items(value)]
     return "[\n" + ",\n".join(rows) + "\n  ]" if rows else "[]"
 
 

@@ -22,7 +22,7 @@ _NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
 
 
 class Drive:
-    """Runs one path. What is on the path, and when to stop, is the business of `group.py`."""
+    """Runs one path. What is on the path, and when to stop, is the business of `execution.py`."""
 
     __slots__ = (
         "_history",
@@ -187,8 +187,8 @@ class Drive:
         if self.settings.servo_lag > 0:
             old = now - round(self.settings.servo_lag * S)
             later = [m for m in self._history if m.since > old]
-            kept = self._history[-len(later) - 1 :] if self._history else []
-            self._history = [*kept, self.motion]
+            recent = self._history[-len(later) - 1 :] if self._history else []
+            self._history = [*recent, self.motion]
         legs = tuple((leg.end, leg.move) for leg in path.legs)
         self.motion = Motion(now, start, law, path.pieces, rest, legs, self.ramp, stop)
         for observer in self.observers:

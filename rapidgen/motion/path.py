@@ -1,6 +1,6 @@
 """The path of one robot: legs and pieces in order, extended at its end, cut at a stop.
 
-Pure bookkeeping of places; when anything happens is the business of `group.py`.
+Pure bookkeeping of places; when anything happens is the business of `execution.py`.
 """
 
 from collections import deque
@@ -106,10 +106,10 @@ class Path:
         self.target = leg.way.target
 
     def _until(self, place: float) -> tuple[Piece, ...]:
-        kept = [piece for piece in self.pieces if piece.start < place]
-        if kept and kept[-1].end > place:
-            kept[-1] = kept[-1].until(place)
-        return tuple(kept)
+        pieces = [piece for piece in self.pieces if piece.start < place]
+        if pieces and pieces[-1].end > place:
+            pieces[-1] = pieces[-1].until(place)
+        return tuple(pieces)
 
     def passed(self, place: float) -> list[Leg]:
         """Legs that the robot has left or whose stop point it has reached; they are taken off."""
@@ -123,11 +123,11 @@ class Path:
 
     def prune(self, place: float) -> None:
         """Forget pieces behind the robot."""
-        keep = 0
-        while keep < len(self.pieces) - 1 and self.pieces[keep].end <= place:
-            keep += 1
-        if keep:
-            self.pieces = self.pieces[keep:]
+        first = 0
+        while first < len(self.pieces) - 1 and self.pieces[first].end <= place:
+            first += 1
+        if first:
+            self.pieces = self.pieces[first:]
 
     def cut(self, place: float) -> list[Leg]:
         """Let the path end at `place`; returns the legs that are lost."""

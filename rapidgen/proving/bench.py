@@ -33,7 +33,7 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.track import SETTLED, Point, Position, distance, on_path, still
 from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
 
 Lines: TypeAlias = dict[str, dict[int, int]]
@@ -237,7 +237,7 @@ class Bench:
                 return task.name
         raise KeyError(module)
 
-    def rapid_task(self, module: str) -> RapidTask:
+    def rapid_task(self, module: str) -> Task:
         """The running task of this group that has a module."""
         return self.controller.rapid_tasks[self.task(module)]
 

@@ -31,7 +31,7 @@ class Message:
 
 
 class MessageBox:
-    """An `rmqmessage` datum."""
+    """An `rmqmessage`."""
 
     __slots__ = ("message",)
 
@@ -40,7 +40,7 @@ class MessageBox:
 
 
 class Slot:
-    """An `rmqslot` datum: the name of a queue, or nothing."""
+    """An `rmqslot`: the name of a queue, or nothing."""
 
     __slots__ = ("name",)
 

@@ -9,8 +9,8 @@ from rapidgen.diagnostics import Diagnostic
 if TYPE_CHECKING:
     from rapidgen.system.backup import is_backup, read_backup
     from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
+    from rapidgen.system.compose import eio_cfg, sys_cfg
     from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
-    from rapidgen.system.interpret import eio_cfg, sys_cfg
     from rapidgen.system.loose import read_files
     from rapidgen.system.model import (
         CrossConnection,
@@ -31,7 +31,7 @@ _FILES = {
         "backup": "is_backup read_backup",
         "cfg": "Attribute CfgText Instance Section parse_cfg write_cfg",
         "folder": "expand_lines is_generated read_folder read_manifest",
-        "interpret": "eio_cfg sys_cfg",
+        "compose": "eio_cfg sys_cfg",
         "loose": "read_files",
         "model": "CrossConnection EventRoutine MechanicalUnitGroup ModuleFile SignalSpec System "
         "SystemInput SystemOutput TaskSpec",

@@ -5,8 +5,8 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
+from rapidgen._json import Json, Members, items, members, text, whole
 from rapidgen.diagnostics import DiagnosticError, Span, refusal
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.interpret import (
@@ -27,14 +27,14 @@ MANIFEST = "manifest.json"
 FORMAT = 1
 
 
-def read_manifest(folder: Path) -> dict[str, Any]:
+def read_manifest(folder: Path) -> Members:
     """manifest.json of a generated folder.
 
     Raises DiagnosticError: RG704 (no such file), RG711 (not a manifest, or of a later format).
     """
     path = inside(folder, MANIFEST)
     try:
-        manifest = json.loads(read_limited(path))
+        manifest: Json = json.loads(read_limited(path))
     except (ValueError, RecursionError) as fault:
         raise _bad(path, f"it is not JSON: {fault}") from fault
     if not isinstance(manifest, dict) or not isinstance(manifest.get("format"), int):
@@ -66,9 +66,9 @@ def read_folder(folder: Path | str) -> System:
         replace(task, modules=load_entries(task, entries, home, (), sys_cfg.path, None, origins))
         for task in tasks_of(sys_cfg)
     )
-    major, minor = manifest["robotware"]
+    major, minor = map(whole, items(manifest["robotware"]))
     return System(
-        name=manifest["name"],
+        name=text(manifest["name"]),
         tasks=tasks,
         signals=signals_of(eio_cfg),
         outputs=outputs_of(eio_cfg),
@@ -78,7 +78,7 @@ def read_folder(folder: Path | str) -> System:
         groups=groups_of(sys_cfg),
         robotware=(major, minor),
         home=home,
-        build_id=manifest["build_id"],
+        build_id=text(manifest["build_id"]),
     )
 
 
@@ -87,15 +87,15 @@ def _cfg(folder: Path, name: str) -> CfgText:
     return parse_cfg(read_limited(path), path=str(path))
 
 
-def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
+def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
     """Line maps by file name; a file that was edited since has none that could be trusted."""
     digests = {
         entry.get("path"): entry.get("sha256")
-        for entry in manifest["files"]
+        for entry in items(manifest["files"])
         if isinstance(entry, dict)
     }
     origins: dict[str, Origin] = {}
-    for relative, lines in manifest["lines"].items():
+    for relative, lines in members(manifest["lines"]).items():
         path = inside(folder, relative)
         if not path.is_file() or not isinstance(lines, list):
             continue
@@ -103,9 +103,8 @@ def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
         if hashlib.sha256(data).hexdigest() != digests.get(relative):
             continue
         try:
-            origins[relative] = expand_lines(
-                [(int(a), str(b), int(c)) for a, b, c in lines], data.count(b"\n")
-            )
+            runs = [(whole(a), text(b), whole(c)) for a, b, c in map(items, lines)]
+            origins[relative] = expand_lines(runs, data.count(b"\n"))
         except (TypeError, ValueError) as fault:
             raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from fault
     return origins

@@ -38,7 +38,7 @@ HELLO = messages.HelloReply(
     (-3.0,) * 10, (3.0,) * 10, (4.0,) * 10, 11001, RING, 0.5, 30, 2,
 )  # fmt: skip
 STATE = encode(messages.JointPosition(0, (0.0,) * 10)) + encode(
-    messages.Status(1, 0, 0, 0, 0, 2, 1)
+    messages.StatusReport(1, 0, 0, 0, 0, 2, 1)
 )
 NUMBER = st.one_of(st.integers(-2, 200), st.integers(-(2**31), 2**31 - 1))
 WORDS = st.lists(NUMBER, max_size=20)
@@ -161,7 +161,7 @@ class CoreMachine(RuleBasedStateMachine):
         fault=st.tuples(NUMBER, NUMBER, NUMBER),
     )
     def progress(self, counts, state, fault):
-        told = messages.Progress(1, int(state), *counts, *fault)
+        told = messages.ProgressReport(1, int(state), *counts, *fault)
         # who tells that points were given to the planner makes room for others
         self.room = max(self.room, self.sent + RING)
         self.take(Port.STATE, encode(told) * 2)

@@ -171,16 +171,16 @@ def test_the_tree_of_exceptions_is_the_one_that_is_drawn():
 
 
 class TestCells:
-    def test_start_together_and_arrive(self, fake, quick):
+    def test_start_together_and_arrive(self, fake, patient):
         controllers = [fake(), fake(rapidgen=False)]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
+        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
         with Cell(robots) as cell:
             results = cell.execute({"0": PATH, "1": PATH}).result()
         assert all(result.deviation < 1e-5 for result in results.values())
 
-    def test_the_faults_of_all_before_a_byte_is_sent(self, fake, quick):
+    def test_the_faults_of_all_before_a_byte_is_sent(self, fake, patient):
         controllers = [fake(), fake()]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
+        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
         far = Trajectory.from_points([[0.0] * 6, [9.0] * 6], seconds=99)
         with Cell(robots) as cell:
             with pytest.raises(InvalidTrajectory) as error:
@@ -190,9 +190,9 @@ class TestCells:
                 cell.execute({"2": PATH})
         assert [c.frames for c in controllers] == [[], []]
 
-    def test_one_refuses_and_nobody_moves_on(self, fake, quick):
+    def test_one_refuses_and_nobody_moves_on(self, fake, patient):
         controllers = [fake(), fake(refuse=(5, 0, 1))]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
+        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
         with Cell(robots) as cell:
             with pytest.raises(TrajectoryRefused):
                 cell.execute({"0": LONG, "1": LONG})
@@ -200,10 +200,10 @@ class TestCells:
             assert not controllers[0]._moving
 
     @pytest.mark.parametrize("failing", ["fails", "lost"])
-    def test_one_fails_and_all_are_stopped(self, fake, quick, failing):
+    def test_one_fails_and_all_are_stopped(self, fake, patient, failing):
         options = {"ends_at": 0.02} if failing == "fails" else {}
         controllers = [fake(), fake(**options)]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
+        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
         with Cell(robots) as cell:
             execution = cell.execute({"0": LONG, "1": LONG})
             if failing == "lost":
@@ -213,12 +213,12 @@ class TestCells:
             assert execution.is_over
             assert controllers[0].stops
 
-    def test_async(self, fake, quick):
+    def test_async(self, fake, patient):
         controllers = [fake(), fake(ends_at=0.02)]
 
         async def main():
             robots = {
-                str(i): AsyncRobot(c.address, timeouts=quick) for i, c in enumerate(controllers)
+                str(i): AsyncRobot(c.address, timeouts=patient()) for i, c in enumerate(controllers)
             }
             async with AsyncCell(robots) as cell:
                 await (await cell.execute({"0": PATH})).result()

@@ -309,11 +309,11 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
     with Robot(streaming.address) as robot:
         feed = robot.stream()
         feed.append([0, 0.6], [[0.0] * 6, [0.01] * 6])
-        robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 2)
+        robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 60)
         data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
         words = ["monitor", streaming.address, "--plain", "--count", "3"]
         streaming.extra = frame(1308, 1, 0, data)
-        assert robot.next_event(1).code == 50024
+        assert robot.next_event(60).code == 50024
         assert main(words) == 0
         assert "starved" in capsys.readouterr().out
         robot.pause()

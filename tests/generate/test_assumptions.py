@@ -6,7 +6,7 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.machine.costs import Costs
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from tests.generate.bench import STOP, close_to, trajectory
 from tests.generate.driving import (
     FIVE,
@@ -175,11 +175,11 @@ def test_motion_the_other_way_with_streams(bench, switch):
 
 @pytest.mark.parametrize("switch", [s for s in DIALECTS if s != SINGLE], ids=str)
 def test_language_the_other_way_with_streams(bench, switch):
-    the_stream_round(bench(options={"dialect": Dialect(**switch)}))
+    the_stream_round(bench(options={"dialect": Switches(**switch)}))
 
 
 def test_words_that_are_not_read_exactly_refuse_a_stream(bench):
-    b = bench(options={"dialect": Dialect(**SINGLE)})
+    b = bench(options={"dialect": Switches(**SINGLE)})
     client = b.client()
     client.send(batch(7, 0, line([0.0] * 6, 20), BEGIN))
     assert refused(client)[3] in (10, 16)
@@ -201,7 +201,7 @@ def test_motion_the_other_way(bench, switch):
 
 @pytest.mark.parametrize("switch", DIALECTS, ids=str)
 def test_language_the_other_way(bench, switch):
-    the_round(bench(options={"dialect": Dialect(**switch)}))
+    the_round(bench(options={"dialect": Switches(**switch)}))
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -216,7 +216,7 @@ def test_faster_and_slower_controllers(bench, scale):
 
 @pytest.mark.parametrize("switch", REFUSED, ids=str)
 def test_language_with_which_nothing_moves(bench, switch):
-    b = bench(options={"dialect": Dialect(**switch)})
+    b = bench(options={"dialect": Switches(**switch)})
     if not b.healthy():
         assert b.joints() == (0.0,) * 6
         return

@@ -8,7 +8,7 @@ import pytest
 
 from rapidgen.generate import layout
 from rapidgen.machine.system_parameters import arm_name
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from tests.generate.bench import Bench, close_to, trajectory
 from tests.generate.driving import LIMIT, move_well, reply_of, send_all
 
@@ -151,7 +151,7 @@ def test_what_makes_no_sense_is_refused(bench, bounds):
 
 
 def test_a_controller_that_does_not_tell(bench):
-    b = booted(bench(options={"dialect": Dialect(axis_limits_told=False)}))
+    b = booted(bench(options={"dialect": Switches(axis_limits_told=False)}))
     assert told(b) == []
     lower, _ = hello_limits(b)
     assert lower[0] == single(b.config.groups[0].joints[0].lower)

@@ -6,7 +6,7 @@ import struct
 
 import pytest
 
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from tests.generate.bench import close_to, trajectory
 
 JOINT, STATUS, FEEDBACK, HELLO, PROGRESS, EVENT = 10, 13, 15, 1300, 1301, 1308
@@ -200,7 +200,7 @@ def test_a_deaf_client_alone_does_not_keep_others_out(bench):
 
 def test_a_deaf_client_when_no_trap_runs_in_a_send(bench):
     """Then the others wait until SocketSend gives up by itself, and are served again."""
-    b = bench(overrides=["state.rate=50"], options={"dialect": Dialect(send_attends=False)})
+    b = bench(overrides=["state.rate=50"], options={"dialect": Switches(send_attends=False)})
     deaf = subscribed(b, WANT_EVENTS)
     good = b.state_client()
     b.vc.run_for(1)

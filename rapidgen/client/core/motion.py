@@ -135,18 +135,16 @@ class CommandedMotion(ABC):
         if silent <= self._silence:
             return False
         self.failed(
-            RobotTimeout(
-                fault(
-                    "RG603",
-                    f"no state for {silent:.1f} s while the robot may be moving",
-                    "look at the robot; a STOP was sent",
-                ),
+            RobotTimeout.because(
+                "RG603",
+                f"no state for {silent:.1f} s while the robot may be moving",
+                "look at the robot; a STOP was sent",
                 **state_port.evidence(),
             )
         )
         return True
 
-    def _told(self) -> messages.Progress | None:
+    def _told(self) -> messages.ProgressReport | None:
         """PROGRESS of this very trajectory.
 
         Its number and state are written by one task of the controller and read by another: what
@@ -163,7 +161,7 @@ class CommandedMotion(ABC):
         before = self._before.trajectory if self._before else 0
         return progress if progress.trajectory != before else None
 
-    def _by_progress(self, told: messages.Progress) -> None:
+    def _by_progress(self, told: messages.ProgressReport) -> None:
         match told.state:
             case TrajectoryState.DONE:
                 if self._state_port.status.in_motion is not TriState.TRUE:

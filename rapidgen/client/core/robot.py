@@ -217,7 +217,7 @@ class Core:
 
     def disconnected(self) -> RobotError:
         """Why there is no connection."""
-        return self.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
+        return self.fault or ConnectionLost.because("RG602", "not connected", "connect()")
 
     def poll(self) -> None:
         """Let what is under way look at the newest state and at the clock."""
@@ -226,12 +226,10 @@ class Core:
             return
         if not run.is_over and self.heartbeat.is_late(self.clock()):
             run.failed(
-                RobotTimeout(
-                    fault(
-                        "RG603",
-                        "the control port does not answer any more while the robot may be moving",
-                        "a STOP was sent; look at the robot",
-                    ),
+                RobotTimeout.because(
+                    "RG603",
+                    "the control port does not answer any more while the robot may be moving",
+                    "a STOP was sent; look at the robot",
                     **self.evidence(),
                 )
             )
@@ -277,7 +275,7 @@ class Core:
             # A stall of this machine shortens the time by so much more; no robot is in danger.
             pace *= _SLACK
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
-        return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
+        return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
         """A request for the control port; it goes out next."""
@@ -327,7 +325,7 @@ class Core:
         """The request that asks who is there."""
         wanted = int(self.subscribe) if subscribe else 0
         major, minor, patch = (int(part) for part in __version__.split(".")[:3])
-        asked = messages.Hello(PROTOCOL_VERSION, (major, minor, patch), wanted)
+        asked = messages.HelloRequest(PROTOCOL_VERSION, (major, minor, patch), wanted)
         return encode(asked, Comm.REQUEST)
 
     @property
@@ -356,12 +354,10 @@ class Core:
     def require_streaming(self) -> None:
         """Raise NotSupported where the driver takes no points while the robot moves."""
         if not self.can_stream:
-            raise NotSupported(
-                fault(
-                    "RG624",
-                    "the driver does not take points while the robot moves",
-                    "send the trajectory as a whole, or build and deploy a driver that streams",
-                )
+            raise NotSupported.because(
+                "RG624",
+                "the driver does not take points while the robot moves",
+                "send the trajectory as a whole, or build and deploy a driver that streams",
             )
 
     def check(
@@ -427,14 +423,16 @@ class Core:
         if not self.ports[Port.MOTION].is_open:
             raise self.disconnected()
         if self.motion is not None and not self.motion.is_over:
-            raise NotReady(
-                fault("RG622", "a trajectory is under way", "wait for its result, or stop()")
+            raise NotReady.because(
+                "RG622", "a trajectory is under way", "wait for its result, or stop()"
             )
         hindrances = self.hindrances()
         if hindrances:
             text = "; ".join(hindrances)
-            raise NotReady(
-                fault("RG621", f"the robot cannot move: {text}", "mend that at the robot"),
+            raise NotReady.because(
+                "RG621",
+                f"the robot cannot move: {text}",
+                "mend that at the robot",
                 **self.evidence(),
             )
 
@@ -483,8 +481,10 @@ class Core:
             point, joint = reply.point, reply.joint
             reason, text = reason_of(reply.reason), reason_text(reply.reason)
         where = place_of(self.known_group, point, joint)
-        return TrajectoryRefused(
-            fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
+        return TrajectoryRefused.because(
+            "RG620",
+            f"the controller refused{where}: {text}",
+            "nothing moved",
             reason=reason,
             point=point,
             joint=joint,
@@ -499,4 +499,4 @@ class Core:
 
 
 def _unknown() -> NotReady:
-    return NotReady(fault("RG621", "the robot has not told where it stands", "connect first"))
+    return NotReady.because("RG621", "the robot has not told where it stands", "connect first")

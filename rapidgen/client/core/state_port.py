@@ -55,7 +55,7 @@ class StatePort:
     def __init__(self, clock: Callable[[], float]) -> None:
         self.clock = clock
         self.driver = Driver()
-        self.progress: messages.Progress | None = None
+        self.progress: messages.ProgressReport | None = None
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
         self.progresses = 0
@@ -74,7 +74,7 @@ class StatePort:
         self._splitter = FrameSplitter()
         self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
         self._times: deque[float] = deque(maxlen=_RATE_WINDOW)
-        self._status: messages.Status | None = None
+        self._status: messages.StatusReport | None = None
         self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
         self._state: State | None = None
 
@@ -126,14 +126,14 @@ class StatePort:
                 self._times.append(now)
                 for listener in self.listeners:
                     listener(sample)
-            case messages.Status():
+            case messages.StatusReport():
                 self._status = content
-            case messages.Progress():
+            case messages.ProgressReport():
                 self.progress = content
                 self.progresses += 1
             case messages.JointFeedback():
                 self._fed(content, now)
-            case messages.Event():
+            case messages.EventReport():
                 self.event_count += 1
                 self.events.append(_event(content, now, self.event_count))
             case messages.HelloReply():
@@ -269,7 +269,7 @@ class StatePort:
         return tuple((a - b) / span for a, b in zip(now, then, strict=True))
 
 
-def _event(content: messages.Event, now: float, number: int) -> Event:
+def _event(content: messages.EventReport, now: float, number: int) -> Event:
     if content.domain == 0:
         title = f"{content.number} events were not told"
         return Event(now, 0, EventType.WARNING, title, number)

@@ -20,7 +20,6 @@ from rapidgen.client.errors import (
     ProtocolError,
     RobotTimeout,
     TrajectoryRefused,
-    fault,
 )
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
@@ -173,12 +172,10 @@ class PointStream(CommandedMotion):
         waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
         if waited > self._patience:
             self.failed(
-                RobotTimeout(
-                    fault(
-                        "RG603",
-                        f"the controller did not answer a batch of points within {waited:.1f} s",
-                        "a STOP was sent; look at the robot",
-                    ),
+                RobotTimeout.because(
+                    "RG603",
+                    f"the controller did not answer a batch of points within {waited:.1f} s",
+                    "a STOP was sent; look at the robot",
                     **self._state_port.evidence(),
                 )
             )
@@ -200,12 +197,10 @@ class PointStream(CommandedMotion):
                 self._refused(reply, 0, -1, 0, 0)
             case _:
                 self.failed(
-                    ProtocolError(
-                        fault(
-                            "RG604",
-                            f"a batch of points was answered with {reply}",
-                            "a STOP was sent; look at the robot",
-                        ),
+                    ProtocolError.because(
+                        "RG604",
+                        f"a batch of points was answered with {reply}",
+                        "a STOP was sent; look at the robot",
                         **self._state_port.evidence(),
                     )
                 )
@@ -228,8 +223,10 @@ class PointStream(CommandedMotion):
         text = reason_text(reason) if reason else "no reason given"
         where = place_of(self._group, point, joint)
         self.failed(
-            TrajectoryRefused(
-                fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
+            TrajectoryRefused.because(
+                "RG620",
+                f"the controller refused{where}: {text}",
+                "nothing moved",
                 reason=reason_of(reason),
                 point=point,
                 joint=joint,
@@ -237,7 +234,7 @@ class PointStream(CommandedMotion):
             )
         )
 
-    def _by_progress(self, told: messages.Progress) -> None:
+    def _by_progress(self, told: messages.ProgressReport) -> None:
         if self._state_port.progresses != self._looked_at:
             self._looked_at = self._state_port.progresses
             self._counts(told.planned, told.reached)

@@ -8,7 +8,6 @@ from rapidgen.client.errors import (
     IncompatibleDriver,
     RobotError,
     RobotTimeout,
-    fault,
 )
 from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, HangUp, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
@@ -40,12 +39,10 @@ def _open(core: Core) -> Flow[None]:
     if not core.state_open:
         raise core.disconnected()
     if not came:
-        raise RobotTimeout(
-            fault(
-                "RG603",
-                f"connected, but no joints and status came within {limits.state:g} s",
-                "is the state server's task running?",
-            ),
+        raise RobotTimeout.because(
+            "RG603",
+            f"connected, but no joints and status came within {limits.state:g} s",
+            "is the state server's task running?",
             **core.evidence(),
         )
     if not core.plain:
@@ -84,13 +81,10 @@ def _meet_control(core: Core) -> Flow[None]:
 def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
     """Versions and joint maps must fit; without a configuration the driver's word counts."""
     if hello is not None and hello.protocol != PROTOCOL_VERSION:
-        raise IncompatibleDriver(
-            fault(
-                "RG605",
-                f"the driver speaks protocol version {hello.protocol}, this client "
-                f"{PROTOCOL_VERSION}",
-                "build and deploy the driver again with this rapidgen",
-            ),
+        raise IncompatibleDriver.because(
+            "RG605",
+            f"the driver speaks protocol version {hello.protocol}, this client {PROTOCOL_VERSION}",
+            "build and deploy the driver again with this rapidgen",
             **core.evidence(),
         )
     if isinstance(hello, messages.HelloReply):
@@ -98,8 +92,8 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
             core.configured.require(hello)
             core.use(core.configured.narrowed(hello))
         elif not 1 <= hello.joint_count <= MAX_JOINTS:
-            raise IncompatibleDriver(
-                fault("RG605", f"the driver tells {hello.joint_count} joints"), **core.evidence()
+            raise IncompatibleDriver.because(
+                "RG605", f"the driver tells {hello.joint_count} joints", **core.evidence()
             )
         else:
             core.use(Group.told(hello))

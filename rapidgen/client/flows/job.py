@@ -10,7 +10,7 @@ from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
 from rapidgen.client.core.stream import PointStream
-from rapidgen.client.errors import InvalidTrajectory, RobotTimeout, fault
+from rapidgen.client.errors import InvalidTrajectory, RobotTimeout
 from rapidgen.client.flows.download import download
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.flows.motion import patience, ready, until, wait_for_result
@@ -47,7 +47,7 @@ def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[Non
     core = job.core
     points = Trajectory(times, positions, job.names)
     if job.is_ended:
-        raise InvalidTrajectory(fault("RG624", "this stream has ended", "begin another one"))
+        raise InvalidTrajectory.because("RG624", "this stream has ended", "begin another one")
     if not len(points):
         return
     if job.way is None:
@@ -75,12 +75,10 @@ def _keep(job: Job, points: Trajectory) -> None:
     """For a driver that does not stream: checked now, sent at the end."""
     core, total = job.core, job.total + len(points)
     if total > core.capacity:
-        raise InvalidTrajectory(
-            fault(
-                "RG617",
-                f"{total} points, and this driver, which does not stream, holds {core.capacity}",
-                "build and deploy a driver that streams",
-            )
+        raise InvalidTrajectory.because(
+            "RG617",
+            f"{total} points, and this driver, which does not stream, holds {core.capacity}",
+            "build and deploy a driver that streams",
         )
     if job.last is None:
         core.state_port.note("the driver does not stream: points are kept until the end")
@@ -100,8 +98,8 @@ def end(job: Job) -> Flow[None]:
     if job.is_ended:
         return
     if not job.total:
-        raise InvalidTrajectory(
-            fault("RG619", "the stream has no points", "append at least one point")
+        raise InvalidTrajectory.because(
+            "RG619", "the stream has no points", "append at least one point"
         )
     if job.stream is not None:
         job.stream.end()
@@ -145,12 +143,10 @@ def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Fl
     """Until the condition holds; the error of a stream that is over is raised."""
     if not (yield from until(core, stream, condition)):
         stream.failed(
-            RobotTimeout(
-                fault(
-                    "RG603",
-                    f"the controller has not taken points for {patience(core, stream):.1f} s",
-                    "a STOP was sent; look at the robot",
-                ),
+            RobotTimeout.because(
+                "RG603",
+                f"the controller has not taken points for {patience(core, stream):.1f} s",
+                "a STOP was sent; look at the robot",
                 **core.evidence(),
             )
         )

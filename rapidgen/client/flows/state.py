@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import Event, Feedback, State
-from rapidgen.client.errors import NotSupported, RobotTimeout, fault
+from rapidgen.client.errors import NotSupported, RobotTimeout
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.wire.simple_message.spec import Feature
@@ -33,8 +33,8 @@ def _until(
         return found[0]
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout(
-        fault("RG603", f"{what} did not come within {timeout:g} s"), **core.evidence()
+    raise RobotTimeout.because(
+        "RG603", f"{what} did not come within {timeout:g} s", **core.evidence()
     )
 
 
@@ -63,7 +63,7 @@ def next_event(
         return found[0]
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout(fault("RG603", f"no event came within {timeout:g} s"), **core.evidence())
+    raise RobotTimeout.because("RG603", f"no event came within {timeout:g} s", **core.evidence())
 
 
 def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
@@ -74,12 +74,10 @@ def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
     yield from alive(core)
     state_port = core.state_port
     if Feature.FEEDBACK not in state_port.driver.features & core.subscribe:
-        raise NotSupported(
-            fault(
-                "RG624",
-                "the driver sends no feedback with the controller's time",
-                "Robot(..., feedback=True) asks for it, where the driver has it",
-            )
+        raise NotSupported.because(
+            "RG624",
+            "the driver sends no feedback with the controller's time",
+            "Robot(..., feedback=True) asks for it, where the driver has it",
         )
     seen = state_port.feedbacks
     limit = core.timeouts.state if timeout is None else timeout
@@ -89,4 +87,4 @@ def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
         return feedback
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout(fault("RG603", f"no feedback came within {limit:g} s"), **core.evidence())
+    raise RobotTimeout.because("RG603", f"no feedback came within {limit:g} s", **core.evidence())

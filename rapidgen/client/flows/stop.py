@@ -10,7 +10,6 @@ from rapidgen.client.errors import (
     RobotError,
     RobotTimeout,
     StopFailed,
-    fault,
 )
 from rapidgen.client.flows.effects import Flow, HangUp, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
@@ -148,6 +147,6 @@ def _until_standing(core: Core) -> Flow[State]:
 
 
 def _not_stopped(core: Core, text: str) -> StopFailed:
-    return StopFailed(
-        fault("RG632", text, "use the emergency stop if the robot moves"), **core.evidence()
+    return StopFailed.because(
+        "RG632", text, "use the emergency stop if the robot moves", **core.evidence()
     )

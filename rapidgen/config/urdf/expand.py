@@ -7,7 +7,6 @@ runs (held by a test and the pin `xacro>=2.1.1,<3`). It is not thread-safe, nor 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 from xml.dom import minidom
 from xml.parsers.expat import ExpatError
 from xml.sax.saxutils import quoteattr
@@ -127,14 +126,15 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
 
     original_parse, original_find = xacro.parse, substitution_args._eval_find
 
-    def parse(given: Any, filename: str | None = None) -> Any:
+    def parse(given: object, filename: str | None = None) -> minidom.Document:
         if given is None and filename is not None:
             path = Path(filename)
             content, data = read_xml(path, place=request.place)
             texts.append(content)
             made.inputs.append((path.name, data))
             return minidom.parseString(content)
-        return original_parse(given, filename)
+        parsed: minidom.Document = original_parse(given, filename)
+        return parsed
 
     def find(name: str) -> str:
         return str(request.packages.find(name))
@@ -171,8 +171,8 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
 
 def _translate(request: Request, fault: BaseException) -> Diagnostic:
     inner: BaseException = fault
-    while getattr(inner, "exc", None) is not None:
-        inner = inner.exc  # type: ignore[attr-defined]
+    while isinstance(cause := getattr(inner, "exc", None), BaseException):
+        inner = cause
     name = request.path.name
     if isinstance(inner, DiagnosticError):
         return inner.diagnostics[0]

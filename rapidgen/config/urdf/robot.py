@@ -6,12 +6,22 @@ others), so whatever it takes for granted is checked on the XML first. No mesh i
 
 import gc
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
 from rapidgen.config.urdf.expand import Description
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
+
+if TYPE_CHECKING:
+    import numpy as np
+    from lxml.etree import _Element as Element
+    from numpy.typing import NDArray
+
+    Matrix = NDArray[np.float64]
+    PlaceOf = Callable[[Element], Span | None]
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _NUMBERS = {
@@ -77,7 +87,7 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
             "RG060", span, f"{description.path.name} is not well-formed XML: {fault.msg}"
         ) from None
 
-    def span_of(element: Any) -> Span | None:
+    def span_of(element: "Element") -> Span | None:
         if description.expanded or not element.sourceline:
             return place
         return Span(str(description.path), element.sourceline, 1)
@@ -97,7 +107,7 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
     return _read(etree.tostring(_skeleton(root)), lines)
 
 
-def _skeleton(root: Any) -> Any:
+def _skeleton(root: "Element") -> "Element":
     """The robot with links and joints only: no geometry, so that no mesh is even looked at."""
     from lxml import etree
 
@@ -113,7 +123,7 @@ def _skeleton(root: Any) -> Any:
     return made
 
 
-def _yourdfpy() -> Any:
+def _yourdfpy() -> ModuleType:
     """The module. It brings trimesh and scipy: collecting garbage meanwhile costs a tenth."""
     enabled = gc.isenabled()
     gc.disable()
@@ -122,7 +132,8 @@ def _yourdfpy() -> Any:
     finally:
         if enabled:
             gc.enable()
-    return yourdfpy
+    module: ModuleType = yourdfpy
+    return module
 
 
 def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
@@ -156,7 +167,7 @@ def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
     return UrdfRobot(robot.name, tuple(link.name for link in robot.links), tuple(joints))
 
 
-def _moved(matrix: Any, axis: Vector, amount: float, *, slides: bool) -> Any:
+def _moved(matrix: "Matrix | None", axis: Vector, amount: float, *, slides: bool) -> "Matrix":
     """A joint's origin with the joint itself moved by `amount`."""
     import numpy as np
 
@@ -171,7 +182,7 @@ def _moved(matrix: Any, axis: Vector, amount: float, *, slides: bool) -> Any:
     return step if matrix is None else matrix @ step
 
 
-def _vector(values: Any) -> Vector:
+def _vector(values: Iterable[float]) -> Vector:
     x, y, z = (float(v) for v in values)
     return (x, y, z)
 
@@ -182,7 +193,7 @@ def _unit(values: Vector) -> Vector:
     return (x, y, z)
 
 
-def _rpy(matrix: Any) -> Vector:
+def _rpy(matrix: "Matrix") -> Vector:
     """Roll, pitch, yaw about fixed axes of a rotation matrix."""
     cosine = math.hypot(matrix[0, 0], matrix[1, 0])
     pitch = math.atan2(-matrix[2, 0], cosine)
@@ -195,7 +206,7 @@ def _rpy(matrix: Any) -> Vector:
     )
 
 
-def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
+def _structure(root: "Element", span_of: "PlaceOf", name: str) -> list[Diagnostic]:
     """What yourdfpy takes for granted: names, parent and child, numbers, known types."""
     found: list[Diagnostic] = []
     seen: dict[tuple[str, str], int] = {}
@@ -230,7 +241,7 @@ def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
     return found
 
 
-def _joint_structure(element: Any, name: str, span_of: Any) -> list[Diagnostic]:
+def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> list[Diagnostic]:
     found: list[Diagnostic] = []
     kind = element.get("type")
     if kind not in KINDS:

@@ -8,15 +8,12 @@ from rapidgen.rapid.binding.names import RoutineScope
 from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import Data, Routine
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import BOOL, NUM, Type
 
 if TYPE_CHECKING:
     from rapidgen.runtime.compiler.linking import LoadedModule
     from rapidgen.runtime.compiler.program import Program
-
-EXACT = 1 << 24
-"""IEEE single holds every whole number up to here."""
 
 UNBOUNDED = 1 << 60
 """Upper end of the range of a whole number of which only the lower end is known."""
@@ -95,7 +92,7 @@ class Options:
     """A switch point at every access to a PERS."""
     tracing: bool = False
     """Report every statement (trace, profile, coverage)."""
-    dialect: Dialect = field(default_factory=Dialect)
+    dialect: Switches = field(default_factory=Switches)
 
 
 def same_type(a: Type, b: Type) -> bool:

@@ -6,7 +6,7 @@ classes are common to all tasks.
 
 from dataclasses import dataclass, field
 
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Span, error
 from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, builtin, installed_objects
 from rapidgen.rapid.binding.symbols import (
     DataSymbol,
@@ -145,7 +145,7 @@ class Linker:
             module.types.clear()
 
     def _fault(self, module: LoadedModule, message: str, node: n.Node) -> None:
-        self.faults.append(Diagnostic("RG401", Severity.ERROR, message, module.span(node)))
+        self.faults.append(error("RG401", module.span(node), message))
 
     # -- types -----------------------------------------------------------------------------------
 

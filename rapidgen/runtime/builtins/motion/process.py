@@ -8,12 +8,11 @@ TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
-from rapidgen.runtime.errors import FatalError, RapidError, errnum
+from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.process_errors import ProcessError
-from rapidgen.runtime.task.recovery import Place
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
 
 _CHANNELS = range(1, 13)
@@ -24,7 +23,7 @@ _FORCES = range(201, 213)
 
 @builtin("ProcerrRecovery")
 def procerr_recovery(
-    task: RapidTask, origin: bool | None, last: bool | None, _signal: bool | None
+    task: Task, origin: bool | None, last: bool | None, _signal: bool | None
 ) -> None:
     """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
     if not task.in_trap or origin == last:
@@ -45,7 +44,7 @@ def _owner(group: MotionGroup) -> tuple[str, str]:
     """Module and routine of the move that made the path; empty when there is no path."""
     place = group.legs[0].move.place if group.legs else None
     found = place() if place is not None else None
-    return (found.module, found.routine) if isinstance(found, Place) else ("", "")
+    return (found.module, found.routine) if isinstance(found, Location) else ("", "")
 
 
 def _axis(group: MotionGroup, number: float) -> int:
@@ -56,14 +55,14 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 
 @builtin("MechUnitLoad")
-def mech_unit_load(task: RapidTask, _unit: Value, axis: float, load: Ref) -> None:
+def mech_unit_load(task: Task, _unit: Value, axis: float, load: Ref) -> None:
     """Payload of an external mechanical unit."""
     group = group_of(task)
     data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 
 @builtin("GetMotorTorque")
-def get_motor_torque(task: RapidTask, _unit: Value, axis: float) -> float:
+def get_motor_torque(task: Task, _unit: Value, axis: float) -> float:
     """0 Nm. ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
@@ -74,7 +73,7 @@ def get_motor_torque(task: RapidTask, _unit: Value, axis: float) -> float:
 
 @builtin("TestSignDefine")
 def define_test_signal(
-    task: RapidTask,
+    task: Task,
     channel: float,
     signal: float,
     unit: Value,
@@ -98,15 +97,15 @@ def define_test_signal(
 
 
 @builtin("TestSignRead")
-def read_test_signal(task: RapidTask, channel: float) -> float:
+def read_test_signal(task: Task, channel: float) -> float:
     """The value of a channel. ERR_ARGVALERR: none is defined for it."""
-    value: float | None = task.controller.test_signals.get(int(channel))
+    value = task.controller.test_signals.get(int(channel))
     if value is None:
         raise RapidError("ERR_ARGVALERR", f"channel {channel:g} has no signal")
     return value
 
 
 @builtin("TestSignReset")
-def reset_test_signals(task: RapidTask) -> None:
+def reset_test_signals(task: Task) -> None:
     """All channels are free."""
     task.controller.test_signals.clear()

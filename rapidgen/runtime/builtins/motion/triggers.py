@@ -182,7 +182,7 @@ def trigg_data_reset(_task: Task, data: TriggData) -> None:
 
 @builtin("TriggDataCopy")
 def trigg_data_copy(_task: Task, source: TriggData, destination: TriggData) -> None:
-    """The same event in another datum, which later changes of the first one leave alone."""
+    """The same event in another triggdata, which later changes of the first one leave alone."""
     destination.event = source.event
 
 
