@@ -138,8 +138,11 @@ def test_both_clients_have_the_same_surface(blocking, asynchronous):
             if name.startswith("_"):
                 continue
             signature = inspect.signature(member) if callable(member) else None
-            found[name] = str(signature), inspect.getdoc(member)
-            if name in ("states", "extend") or (name == "execute" and "Cell" in kind.__name__):
+            found[name] = (
+                str(signature).replace("AsyncIterator", "Iterator"),
+                inspect.getdoc(member),
+            )
+            if name == "extend" or (name == "execute" and "Cell" in kind.__name__):
                 found[name] = list(signature.parameters)
         return found
 
