@@ -3,7 +3,6 @@
 After a wanted change:  for each example  `rapidgen build robots/examples/X.yaml -o rapid_out/X`.
 """
 
-import struct
 from dataclasses import replace
 from pathlib import Path
 
@@ -12,10 +11,9 @@ import pytest
 from rapidgen._data import data_folder
 from rapidgen.config import load_config
 from rapidgen.generate import build, compare
+from rapidgen.proving.bench import Bench
 from rapidgen.rapid import check
 from rapidgen.system import ModuleFile, read_folder
-from tests.generate.bench import Bench, close_to, trajectory
-from tests.generate.test_robots import targets
 
 EXAMPLES = sorted((data_folder("robots") / "examples").glob("*.yaml"))
 GOLDENS = data_folder("robots").parent / "rapid_out"
@@ -49,19 +47,14 @@ def test_the_golden_is_checked_booted_and_driven(path):
         robot = replace(robot, modules=(*robot.modules, own))
         system = replace(system, tasks=(robot, *others))
     assert check(system) == []
-    bench = Bench(config, system=system)
+    bench = Bench(config, system)
     try:
-        for group in config.groups:
-            rows = targets(config, group, bench)
-            client = bench.client(group.ports.motion)
-            client.send(b"".join(trajectory(rows, [10, 2, 2])))
-            reply = client.wait_frame()
-            assert struct.unpack_from("<4i", reply)[1:] == (11, 3, 1), reply[16:].hex()
-            bench.vc.run_for(5)
-            assert close_to(bench.joints(group.name), rows[-1], 1e-6)
-        assert bench.healthy()
+        for number in range(len(config.groups)):
+            own = bench.of_group(number)
+            own.moves_through(own.motion(), own.wave(3))
+        bench.healthy()
     finally:
-        bench.stop()
+        bench.close()
 
 
 def test_no_golden_without_its_example():
