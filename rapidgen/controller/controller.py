@@ -6,7 +6,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Literal, Self, TypedDict, TypeVar, Unpack
 
-from rapidgen.config import from_manifest
+from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
@@ -29,11 +29,10 @@ from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
-from rapidgen.runtime.builtins.motion.meeting import Meeting
-from rapidgen.runtime.builtins.motion.together import Gathering
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.loading import ModuleTable
+from rapidgen.runtime.meetings import Meetings
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.sockets import SocketTable
@@ -152,9 +151,7 @@ class VirtualController:
         """Values of the servos' test signals by channel."""
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
-        self.meetings: dict[object, Meeting] = {}
-        self.gatherings: dict[object, Gathering] = {}
-        """Where tasks wait for each other (WaitSyncTask)."""
+        self.meetings = Meetings()
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
@@ -239,11 +236,12 @@ class VirtualController:
 
         `overrides` are `key.path=value` texts. DiagnosticError when it has faults.
         """
-        from rapidgen.controller.booting import generated_system
+        from rapidgen.generate import build, make_system
 
-        system, model = generated_system(config, tuple(overrides))
-        options.setdefault("robots", tuple(model.groups))
-        return cls(system, **options)
+        if not isinstance(config, RobotConfig):
+            config = load_config(str(config), overrides=tuple(overrides))
+        options.setdefault("robots", tuple(config.groups))
+        return cls(in_its_cell(make_system(config, build(config)), config), **options)
 
     # -- stepping --------------------------------------------------------------------------------
 
@@ -304,14 +302,12 @@ class VirtualController:
         if outcome == "stop":
             return "statements"
         # Nothing ahead before the limit of time is a deadlock, however long one would wait.
-        idle = scheduler.next_event() is None and not scheduler.ready and not self._computing()
+        busy = scheduler.ready or scheduler.preempted is not None
+        idle = scheduler.next_event() is None and not busy
         return "deadlock" if outcome == "idle" or idle else "time"
 
     def _all_ended(self) -> bool:
         return all(t.state != "running" for t in self.rapid_tasks.values())
-
-    def _computing(self) -> bool:
-        return self.scheduler.preempted is not None
 
     def where(self) -> list[str]:
         """For each running task where it is, as `task: file:line (routine)`."""

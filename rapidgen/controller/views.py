@@ -5,8 +5,7 @@ from collections.abc import Iterator, Mapping
 from rapidgen.controller.operation import Operation
 from rapidgen.machine.io import IOSystem
 from rapidgen.runtime.compiler.symbols import Data
-from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.task.call_stack import Location
+from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.task.task import Task, TaskState
 from rapidgen.runtime.values import Type, Value
 

@@ -43,12 +43,12 @@ def loopback(host: str) -> str:
     return name
 
 
-def in_use(host: str, port: int, fault: OSError) -> DiagnosticError:
+def in_use(host: str, port: int, error: OSError) -> DiagnosticError:
     """RG561: the port could not be had."""
     return refusal(
         "RG561",
         None,
-        f"cannot serve files at {host}:{port}: {fault.strerror or fault}",
+        f"cannot serve files at {host}:{port}: {error.strerror or error}",
         "name another port, or 0 for any free one",
         exit_code=1,
     )

@@ -12,16 +12,17 @@ from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.motion.moves import (
     NO_TURN,
+    SHORTEST,
     CartesianMove,
     Measure,
     Singularities,
     largest,
     nominal_time,
+    timed,
 )
 from rapidgen.motion.pieces import AxisLimits, Piece
 from rapidgen.motion.sampling import interval_limits, largest_step, spaced
 from rapidgen.motion.singular import put_tcp, wrist_end, wrist_places
-from rapidgen.motion.timed import SHORTEST, timed
 
 _STEP = 0.12
 """rad or m of one axis that an interval of the sampling should not exceed."""

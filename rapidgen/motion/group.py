@@ -4,8 +4,9 @@ Moves, stops with their reasons, speeds, paths put aside. What happens when on t
 business of `execution.py`, how a move becomes a way that of `planner.py`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import inf
+from typing import Protocol
 
 from rapidgen.axes.kinematics import Kinematics, MovingFrame, Posture
 from rapidgen.axes.mapping import JointMap
@@ -22,10 +23,22 @@ from rapidgen.motion.moves import Move
 from rapidgen.motion.path import Path
 from rapidgen.motion.planner import Planner
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.waiter import Waiter
 
 _BRAKES = "brakes"
 """The stop that holds while the brakes bring the robot to rest."""
+
+
+class Waiter(Protocol):
+    """What a group needs of a program: RAPID tasks do it, and Python functions in tests."""
+
+    def wait_for(
+        self,
+        predicate: Callable[[], bool],
+        *,
+        on: Iterable[WaitSet] = (),
+        timeout: float | None = None,
+    ) -> bool:
+        """Wait until the predicate holds."""
 
 
 class MotionGroup:

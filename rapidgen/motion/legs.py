@@ -9,15 +9,16 @@ from rapidgen.axes import frames
 from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig
 from rapidgen.motion.moves import (
+    SHORTEST,
     Carrier,
     JointMove,
     Measure,
     Move,
     largest,
     nominal_time,
+    timed,
 )
 from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
-from rapidgen.motion.timed import SHORTEST, timed
 
 _CHORDS = 4
 """Straight parts that stand for the TCP's way in a joint move."""

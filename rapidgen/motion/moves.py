@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from math import inf, sqrt
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
 from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
@@ -12,6 +13,8 @@ NO_WAY = 1e-7
 """m of TCP way that count as none."""
 NO_TURN = 1e-9
 """rad, or m of an external axis, that count as none."""
+SHORTEST = 1e-4
+"""s of nominal time that the shortest way takes."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -184,6 +187,22 @@ def nominal_time(measure: Measure, speed: MoveSpeed) -> float:
                 raise MotionFault(Refusal.NO_SPEED)
             times.append(way / rate)
     return max(times)
+
+
+def timed(total: float, fastest: float, acceleration: float, ramps: float) -> float:
+    """Nominal time of a way whose whole time, ramps at rest included, is to be `total` s (\\T).
+
+    `fastest` is the nominal time at the axes' full speed, `acceleration` the way's share per
+    s^2, `ramps` half the number of ends at rest: total = 1/c + ramps c / acceleration for a
+    speed of c ways per s. Where no speed does it, the best that the limits allow.
+    """
+    if ramps == 0.0 or acceleration == inf:
+        return max(total, fastest, SHORTEST)
+    square = total * total - 4 * ramps / acceleration
+    if total <= 0.0 or square <= 0.0:
+        return max(fastest, sqrt(ramps / acceleration), SHORTEST)
+    speed = acceleration * (total - sqrt(square)) / (2 * ramps)
+    return max(fastest, 1 / speed)
 
 
 def corner_shares(zone: Zone, before: Measure, after: Measure) -> tuple[float, float] | None:

@@ -1,9 +1,10 @@
 """Arguments of type anytype: what a built-in may take from one, or put into it."""
 
 from rapidgen.machine.io import Signal
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.signals import SignalAlias
-from rapidgen.runtime.values import NUM, PersistentCell, Ref, Type, Value, single
+from rapidgen.runtime.values import NUM, PersistentCell, Ref, Type, Value
 
 
 def value_of(argument: object) -> tuple[Value, Type]:

@@ -14,6 +14,7 @@ from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.meetings import Meetings
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.sockets import SocketTable
@@ -22,43 +23,9 @@ from rapidgen.runtime.texts import TextTables
 from rapidgen.system.model import ModuleFile, System
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.builtins.motion.meeting import Meeting
-    from rapidgen.runtime.builtins.motion.together import Gathering
     from rapidgen.runtime.loading import ModuleTable
     from rapidgen.runtime.task.statements import Statements
     from rapidgen.runtime.task.task import Task
-
-
-class Settings(Protocol):
-    """How a controller executes programs."""
-
-    system: System
-    costs: Costs
-    dialect: Switches
-    cycle: Literal["once", "forever"]
-    options: Options
-
-
-class Devices(Protocol):
-    """What programs read and write."""
-
-    io: IOSystem
-    motion: MotionSystem
-    network: Network
-    sockets: SocketTable
-    files: FileSystem
-    operator: Operator
-    configuration: SystemParameters
-    texts: TextTables
-    queues: QueueSystem
-    robot_data: dict[str, RobotData]
-    """What programs have set, by motion group."""
-    test_signals: dict[int, float]
-    """Values of the servos' test signals by channel."""
-
-    @property
-    def log(self) -> EventLog:
-        """The event log."""
 
 
 class Operation(Protocol):
@@ -80,20 +47,44 @@ class Operation(Protocol):
         """A task has done its step."""
 
 
-class Host(Settings, Devices, Protocol):
-    """A controller, as its tasks know it."""
+class Host(Protocol):
+    """A controller, as its tasks and built-ins know it."""
 
+    # How it executes programs.
+    system: System
+    costs: Costs
+    dialect: Switches
+    cycle: Literal["once", "forever"]
+    options: Options
+
+    # What programs read and write.
+    io: IOSystem
+    motion: MotionSystem
+    network: Network
+    sockets: SocketTable
+    files: FileSystem
+    operator: Operator
+    configuration: SystemParameters
+    texts: TextTables
+    queues: QueueSystem
+    robot_data: dict[str, RobotData]
+    """What programs have set, by motion group."""
+    test_signals: dict[int, float]
+    """Values of the servos' test signals by channel."""
+    booked: set[int]
+    """Error numbers that BookErrNo gave."""
+    meetings: Meetings
+
+    # What runs.
     rapid_tasks: "dict[str, Task]"
     modules: "ModuleTable"
     """Modules that tasks have loaded themselves."""
     statements: "Statements"
     """Who wants to know of statements."""
-    booked: set[int]
-    """Error numbers that BookErrNo gave."""
-    meetings: "dict[object, Meeting]"
-    """Where tasks wait for each other (WaitSyncTask)."""
-    gatherings: "dict[object, Gathering]"
-    """Where they do at moves of one \\ID."""
+
+    @property
+    def log(self) -> EventLog:
+        """The event log."""
 
     @property
     def operation(self) -> Operation:

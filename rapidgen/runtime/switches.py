@@ -6,7 +6,7 @@ docs/rapid/virtual-controller.md lists them.
 """
 
 from dataclasses import dataclass, fields
-from typing import Literal
+from typing import Literal, get_args
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +181,7 @@ def parse_switches(text: str) -> Switches:
                 raise ValueError(f"{name} is true or false")
             chosen[name] = value == "true"
         else:
-            allowed = known[name].type.__args__  # type: ignore[union-attr]
+            allowed = get_args(known[name].type)
             if value not in allowed:
                 raise ValueError(f"{name} is one of {', '.join(allowed)}")
             chosen[name] = value

@@ -9,8 +9,9 @@ import math
 import re
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Context, Decimal
 
+from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import DNUM, STRING_LIMIT, Record, Type, Value, single
+from rapidgen.runtime.values import DNUM, Record, Type, Value
 
 NUM_DIGITS = 6
 DNUM_DIGITS = 15
@@ -27,7 +28,7 @@ _BLANK = re.compile(r"\s*")
 
 def limited(text: str) -> str:
     """`text` itself; ERR_STRTOOLNG when it is no RAPID string any more."""
-    if len(text) > STRING_LIMIT:
+    if len(text) > MAX_STRING:
         raise RapidError("ERR_STRTOOLNG", f"{len(text)} characters")
     return text
 

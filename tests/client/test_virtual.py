@@ -9,6 +9,7 @@ import time
 
 import numpy as np
 import pytest
+from driven import wiggle
 
 from rapidgen.client import Cell, InvalidTrajectory, MotionStopped, Robot, Trajectory
 from rapidgen.client.address import Address
@@ -57,17 +58,6 @@ def boot():
     yield make
     for controller in controllers:
         controller.close()
-
-
-def wiggle(robot, size=0.05):
-    """From where the robot stands, a little way and back, inside all limits."""
-    group = robot.group
-    here = np.array(robot.state.joints)
-    wire = group.to_wire(here[None])[0]
-    middle = np.array([(joint.lower + joint.upper) / 2 for joint in group.joints])
-    step = np.where(wire > middle, -size, size)
-    matrix = np.array([group.map.to_urdf(wire + k * step) for k in (0, 1, 0.5, 0)])
-    return Trajectory.from_points(matrix, seconds=1.0, names=group.names).timed(group, 0.5)
 
 
 def test_a_robot_moves(boot, client):

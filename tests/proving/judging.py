@@ -211,11 +211,8 @@ def _exchange(program, module, tree):
         routine = module.routines[node.name.casefold()]
         routine.node = node
         program.codes.pop(program.code_name(routine), None)
-        program.space[routine.code] = partial(_call, program, routine)
+        program._linked.discard(routine)
+        program.space[routine.code] = program._stub(routine)
         # What cannot be linked ends its task when it is called, not here.
         with suppress(FatalError):
             program.function(routine)
-
-
-def _call(program, routine, *arguments, **named):
-    return program.function(routine)(*arguments, **named)

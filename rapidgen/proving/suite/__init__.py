@@ -1,9 +1,11 @@
 """The behaviours that a generated driver must have: one file a theme."""
 
-from rapidgen.proving.model import Behaviour
+from rapidgen.proving.model import Behaviour, Theme
 from rapidgen.proving.suite import (
+    batch_bytes,
     batches,
     compatible,
+    configured,
     control,
     control_port,
     control_server,
@@ -28,6 +30,7 @@ from rapidgen.proving.suite import (
     starting,
     state_clients,
     state_port,
+    statements,
     stop,
     stream_faults,
     streams,
@@ -36,7 +39,7 @@ from rapidgen.proving.suite import (
 
 CASES: tuple[Behaviour, ...] = tuple(
     behaviour
-    for theme in (
+    for module in (
         compatible,
         hello,
         refusals,
@@ -50,6 +53,7 @@ CASES: tuple[Behaviour, ...] = tuple(
         stop,
         streams,
         batches,
+        batch_bytes,
         stream_faults,
         control,
         control_port,
@@ -62,11 +66,15 @@ CASES: tuple[Behaviour, ...] = tuple(
         starting,
         restarts,
         errors,
+        statements,
         faults,
         motion_task,
         corners,
         supervisor,
         interrupted,
+        configured,
     )
-    for behaviour in theme.case.cases
+    for theme in vars(module).values()
+    if isinstance(theme, Theme)
+    for behaviour in theme.cases
 )

@@ -255,6 +255,15 @@ def _stays(bench: Bench) -> None:
     still = [t for t, p in bench.track if t > since and distance(p, second[0]) < 1e-4]
     if not still:
         raise Broken("the robot was not where it had to stay")
+    # That it is a stay comes in the next batch.
+    first, second, third = way(bench, 3, 0.6)
+    stream, since = Streamer(bench, stream.link, number=2), bench.now
+    stream.put([first, second], BEGIN | FLUSH)
+    stream.put([(second[0], stay), third], END)
+    stream.accepted("a stay in another batch")
+    bench.wait_until_at(third[0], 10)
+    if not any(t > since and distance(p, second[0]) < 1e-4 for t, p in bench.track):
+        raise Broken("the robot was not where the next batch told it to stay")
 
 
 @case("batch-short-last", "a short last segment of a stream", "R9")

@@ -1,5 +1,6 @@
 """The control port's clients and their requests: HELLO, PING, SIGNAL, junk, and who is served."""
 
+import math
 import struct
 from functools import partial
 
@@ -139,7 +140,7 @@ def _signals(bench: Bench) -> None:
     control = bench.control()
     exposed = bench.config.signals
     count = len(exposed)
-    for index in (-1, count, 99):
+    for index in (-1, count, 99, 2**31 - 1, -(2**31)):
         control.send(encode(messages.Signal(index, 0, 0.0), Comm.REQUEST))
         if count:
             told = control.reply(SIGNAL)
@@ -158,18 +159,29 @@ def _one_signal(bench: Bench, control: RawLink, index: int, kind: str, writable:
         return
     if not isinstance(told, messages.SignalReply) or told.signal != index:
         raise Broken(f"signal {index} is read as {told}")
-    told = control.ask(messages.Signal(index, 1, 1.0))
+    name, signals = bench.config.signals[index].name, bench.controller.signals
     if not writable:
+        signals[name] = 1
+        told = control.ask(messages.Signal(index, 0, 0.0))
+        if told != messages.SignalReply(index, 1.0):
+            raise Broken(f"signal {index} is 1, it is read as {told}")
+        told = control.ask(messages.Signal(index, 1, 0.0))
         not_done(told, Reason.READ_ONLY, f"signal {index} may not be written")
+        if signals[name] != 1:
+            raise Broken(f"signal {index} may not be written, and is {signals[name]}")
         return
+    told = control.ask(messages.Signal(index, 1, 1.0))
     if told != messages.SignalReply(index, 1.0):
         raise Broken(f"signal {index} is written as {told}")
-    for value in (2.0, 0.5) if kind == "DO" else (-1.0, 0.5) if kind == "GO" else ():
+    none = {"DO": (2.0, 0.5, -1.0), "GO": (-1.0, 0.5)}.get(kind, ())
+    for value in (*none, math.nan, math.inf, 1e20):
         not_done(
             control.ask(messages.Signal(index, 1, value)), Reason.BAD_VALUE, f"{value} to {kind}"
         )
-    not_done(
-        control.ask(messages.Signal(index, 2, 0.0)), Reason.BAD_VALUE, "neither read nor write"
-    )
+    if signals[name] != 1:
+        raise Broken(f"signal {index} is written, and is {signals[name]}")
+    for write in (2, -1):
+        told = control.ask(messages.Signal(index, write, 0.0))
+        not_done(told, Reason.BAD_VALUE, "neither read nor write")
     if control.ask(messages.Signal(index, 1, 0.0)) != messages.SignalReply(index, 0.0):
         raise Broken(f"signal {index} does not go back to 0")

@@ -60,6 +60,15 @@ def _alone(bench: Bench) -> None:
 def _beats(bench: Bench) -> None:
     """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
     control, link = bench.control(), bench.motion()
+    told = control.ask(messages.Heartbeat(0))
+    if not isinstance(told, messages.HeartbeatReply) or told.state != TrajectoryState.NONE:
+        raise Broken(f"a heartbeat at rest is answered by {told}")
+    points = bench.wave(12)
+    link.send(bench.download(points))
+    bench.wait_until_moving()
+    for seconds in (0.3, 0.0):
+        control.ask(messages.Heartbeat(seconds))
+    bench.wait_until_at(points[-1][0], 10)
     orders = watched_orders(bench)
     for seconds in (0.25, 1.03):
         link.send(bench.download(bench.wave(12)))

@@ -16,58 +16,6 @@ from rapidgen.system.model import ModuleFile, System
 case = Theme("faults")
 
 
-def _back_to_work(bench: Bench, *actions: str) -> None:
-    for action in (*actions, "reset-e-stop", "auto", "motors-on", "start"):
-        bench.controller.perform(action)
-        bench.run(0.05)
-
-
-@case(
-    "stop-every-statement", "a program stop at each statement of the motion task", "R7a", once=True
-)
-def _stopped_at_every_statement(bench: Bench) -> None:
-    """A program stop, then Start or PP to main and Start, at each statement of the motion task."""
-    other = bench.beside(bench.system, setting=replace(bench.setting, coverage=True))
-    try:
-        task = other.group.task
-        link = other.motion()
-        other.moves_through(link, other.wave(4))
-        reached = other.lines()
-        modules = next(t for t in other.system.tasks if t.name == task).modules
-        places = [
-            (module.name, line)
-            for module in modules
-            for line, hits in sorted(reached.get(module.path, {}).items())
-            if hits
-        ]
-        for number, (module, line) in enumerate(places):
-            came: list[bool] = []
-
-            def stop(came: list[bool] = came) -> None:
-                if not came:
-                    came.append(True)
-                    other.controller.perform("stop")
-
-            link = other.motion()
-            other.run(1.1)
-            other.controller.before_statement(task, module, line, 1 + number % 2, stop)
-            since = other.now
-            points = other.wave(5, duration=0.25)
-            link.send(other.download(points))
-            other.controller.run_until(lambda came=came: bool(came), timeout=3)  # type: ignore[misc]
-            came.append(True)
-            other.wait_until_standing(5)
-            other.followed([other.track_at(since), *(p for p, _ in points)], since=since)
-            _back_to_work(other, *(["pp-to-main"] if number % 2 else []))
-            other.stays(1.5, f"the program was stopped at {module}:{line} and started again")
-            link.close()
-        other.run(1.5)
-        other.moves_through(other.motion(), other.wave(4))
-        other.healthy()
-    finally:
-        other.close()
-
-
 @case("stop-and-more", "STOP and a new trajectory in one packet", "R5")
 def _stop_and_more_in_one_packet(bench: Bench) -> None:
     link = bench.motion()

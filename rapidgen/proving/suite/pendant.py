@@ -2,7 +2,7 @@
 
 from rapidgen.machine.log import Event, EventType
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import RawLink, point_frame, raw_point
+from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
 from rapidgen.proving.messages import Reason, text_of
 from rapidgen.proving.model import Broken, Theme
 
@@ -119,6 +119,11 @@ def _peace_is_quiet(bench: Bench) -> None:
     for _ in range(3):
         link, state = bench.motion(), bench.state()
         bench.moves_through(link, bench.wave(4))
+        link.send(bench.download(bench.wave(8)))
+        bench.wait_until_moving()
+        link.send(STOP)
+        bench.wait_until_standing(5)
+        bench.run(0.5)
         # It is at its end a while before it has settled there.
         bench.run(2 * bench.setting.motion.settle)
         link.close()

@@ -269,7 +269,7 @@ def _burst(
     wanted = [(2, 100, 2, "First")]
     for number in range(count):
         # A title has room for 80 characters; one may be empty.
-        title = "" if number == 7 else f"Trial {number} " + number % 5 * "of a long row "
+        title = "" if number == 7 else f"Größe {number} " + number % 5 * "of a long row "
         _write(bench, number, title * (1 + 9 * (number == 9)), kinds[number % 3])
         text = (title * (1 + 9 * (number == 9)))[:80].rstrip()
         wanted.append((number % 9 + 1, number, number % 3 + 1, text))

@@ -16,6 +16,7 @@ from rapidgen.proving.messages import (
     text_of,
 )
 from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.motion_task import SOON, begins, datum, hangs, patience, unit_of
 
 case = Theme("halting")
@@ -308,6 +309,20 @@ def _builds_differ(bench: Bench) -> None:
                 f"builds differed for {seconds} s from {mixed:.3f} s on, the event log says "
                 f"{[str(e) for e in said]}"
             )
+    stream = Streamer(bench, link)
+    for number, role in enumerate(("motion_server", "supervisor", "control"), 1):
+        if role == "control" and not bench.group.ports.control:
+            continue
+        other = datum(bench, f"ros_shown_{role}")
+        task[other] = "0123456789ab"
+        link.send(_end_as_request(bench, 3, unit))
+        content = decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.Refused(Reason.BUILD_MISMATCH, -1, 0):
+            raise Broken(f"the {role} shows another build, a trajectory is answered by {content}")
+        stream.number, stream.sent = number, 0
+        stream.put(bench.wave(3, duration=unit), BEGIN)
+        stream.refused(Reason.BUILD_MISMATCH, f"the {role} shows another build")
+        task[other] = good
     # What the motion task shows counts from when its program runs.
     shown = datum(bench, "ros_shown_motion")
     for text, stopped, reason in (

@@ -28,6 +28,7 @@ objects of a module or a task with the same name are kept as pairs in `clashes`.
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Final
 
 from rapidgen.rapid.binding.symbols import (
     DataSymbol,
@@ -53,6 +54,7 @@ from rapidgen.rapid.syntax.nodes import (
 )
 from rapidgen.rapid.syntax.walk import walk
 
+_MAX_ALIASES: Final = 4
 Clash = tuple[Symbol, Symbol]
 """Two objects of one name where there may be one: the first, which counts, and the second."""
 
@@ -228,9 +230,12 @@ class ModuleScope:
     # -- types ---------------------------------------------------------------------------
 
     def type_symbol(self, name: str) -> TypeSymbol | None:
-        """The record or predefined type behind aliases, or None when there is no such type."""
+        """The record or predefined type behind aliases, or None when there is no such type.
+
+        An alias of an alias is an error [K §2.15]; aliases of each other come to no end.
+        """
         scope: ModuleScope = self
-        for _ in range(3):
+        for _ in range(_MAX_ALIASES):
             symbol = scope.find(name)
             if not isinstance(symbol, TypeSymbol):
                 return None
@@ -243,10 +248,8 @@ class ModuleScope:
         """Lower-case name of the type behind aliases, or None when there is no such type."""
         if name in self.bases:
             return self.bases[name]
-        symbol = self.find(name)
-        if isinstance(symbol, TypeSymbol) and symbol.base is not None:
-            symbol = self.find(symbol.base)
-        found = symbol.name.lower() if isinstance(symbol, TypeSymbol) else None
+        symbol = self.type_symbol(name)
+        found = symbol.name.lower() if symbol is not None else None
         self.bases[name] = found
         return found
 

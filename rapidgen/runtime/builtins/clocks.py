@@ -5,10 +5,11 @@ of GetSysInfo's texts is remembered only [mem].
 """
 
 from rapidgen.machine.calendar import date_time
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import register_type, single
+from rapidgen.runtime.values import register_type
 
 _MS = 1_000_000
 _US = 1_000

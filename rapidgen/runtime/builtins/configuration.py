@@ -5,14 +5,14 @@ instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind 
 of the next one. How they are counted: switch `list_number`.
 """
 
-from rapidgen.machine.system_parameters import SystemParameters
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import EndOfRun, RapidError
 from rapidgen.runtime.loading import words_of
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import STRING_LIMIT, Ref
+from rapidgen.runtime.values import Ref
 
 
 def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | int | float | bool]:
@@ -20,7 +20,7 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
 
     ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
     """
-    configuration: SystemParameters = task.controller.configuration
+    configuration = task.controller.configuration
     found = configuration.find(path)
     hidden = path.strip("/").lower().startswith("moc/arm/")
     if not found or (hidden and not task.controller.dialect.axis_limits_told):
@@ -50,7 +50,7 @@ def read_cfg_data(
     elif kind == "bool":
         target.set(value is True or value == 1)
     elif kind == "string" and isinstance(value, str):
-        target.set(value[:STRING_LIMIT])
+        target.set(value[:MAX_STRING])
     elif kind in ("num", "dnum") and isinstance(value, int | float):
         target.set(value)
     else:
@@ -73,7 +73,7 @@ def write_cfg_data(
 @builtin("SaveCfgData", cost="socket")
 def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
     """Write a domain to a file."""
-    configuration: SystemParameters = task.controller.configuration
+    configuration = task.controller.configuration
     if domain.upper() not in configuration.domains:
         raise RapidError("ERR_CFG_ILL_DOMAIN", domain)
     text = configuration.text(domain.upper())

@@ -14,15 +14,16 @@ from typing import IO
 from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
 from rapidgen.machine.files import Directory, IODevice
+from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.builtins.operator import appended
-from rapidgen.runtime.disks import disks_of, file_path, hold, spend
+from rapidgen.runtime.disks import file_path, hold, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import NotALiteral, parse_value
-from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, Value, dimensions, single
+from rapidgen.runtime.values import NUM, Record, Ref, Type, Value, dimensions
 
 _EOF_TEXT = "EOF"
 _EOF_NUM = 9.999e36
@@ -45,7 +46,7 @@ def open_file(
 ) -> None:
     """Open a file."""
     path = file_path(task, object_, file or "")
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     if path.exists() and not path.is_file():
         raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''} is no regular file")
     if read:
@@ -80,7 +81,7 @@ def open_file(
 def close_file(task: Task, device: IODevice) -> None:
     """Close a file; nothing when it is closed."""
     was_written = device.file is not None and device.writable
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     _stamp(task, device.path, written=was_written)
 
 
@@ -245,7 +246,7 @@ def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tup
 def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | None:
     """Through the next delimiter, at most 80 characters; None at the end of the file."""
     text = bytearray()
-    while len(text) < STRING_LIMIT:
+    while len(text) < MAX_STRING:
         byte = file.read(1)
         if not byte:
             return text.decode("latin-1") if text else None
@@ -308,7 +309,7 @@ def read_bin(_task: Task, device: IODevice, _time: float | None) -> int:
 def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | None) -> str:
     """The next so many bytes as a string, or the string EOF."""
     number = whole(count, "ERR_ARGVALERR")
-    if not 0 <= number <= STRING_LIMIT:
+    if not 0 <= number <= MAX_STRING:
         raise RapidError("ERR_ARGVALERR", f"{number} characters")
     data = _reader(device, binary=True).read(number)
     return data.decode("latin-1") if data or not number else _EOF_TEXT
@@ -333,7 +334,7 @@ def make_dir(task: Task, path: str) -> None:
 def remove_dir(task: Task, path: str) -> None:
     """Remove an empty folder; a disk itself stays."""
     place = file_path(task, path)
-    if place.parent == disks_of(task).folder:
+    if place.parent == task.controller.files.folder:
         raise RapidError("ERR_FILEACC", f"{path} is a disk")
     _disk(place.rmdir, path)
 
@@ -418,7 +419,7 @@ def fs_size(
 ) -> float:
     """Size of a disk, or what is free on it."""
     file_path(task, name)
-    size = DISK if total else disks_of(task).room
+    size = DISK if total else task.controller.files.room
     return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
 
 
@@ -452,7 +453,7 @@ def _status(task: Task, path: str) -> os.stat_result:
 @builtin("OpenDir", cost="socket")
 def open_dir(task: Task, device: Directory, path: str) -> None:
     """Begin to read a folder's names."""
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     place = file_path(task, path)
     if not place.is_dir():
         raise RapidError("ERR_FILEACC", f"there is no folder {path}")
@@ -460,7 +461,7 @@ def open_dir(task: Task, device: Directory, path: str) -> None:
     try:
         names = sorted(os.listdir(place))
     except OSError as error:
-        disks_of(task).release(device)
+        task.controller.files.release(device)
         raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
     shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
     device.names = [".", "..", *shown]
@@ -473,11 +474,11 @@ def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
         raise RapidError("ERR_FILEACC", "the folder is not open")
     if not device.names:
         return False
-    name.set(device.names.pop(0)[:STRING_LIMIT])
+    name.set(device.names.pop(0)[:MAX_STRING])
     return True
 
 
 @builtin("CloseDir", cost="socket")
 def close_dir(task: Task, device: Directory) -> None:
     """End reading a folder."""
-    disks_of(task).release(device)
+    task.controller.files.release(device)

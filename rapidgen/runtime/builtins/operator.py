@@ -8,15 +8,15 @@ number into \\BreakFlag and goes on. \\DefaultBtn is what such a message box the
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
-from rapidgen.machine.log import EventLog, EventType
-from rapidgen.machine.operator import Operator
+from rapidgen.machine.log import EventType
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import RapidError, errnum
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import DNUM_DIGITS, number_text, value_text
-from rapidgen.runtime.values import STRING_LIMIT, Ref, Value
+from rapidgen.runtime.values import Ref, Value
 
 _RESULTS = {
     "OK": 1,
@@ -44,11 +44,6 @@ _EVENTS = {
     EventType.INFO: 80_003,
 }
 _PROCESS_DOMAIN = 110_000
-
-
-def _operator(task: Task) -> Operator:
-    operator: Operator = task.controller.operator
-    return operator
 
 
 # -- the window -----------------------------------------------------------------------------
@@ -86,13 +81,13 @@ def tp_write(
     dnum: float | None,
 ) -> None:
     """Show a text, with a value behind it if one is given."""
-    _operator(task).write(task.name, appended(task, text, num, boolean, pos, orient, dnum))
+    task.controller.operator.write(task.name, appended(task, text, num, boolean, pos, orient, dnum))
 
 
 @builtin("TPErase", cost="string")
 def tp_erase(task: Task) -> None:
     """Clear the window."""
-    _operator(task).erase()
+    task.controller.operator.erase()
 
 
 @builtin("TPShow", cost="string")
@@ -103,7 +98,7 @@ def tp_show(_task: Task, _window: float) -> None:
 @builtin("UIClientExist")
 def ui_client_exist(task: Task) -> bool:
     """Whether anybody can answer a dialog."""
-    return _operator(task).present
+    return task.controller.operator.present
 
 
 # -- dialogs ----------------------------------------------------------------------------------
@@ -151,7 +146,7 @@ def _ask(
 ) -> object:
     """The answer to a dialog; None when it was broken off and \\BreakFlag tells."""
     breaks = _Breaks(*tail)
-    operator = _operator(task)
+    operator = task.controller.operator
     if not operator.present:
         _break_off(breaks, "ERR_TP_NO_CLIENT")
         return None
@@ -209,8 +204,8 @@ def _a_number(
 
 
 def _a_text(value: str) -> str:
-    if len(value) > STRING_LIMIT:
-        raise ValueError(f"at most {STRING_LIMIT} characters")
+    if len(value) > MAX_STRING:
+        raise ValueError(f"at most {MAX_STRING} characters")
     return value
 
 
@@ -426,13 +421,13 @@ def ui_msg_write(
 ) -> None:
     """Show a message without waiting."""
     for line in _lines(header, message, lines).split("\n"):
-        _operator(task).write(task.name, line)
+        task.controller.operator.write(task.name, line)
 
 
 @builtin("UIShow", cost="string")
 def ui_show(task: Task, assembly: str, *_arguments: object) -> None:
     """Start an application on the FlexPendant: there is none here that could."""
-    if not _operator(task).present:
+    if not task.controller.operator.present:
         raise RapidError("ERR_TP_NO_CLIENT")
     raise RapidError("ERR_UISHOW_FATAL", f"{assembly} cannot run on a virtual controller")
 
@@ -453,7 +448,7 @@ def err_write(
 ) -> None:
     """Write a message of the user's own: 80001 error, 80002 \\W, 80003 \\I."""
     kind = EventType.WARNING if warning else EventType.INFO if info else EventType.ERROR
-    log: EventLog = task.controller.log
+    log = task.controller.log
     texts = [text for text in (reason, rl2, rl3, rl4) if text]
     log.write(_EVENTS[kind], kind, header, *texts, task=task.name)
 
@@ -470,6 +465,6 @@ def err_log(
     kind = EventType.WARNING if warning else EventType.INFO if info else EventType.ERROR
     if not (4800 <= number <= 4814 or 5000 <= number <= 9999):
         raise RapidError("ERR_ARGVALERR", f"{number:g} is no ErrorId")
-    log: EventLog = task.controller.log
+    log = task.controller.log
     texts = [text for text in arguments if text]
     log.write(_PROCESS_DOMAIN + int(number), kind, "ErrLog", *texts, task=task.name)

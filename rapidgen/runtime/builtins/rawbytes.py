@@ -6,6 +6,7 @@ empty container, motion_program_exec [code] for \\ASCII:=0.
 
 from collections.abc import Callable
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import (
@@ -20,7 +21,7 @@ from rapidgen.runtime.rawbytes import (
 )
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, single
+from rapidgen.runtime.values import Ref
 
 DNUM_BITS = 52
 _MASK = (1 << DNUM_BITS) - 1

@@ -4,6 +4,7 @@ Sources: the S4 reference's page of each name for the edges (positions from 1, a
 outside is an error); which error that is: switch `argument_error`.
 """
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import byte_value, whole
@@ -17,7 +18,6 @@ from rapidgen.runtime.text import (
     parse_value,
     value_text,
 )
-from rapidgen.runtime.values import single
 
 _LARGEST_STRDIG = 4_294_967_295
 _LARGEST_DECIMAL = 9_223_372_036_854_775_807

@@ -17,7 +17,6 @@ from rapidgen.runtime.builtins.motion.arguments import frame
 from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Box, PersistentCell, Ref, copy_value, register_type
@@ -35,11 +34,6 @@ class DataPosition:
 
 
 register_type("datapos", DataPosition)
-
-
-def _modules(task: Task) -> ModuleTable:
-    modules: ModuleTable = task.controller.modules
-    return modules
 
 
 # -- by name ------------------------------------------------------------------------------------
@@ -192,13 +186,13 @@ def set_data_search(
     ]
     if not (in_task or in_module or local):
         found += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
-    _modules(task).searches[task.name] = iter(found)
+    task.controller.modules.searches[task.name] = iter(found)
 
 
 @builtin("GetNextSym", cost="string")
 def get_next_sym(task: Task, name: Ref, block: DataPosition, _recursive: bool | None) -> bool:
     """The next find of the search; FALSE when there is none left."""
-    following = next(_modules(task).searches.get(task.name, iter(())), None)
+    following = next(task.controller.modules.searches.get(task.name, iter(())), None)
     if following is None:
         return False
     module, data = following

@@ -13,9 +13,7 @@ class Facts:
     """What a routine's text says about its own variables."""
 
     def __init__(
-        self,
-        routine: n.RoutineDeclaration,
-        find: Callable[[str], Routine | None],
+        self, routine: n.RoutineDeclaration, find: Callable[[str], Routine | None]
     ) -> None:
         self.by_reference: set[str] = set()
         """Locals that are arguments of reference parameters, lower case."""

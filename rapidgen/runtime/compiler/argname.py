@@ -17,20 +17,20 @@ from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
+    from rapidgen.runtime.compiler.program import Program
     from rapidgen.runtime.values import Ref
 
 Call = n.ProcedureCall | n.FunctionCall | n.LateCall
 
 
-def arg_name(task: "Task", parameter: str, number: "Ref | None" = None) -> str:
+def arg_name(program: "Program", parameter: str, number: "Ref | None" = None) -> str:
     """Name of the datum behind `parameter` of the routine that asks [S4 datasys 3-ArgName].
 
     For an element or a component the whole datum's; ERR_ARGNAME for an expression. With
     `number` that gets the error instead, and the name is empty.
     """
     try:
-        return _named(task, parameter)
+        return _named(program, parameter)
     except RapidError as error:
         if number is None:
             raise
@@ -38,8 +38,8 @@ def arg_name(task: "Task", parameter: str, number: "Ref | None" = None) -> str:
         return ""
 
 
-def _named(task: "Task", name: str) -> str:
-    places = _places(task, sys._getframe(2))
+def _named(program: "Program", name: str) -> str:
+    places = _places(program, sys._getframe(2))
     routine, _ = next(places)
     while (at := routine.by_name.get(name.lower())) is not None:
         caller, token = next(places, (None, 0))
@@ -51,15 +51,13 @@ def _named(task: "Task", name: str) -> str:
         if not isinstance(value, n.Name):
             raise RapidError("ERR_ARGNAME")
         routine, name = caller, value.name
-    data = (
-        None if _is_local(routine, name) else task.program.find_data(routine.module, name.lower())
-    )
+    data = None if _is_local(routine, name) else program.find_data(routine.module, name.lower())
     return data.name if data is not None else name
 
 
-def _places(task: "Task", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
+def _places(program: "Program", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
     """Routines of the call stack, innermost first, and the token at which each is."""
-    codes = task.program.codes
+    codes = program.codes
     inside: Routine | None = None
     while frame is not None:
         compiled = codes.get(frame.f_code.co_filename)

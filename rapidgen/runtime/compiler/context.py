@@ -15,9 +15,6 @@ if TYPE_CHECKING:
     from rapidgen.runtime.compiler.linking import LoadedModule
     from rapidgen.runtime.compiler.program import Program
 
-EXACT = 1 << 24
-"""IEEE single holds every whole number up to here."""
-
 UNBOUNDED = 1 << 60
 """Upper end of the range of a whole number of which only the lower end is known."""
 

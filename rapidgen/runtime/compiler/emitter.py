@@ -67,7 +67,7 @@ class Emitter:
         if self.options.tracing and not isinstance(node, n.Label):
             point = self.unit.program.trace_point(self.unit.routine, node)
             w.close()
-            w.emit(f"R.b = b; TRACE(R, {point}); b = R.b")
+            w.emit(f"R.b = b; R.trace({point}); b = R.b")
         if self._too_deep(node):
             self._set_apart(node)
             return

@@ -8,9 +8,10 @@ from rapidgen.rapid.binding import constants
 from rapidgen.rapid.binding.names import Scope
 from rapidgen.rapid.binding.types import array
 from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import CannotCompile
-from rapidgen.runtime.values import Type, Value, single
+from rapidgen.runtime.values import Type, Value
 
 
 def evaluate(node: n.Expression, kind: Type, dims: tuple[int, ...], scope: Scope) -> Value:

@@ -1,12 +1,13 @@
 """Expressions: typed Python source, with what it costs and touches."""
 
+from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import CannotCompile, E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
 from rapidgen.runtime.compiler.references import read
 from rapidgen.runtime.compiler.storing import by_value
-from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute, single
+from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
 
 
 def compile_expression(
@@ -100,5 +101,5 @@ def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int
     inside = ", ".join(
         by_value(p, kind) for p, (_, kind) in zip(parts, want.components, strict=True)
     )
-    cls = unit.program.record_code(want)
+    cls = unit.program.keep(want.make)
     return E(f"{cls}({inside})", want, fresh=True).take(*parts)

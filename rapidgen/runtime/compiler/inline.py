@@ -153,7 +153,7 @@ def _arg_name(unit: Unit, node: n.FunctionCall) -> E:
         codes.append(number.code)
         parts.append(number)
     cost = int(50_000 * unit.options.builtin_scale)
-    return calling(f"ARGNAME(R, {', '.join(codes)})", STRING, *parts, cost=cost)
+    return calling(f"ARGNAME({', '.join(codes)})", STRING, *parts, cost=cost)
 
 
 def _builtin(unit: Unit, node: n.FunctionCall) -> Routine:

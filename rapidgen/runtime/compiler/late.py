@@ -17,7 +17,7 @@ def late_call(emitter: Emitter, node: n.LateCall) -> None:
         code, part = _argument(unit, argument)
         codes.append(code)
         parts += part
-    module = unit.program.module_code(unit.module)
+    module = unit.program.keep(unit.module)
     inside = "".join(c + ", " for c in codes)
     code = f"R.late({name.code}, {module}, ({inside}))"
     emitter.simple(calling(code, NUM, *parts, cost=emitter.options.call))
@@ -40,9 +40,9 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
     place = place_of(unit, node)
     if place is None:
         e = unit.expression(node)
-        t = unit.program.type_code(e.type)
+        t = unit.program.keep(e.type)
         return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t}{last})", [e]
-    t = unit.program.type_code(place.e.type)
+    t = unit.program.keep(place.e.type)
     read = by_value(place.e, place.e.type)
     ref = _reference(unit, place)
     return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code}{last})", [place.e]
@@ -57,7 +57,7 @@ def _reference(unit: Unit, place: DataPlace) -> str:
         return f"lambda: {data.code}"
     if not place.holder and data.storage == "global":
         return f"lambda: {unit.program.global_ref(data)}"
-    t, cell = unit.program.type_code(e.type), place.cell or "None"
+    t, cell = unit.program.keep(e.type), place.cell or "None"
     if place.holder and place.atomic:
         maker = "MEMBER" if place.member else "ITEM"
         key = repr(place.key) if place.member else place.key

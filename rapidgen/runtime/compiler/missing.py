@@ -76,7 +76,7 @@ def _diagnostic(
     return error(
         "RG404",
         module.span(node),
-        f"{node.name} is not declared in any module of {program.task.name}",
+        f"{node.name} is not declared in any module of {program.name}",
         "load the module that declares it",
         label="ERR_REFUNKPRC when it is reached",
         severity=Severity.WARNING,

@@ -1,14 +1,8 @@
 """Operators: what they take, what they cost, how large their results may be [K §3.11]."""
 
+from rapidgen.rapid.numbers import EXACT
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import (
-    EXACT,
-    UNBOUNDED,
-    CannotCompile,
-    E,
-    Unit,
-    same_type,
-)
+from rapidgen.runtime.compiler.context import UNBOUNDED, CannotCompile, E, Unit, same_type
 from rapidgen.runtime.values import BOOL, DNUM, STRING, TYPES, Type
 
 _COMPARE = {"=": "==", "<>": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
@@ -86,10 +80,7 @@ def _operands(unit: Unit, node: n.Binary, want: Type | None) -> tuple[E, E]:
         return left, unit.expression(node.right, left.type)
     left = unit.expression(node.left, wanted)
     right = unit.expression(node.right, wanted)
-    if left.type.kind != right.type.kind and {left.type.kind, right.type.kind} == {
-        "num",
-        "dnum",
-    }:
+    if left.type.kind != right.type.kind and {left.type.kind, right.type.kind} == {"num", "dnum"}:
         # A literal, or an operator on literals, adapts to its partner.
         left = unit.expression(node.left, right.type if right.type.kind == "dnum" else DNUM)
         right = unit.expression(node.right, left.type if left.type.kind == "dnum" else DNUM)

@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import Protocol
 
 from rapidgen.diagnostics import error
 from rapidgen.rapid.binding.symbols import Symbol
@@ -19,38 +20,37 @@ from rapidgen.runtime.errors import RECOVERABLE, FatalError
 from rapidgen.runtime.values import PersistentCell, Type, Value, make_array
 from rapidgen.system.model import ModuleFile
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
+class Executor(Protocol):
+    """What compiled code runs on: its name and, as `R`, whatever it is asked for."""
 
-def _trace(task: "Task", point: int) -> None:
-    """A statement is about to be executed."""
-    task.controller.statements.reached(task, point)
+    name: str
+
+    def trace(self, point: int) -> None:
+        """A statement is about to be executed."""
 
 
 class Program:
     """Modules of one task and their compiled code."""
 
-    def __init__(self, task: "Task", shared: Shared, options: Options) -> None:
-        self.task = task
+    def __init__(self, executor: Executor, shared: Shared, options: Options) -> None:
+        self.name = executor.name
         self.shared = shared
         self.options = options
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
         """What is compiled as the modules are now."""
-        self.missing: set[str] = set()
         self.trace_points: list[tuple[Routine, n.Statement]] = []
         self.switch_type = Type("switch", "bool")
         self._serial = 0
         self._kept: dict[int, str] = {}
         self.space: dict[str, Value] = {
             **runtime.NAMESPACE,
-            "R": task,
+            "R": executor,
             "ERRS": RECOVERABLE,
             "ARRAY": make_array,
-            "TRACE": _trace,
             "AFTER": after,
-            "ARGNAME": arg_name,
+            "ARGNAME": partial(arg_name, self),
         }
         dialect = options.dialect
         if dialect.for_loop == "tested":
@@ -126,15 +126,6 @@ class Program:
             self.space[known] = value
         return known
 
-    def type_code(self, kind: Type) -> str:
-        """Name of a Type."""
-        return self.keep(kind)
-
-    def record_code(self, kind: Type) -> str:
-        """Name of what makes a datum of a type."""
-        assert kind.make is not None
-        return self.keep(kind.make)
-
     def global_ref(self, data: Data) -> str:
         """Name of a reference to module data."""
         name = f"r_{data.code}"
@@ -144,18 +135,10 @@ class Program:
             )
         return name
 
-    def module_code(self, module: LoadedModule) -> str:
-        """Name of a module."""
-        return self.keep(module)
-
-    def trap_code(self, trap: Routine) -> str:
-        """Name of a trap."""
-        return self.keep(trap)
-
     def code_name(self, routine: Routine) -> str:
         """Python file name of a routine's code."""
         assert routine.module is not None
-        return f"<rapid {self.task.name} {routine.module.name} {routine.name}>"
+        return f"<rapid {self.name} {routine.module.name} {routine.name}>"
 
     def trace_point(self, routine: Routine, statement: n.Statement) -> int:
         """Number of a statement, for tracing."""
@@ -168,10 +151,6 @@ class Program:
             self.options = replace(self.options, tracing=True, accounting="statement")
             self.codes.clear()
             self._reset_code()
-
-    def said_missing(self, name: str) -> None:
-        """Remember a routine that is called and does not exist."""
-        self.missing.add(name)
 
     # -- code ------------------------------------------------------------------------------------
 

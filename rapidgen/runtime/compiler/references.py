@@ -3,14 +3,7 @@
 from dataclasses import dataclass
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import (
-    CALLS,
-    SHARED,
-    CannotCompile,
-    E,
-    Unit,
-    same_type,
-)
+from rapidgen.runtime.compiler.context import CALLS, SHARED, CannotCompile, E, Unit, same_type
 from rapidgen.runtime.compiler.storing import by_value
 from rapidgen.runtime.compiler.symbols import Data, FormalParameter
 from rapidgen.runtime.values import NUM, attribute
@@ -47,11 +40,7 @@ def read(unit: Unit, data: Data) -> E:
         value = data.value
         whole = isinstance(value, int) and not isinstance(value, bool)
         return E(
-            repr(value),
-            kind,
-            whole=whole,
-            exact=True,
-            range=(value, value) if whole else None,
+            repr(value), kind, whole=whole, exact=True, range=(value, value) if whole else None
         )
     if data.storage in ("box", "ref", "cell"):
         code = f"{code}.v"
@@ -59,14 +48,7 @@ def read(unit: Unit, data: Data) -> E:
         code = f"R.touch({data.code}.v)"
         effect = CALLS
     return E(
-        code,
-        kind,
-        dims,
-        effect=effect,
-        fails=fails,
-        exact=True,
-        whole=data.whole,
-        range=data.range,
+        code, kind, dims, effect=effect, fails=fails, exact=True, whole=data.whole, range=data.range
     )
 
 
@@ -167,7 +149,7 @@ def _reference_code(
     as_object = not builtin and parameter.mode == "VAR" and not place.atomic
     if as_object:
         return e.code
-    t, cell = unit.program.type_code(kind), place.cell or "None"
+    t, cell = unit.program.keep(kind), place.cell or "None"
     if place.holder:
         if not place.atomic:
             return f"PART({e.code}, {t}, {data.name!r}, {cell})"
@@ -191,7 +173,7 @@ def _reference_code(
 def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> E:
     """A value for a REF or anytype parameter that is no datum."""
     e = unit.expression(node, parameter.type)
-    t = unit.program.type_code(e.type)
+    t = unit.program.keep(e.type)
     name = node.name if isinstance(node, n.Name) else ""
     code = f"BOX({by_value(e, e.type)}, {t}, {e.dims!r}, {name!r})"
     return E(code, e.type, e.dims).take(e)

@@ -58,7 +58,6 @@ def _procedure(emitter: Emitter, node: n.ProcedureCall) -> None:
     routine = emitter.unit.routine_named(node.name)
     key = node.name.lower()
     if routine is None or routine.kind != "PROC":
-        emitter.unit.program.said_missing(node.name)
         emitter.simple(failing("ERR_REFUNKPRC", node.name))
         return
     if routine.node is None and key in marked("steps"):

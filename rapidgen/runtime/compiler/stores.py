@@ -176,7 +176,7 @@ def connect(emitter: Emitter, node: n.Connect) -> None:
         return
     if place.e.type.kind != "num" or place.e.dims:
         raise CannotCompile("CONNECT takes an intnum", node)
-    code = f"R.connect({place.e.code}, {emitter.unit.program.trap_code(trap)})"
+    code = f"R.connect({place.e.code}, {emitter.unit.program.keep(trap)})"
     e = calling(code, NUM, place.e)
     lines = _through("_x", place.e.code, e, NUM)
     if place.data.storage == "global":

@@ -57,7 +57,7 @@ def _parameter(unit: Unit, w: Writer, parameter: FormalParameter) -> None:
         storage = "object"
     elif key in unit.boxed and atomic and not parameter.switch:
         storage = "box"
-        t = unit.program.type_code(kind)
+        t = unit.program.keep(kind)
         box = f"{code} = BOX({code}, {t}, (), {parameter.name!r})"
         w.emit(f"if {code} is not None: {box}" if parameter.optional else box)
     unit.locals[unit.names.names[key]] = Data(
@@ -78,12 +78,7 @@ def _constant(unit: Unit, name: str) -> Value:
 
 
 def _variable(
-    unit: Unit,
-    w: Writer,
-    d: n.DataDeclaration,
-    data: Data,
-    value: Value,
-    whole: Whole,
+    unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, whole: Whole
 ) -> None:
     key, kind, dims, program = d.name.lower(), data.type, data.dims, unit.program
     if d.kind == "CONST":
@@ -93,7 +88,7 @@ def _variable(
         w.emit(f"{data.code} = {_fresh(unit, d, kind, dims, value)}")
     elif key in unit.boxed:
         data.storage = "box"
-        w.emit(f"{data.code} = BOX({value!r}, {program.type_code(kind)}, (), {d.name!r})")
+        w.emit(f"{data.code} = BOX({value!r}, {program.keep(kind)}, (), {d.name!r})")
     else:
         data.whole = key in whole.whole and kind.kind == "num"
         if data.whole and key in whole.natural:
@@ -107,9 +102,9 @@ def _fresh(
     """What makes a record, an array or an object for each call."""
     program = unit.program
     if d.initial is None and not dims and kind.make is not None:
-        return f"{program.record_code(kind)}()"
+        return f"{program.keep(kind.make)}()"
     if d.initial is None and len(dims) == 1 and kind.kind in ATOMIC:
         return f"dict.fromkeys(range(1, {dims[0] + 1}), {kind.default()!r})"
     if kind.is_value:
         return f"COPY({program.keep(value)})"
-    return f"ARRAY({dims!r}, {program.record_code(kind)})"
+    return f"ARRAY({dims!r}, {program.keep(kind.make)})"

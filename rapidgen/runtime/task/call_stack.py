@@ -1,30 +1,14 @@
 """Who is where: call stacks of tasks as places in RAPID."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from types import FrameType, TracebackType
 from typing import TypeAlias
 
-from rapidgen.diagnostics import Span
 from rapidgen.runtime.compiler.compiled import Compiled, Role
+from rapidgen.runtime.errors import Location
 
 Codes: TypeAlias = Mapping[str, Compiled]
 """Code of a program by Python file name."""
-
-
-@dataclass(frozen=True, slots=True)
-class Location:
-    """Where a routine of the call stack is."""
-
-    module: str
-    routine: str
-    span: Span
-    origin: tuple[str, int] | None = None
-    """Template and line of a generated module."""
-
-    def __str__(self) -> str:
-        made = f" (from {self.origin[0]}:{self.origin[1]})" if self.origin else ""
-        return f"{self.module}/{self.routine}/{self.span.line}{made}"
 
 
 def outwards(frame: FrameType | None) -> Iterator[FrameType]:

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING
 from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move
+from rapidgen.runtime.errors import Location
 from rapidgen.runtime.motion_faults import planned
-from rapidgen.runtime.task.call_stack import Location
 
 if TYPE_CHECKING:
     from rapidgen.runtime.task.task import Task

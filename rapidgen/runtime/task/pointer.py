@@ -17,8 +17,8 @@ from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.compiler.symbols import Routine
-from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.task.call_stack import Location, frames_of, outwards
+from rapidgen.runtime.errors import FatalError, Location
+from rapidgen.runtime.task.call_stack import frames_of, outwards
 from rapidgen.runtime.task.errors import Handler
 from rapidgen.runtime.task.event_routines import EventRoutines
 from rapidgen.runtime.task.interrupts import Interrupts

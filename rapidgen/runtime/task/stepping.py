@@ -15,7 +15,8 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.resume import Standing
-from rapidgen.runtime.task.call_stack import Location, outwards
+from rapidgen.runtime.errors import Location
+from rapidgen.runtime.task.call_stack import outwards
 from rapidgen.runtime.task.driving_back import StepHistory
 from rapidgen.runtime.task.pointer import CannotStep
 

@@ -16,11 +16,11 @@ from rapidgen.runtime.compiler.linking import LoadedModule, Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import Routine
-from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, PointerMoved
+from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.task import late_call
-from rapidgen.runtime.task.call_stack import Location, location, stack_at
+from rapidgen.runtime.task.call_stack import location, stack_at
 from rapidgen.runtime.task.errors import Errors
 from rapidgen.runtime.task.event_routines import AT_RESTART, EventRoutines, StopEvent
 from rapidgen.runtime.task.interrupts import Interrupts
@@ -413,6 +413,10 @@ class Task(Process):
         if self.scheduler.tosses():
             self.switch()
         return value
+
+    def trace(self, point: int) -> None:
+        """A statement is about to be executed."""
+        self.controller.statements.reached(self, point)
 
     def exit(self) -> None:
         """EXIT [K §4.9]."""

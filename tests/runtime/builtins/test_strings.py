@@ -4,6 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.text import (
@@ -13,17 +14,7 @@ from rapidgen.runtime.text import (
     parse_value,
     value_text,
 )
-from rapidgen.runtime.values import (
-    BOOL,
-    DNUM,
-    NUM,
-    STRING,
-    Orient,
-    Pos,
-    Pose,
-    RobTarget,
-    single,
-)
+from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Orient, Pos, Pose, RobTarget
 
 
 @pytest.mark.parametrize(

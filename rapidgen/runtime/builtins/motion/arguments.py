@@ -9,18 +9,10 @@ from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.moves import MoveSpeed, Zone
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.robot_data import NO_OFFSETS
-from rapidgen.runtime.values import (
-    ExtJoint,
-    JointTarget,
-    Orient,
-    Pos,
-    Pose,
-    RobJoint,
-    Value,
-    single,
-)
+from rapidgen.runtime.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, Value
 
 RAD = pi / 180
 Offsets: TypeAlias = tuple[float, ...]

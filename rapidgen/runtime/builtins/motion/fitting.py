@@ -6,12 +6,13 @@ FitSphere and Rand's largest value; FitSphere's optional arguments [mem].
 
 from typing import TYPE_CHECKING
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import target_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Orient, Pos, Pose, Ref, Value, single
+from rapidgen.runtime.values import Orient, Pos, Pose, Ref, Value
 
 if TYPE_CHECKING:
     import numpy as np

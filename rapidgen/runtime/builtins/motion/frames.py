@@ -10,12 +10,13 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.mapping import ABSENT
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import quaternion
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, Value, single
+from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, Value
 
 _RAD = pi / 180
 _CLOSEST = 0.1

@@ -6,28 +6,17 @@ end together (`together.py`).
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
 
-from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.builtins.control import wait_standing
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.meetings import Meeting
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
 
 _REFUSED = 49_910
 """Event of ours: ABB's numbers are not public."""
-
-
-@dataclass
-class Meeting:
-    """Tasks that have come to one synchronisation point."""
-
-    members: frozenset[str]
-    arrived: set[str] = field(default_factory=set)
-    changed: WaitSet = field(default_factory=WaitSet)
-    complete: bool = False
 
 
 def _members(task: Task, tasks: Ref) -> frozenset[str]:
@@ -46,7 +35,7 @@ def _meet(
     task: Task, point: object, members: frozenset[str], time_out: float | None, error: str
 ) -> None:
     """Wait until all members are at the point; `error` when `time_out` s passed first."""
-    meetings = task.controller.meetings
+    meetings = task.controller.meetings.points
     meeting = meetings.setdefault((point, members), Meeting(members))
     own = task.name.lower()
     meeting.arrived.add(own)

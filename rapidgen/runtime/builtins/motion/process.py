@@ -8,10 +8,9 @@ TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
-from rapidgen.runtime.errors import FatalError, RapidError, errnum
+from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.task.call_stack import Location
 from rapidgen.runtime.task.process_errors import ProcessError
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
@@ -100,7 +99,7 @@ def define_test_signal(
 @builtin("TestSignRead")
 def read_test_signal(task: Task, channel: float) -> float:
     """The value of a channel. ERR_ARGVALERR: none is defined for it."""
-    value: float | None = task.controller.test_signals.get(int(channel))
+    value = task.controller.test_signals.get(int(channel))
     if value is None:
         raise RapidError("ERR_ARGVALERR", f"channel {channel:g} has no signal")
     return value

@@ -11,6 +11,7 @@ from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
 from rapidgen.runtime.builtins.motion.positions import here_of, load0
@@ -20,7 +21,7 @@ from rapidgen.runtime.motion_faults import NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, Value, single
+from rapidgen.runtime.values import Ref, Value
 
 _LEAST_ACCELERATION = 0.1
 

@@ -11,6 +11,7 @@ from rapidgen.axes.kinematics import (
 )
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import geometry_of
 from rapidgen.runtime.builtins.motion.arguments import (
     Offsets,
@@ -20,7 +21,7 @@ from rapidgen.runtime.builtins.motion.arguments import (
 )
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import FRAMES_CONTRADICT, NO_GEOMETRY, NOT_COMPATIBLE
-from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, Value, single
+from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, Value
 
 
 def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> Carrier:

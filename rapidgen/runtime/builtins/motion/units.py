@@ -5,7 +5,7 @@ Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and 
 
 from rapidgen.config.model import Joint
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of, motion_of
+from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.registry import builtin
@@ -29,7 +29,7 @@ def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
 
 def _external(task: Task, unit: Value) -> tuple[MotionGroup, tuple[str, ...]]:
     """Group and axes of an external unit. FatalError: the robot itself stays active."""
-    for group in motion_of(task).groups.values():
+    for group in task.controller.motion.groups.values():
         axes = _axes_of(group, unit.value)
         if axes is not None:
             return group, axes
@@ -43,7 +43,7 @@ def unit_axis(task: Task, unit: Value, number: float) -> tuple[MotionGroup, Join
     """
     group, axes = group_of(task), None
     if unit is not None:
-        for other in motion_of(task).groups.values():
+        for other in task.controller.motion.groups.values():
             own = _axes_of(other, unit.value)
             if own is not None or unit.value.lower() == other.config.mechanical_unit.lower():
                 group, axes = other, own
@@ -79,7 +79,7 @@ def deact_unit(task: Task, unit: Value) -> None:
 @builtin("IsMechUnitActive")
 def is_mech_unit_active(task: Task, unit: Value) -> bool:
     """Whether a unit is active; a robot always is."""
-    for group in motion_of(task).groups.values():
+    for group in task.controller.motion.groups.values():
         axes = _axes_of(group, unit.value)
         if axes is not None:
             return not group.inactive.intersection(axes)
@@ -101,7 +101,7 @@ def get_next_mech_unit(
     may_deactivate: Ref | None,
 ) -> bool:
     """The next unit of the list: 0 begins it. FALSE behind the last one."""
-    motion = motion_of(task)
+    motion = task.controller.motion
     units = [
         (group, unit, place)
         for place, group in enumerate(motion.groups.values(), 1)

@@ -15,7 +15,7 @@ Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Operation:
+class Work:
     """What every part of one run needs to know."""
 
     transport: Transport
@@ -35,7 +35,7 @@ class Operation:
         return self.home + STATE
 
 
-def write(work: Operation, path: str, data: bytes) -> None:
+def write(work: Work, path: str, data: bytes) -> None:
     """Write a file and read it back; once more when it differs.
 
     Raises TransportFault RG526 when it differs again.
@@ -51,7 +51,7 @@ def write(work: Operation, path: str, data: bytes) -> None:
     raise differs(path)
 
 
-def swap(work: Operation, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
+def swap(work: Work, where: str, suffix: str, data: bytes, *, exists: bool) -> None:
     """Put a staged file in place by the smallest step that there is."""
     if work.mode == "none":
         write(work, where, data)
@@ -61,7 +61,7 @@ def swap(work: Operation, where: str, suffix: str, data: bytes, *, exists: bool)
     work.transport.rename(where + suffix, where)
 
 
-def delete(work: Operation, path: str) -> None:
+def delete(work: Work, path: str) -> None:
     """Delete a file that may be gone already."""
     try:
         work.transport.delete(path)
@@ -70,7 +70,7 @@ def delete(work: Operation, path: str) -> None:
             raise
 
 
-def delete_all(work: Operation, paths: Iterable[str]) -> None:
+def delete_all(work: Work, paths: Iterable[str]) -> None:
     """Delete those of the files that are there: one listing a folder."""
     folders: dict[str, list[str]] = {}
     for path in paths:
@@ -82,7 +82,7 @@ def delete_all(work: Operation, paths: Iterable[str]) -> None:
                 delete(work, path)
 
 
-def delete_folder(work: Operation, folder: str) -> None:
+def delete_folder(work: Work, folder: str) -> None:
     """Delete a folder if it is there and empty; one that refuses stays."""
     try:
         if not work.transport.entries(folder):
