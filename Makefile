@@ -3,29 +3,42 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 STAMP := $(VENV)/.made
+# `time` of bash says what a step of the gate has cost.
+SHELL := /bin/bash
+export TIMEFORMAT = %U s of CPU, %R s
 
-.PHONY: demo test lint types contract unit wheel foreign mutants bench motion-campaign driver-day driver-days runtime-mutants clean
+.PHONY: demo test lint types contract unit wheel driver-hours room picture foreign campaigns clean
 
 demo: $(STAMP)
 	$(BIN)/rapidgen demo
 
-test: lint types contract wheel driver-day unit
+test: lint types contract wheel driver-hours unit
 
 $(STAMP): pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --upgrade "pip>=25.1"
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --group dev --editable .
+	test ! -e .git || $(BIN)/pre-commit install || echo "no hook of pre-commit is installed: git has refused"
 	touch $@
 
 lint: $(STAMP)
-	$(BIN)/ruff check
+	time $(BIN)/ruff check
 	$(BIN)/ruff format --check
 
 types: $(STAMP)
-	$(BIN)/mypy
+	time $(BIN)/mypy
 
 contract: $(STAMP)
+	time $(BIN)/lint-imports
+
+# Lint, types and tests of one room: `make room ROOM=axes`.
+room: $(STAMP)
+	@test -d rapidgen/$(ROOM) -a -n "$(ROOM)" || { echo "ROOM is one of:" $(notdir $(patsubst %/,%,$(wildcard rapidgen/*/))); false; }
+	$(BIN)/ruff check rapidgen/$(ROOM) $(wildcard tests/$(ROOM))
+	$(BIN)/ruff format --check rapidgen/$(ROOM) $(wildcard tests/$(ROOM))
+	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/python -m pytest -n auto tests/$(ROOM)
 
 # The wheel, in an environment of its own, does the demo: templates/ and robots/ travel. What it
 # depends on is kept from run to run; the wheel itself is always new.
@@ -34,7 +47,7 @@ wheel: $(STAMP) $(WHEEL)/env/.made
 	rm -rf $(WHEEL)/dist $(WHEEL)/demo
 	$(BIN)/python -m build --wheel --no-isolation --outdir $(WHEEL)/dist . >$(WHEEL)/build.log 2>&1 || (cat $(WHEEL)/build.log; false)
 	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check --force-reinstall --no-deps $(WHEEL)/dist/*.whl
-	cd $(WHEEL) && env/bin/rapidgen demo --output demo
+	cd $(WHEEL) && time env/bin/rapidgen demo --output demo
 
 $(WHEEL)/env/.made: pyproject.toml $(STAMP)
 	rm -rf $(WHEEL)/env $(WHEEL)/dist && mkdir -p $(WHEEL)
@@ -43,9 +56,17 @@ $(WHEEL)/env/.made: pyproject.toml $(STAMP)
 	$(WHEEL)/env/bin/python -m pip install --quiet --disable-pip-version-check $(WHEEL)/dist/*.whl
 	touch $@
 
+# The generated driver for some simulated hours; `make driver-day` is the long form.
+driver-hours: $(STAMP)
+	time $(BIN)/python benchmarks/campaign.py days --hours 4 --watched 0.25
+
 # Last, so that pytest's own summary closes the output.
 unit: $(STAMP)
 	$(BIN)/python -m pytest -n auto
+
+# The picture of docs/develop/architecture.md, drawn again from the code.
+picture: $(STAMP)
+	$(BIN)/python -m tests.docs.picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
 # PROGRAM the trial (abb_driver, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).
@@ -53,31 +74,60 @@ PROGRAM = trial
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
 
-# Has each conformance file of the language a defect that turns it red? Some minutes on one core.
-mutants: $(STAMP)
+# What takes too long for `make test`, each with its time on two cores: `make campaigns` lists them.
+campaigns:
+	@sed -n 's/^\([a-z-]*\):.*## \([^:]*\): \(.*\)/\1|\2|\3/p' Makefile | \
+		while IFS='|' read -r name time what; do printf '%-20s%-14s%s\n' "$$name" "$$time" "$$what"; done
+
+properties: $(STAMP) ## 15 min: every property test with examples of its own drawing, more of them
+	RAPIDGEN_PROPERTIES=campaign $(BIN)/python -m pytest -n auto -m hypothesis --timeout 0
+
+suite: $(STAMP) ## 8 min: every case of `rapidgen test`, under every setting of the controller
+	$(BIN)/rapidgen test irb120
+
+mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance file
 	$(BIN)/python benchmarks/conformance_mutants.py
 
-# Those that take minutes and need nothing; the others are campaigns, or need an argument.
-BENCHES := startup parsing kernels backup motion state client deploy driver streaming
-bench: $(STAMP)
-	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
+runtime-mutants: $(STAMP) ## 15 min: the same for the conformance files of the runtime
+	$(BIN)/python benchmarks/conformance_mutants_runtime.py
 
-# 10,000 random programs with random stops: some 5 minutes. The tests run a few of them.
-motion-campaign: $(STAMP)
+driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the suite notices
+	$(BIN)/python benchmarks/mutation.py --jobs 2 --budget 4 --output build/mutation.jsonl irb120
+
+motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
-# The generated driver for 24 simulated hours: a trajectory every ten minutes, a client that reads
-# the state for a quarter of the time. A minute.
-driver-day: $(STAMP)
+exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
+	$(BIN)/python benchmarks/exploration.py --jobs 2
+
+driver-frames: $(STAMP) ## 30 min: 100,000 malformed openings, each followed by a good client
+	$(BIN)/python benchmarks/campaign.py frames --jobs 2
+
+driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minutes, the state read
 	$(BIN)/python benchmarks/campaign.py days --hours 24 --watched 0.25
 
-# 30 simulated days, the state read all the time: an hour and more.
-driver-days: $(STAMP)
+driver-days: $(STAMP) ## 2 h: 30 simulated days, the state read all the time
 	$(BIN)/python benchmarks/campaign.py days --hours 720
 
-# A mutant of the runtime for each of its conformance files: some 15 minutes. The tests run a sample.
-runtime-mutants: $(STAMP)
-	$(BIN)/python benchmarks/conformance_mutants_runtime.py
+deploy-cuts: $(STAMP) ## 10 min: every cut of every deployment, garbled answers of servers
+	$(BIN)/python benchmarks/deploy.py --cuts
+
+endurance: $(STAMP) ## 2 min: memory of an idle driver that is watched for ten simulated hours
+	$(BIN)/python benchmarks/endurance.py
+
+many-controllers: $(STAMP) ## 2 min: 50 controllers in real time, how late their states come
+	$(BIN)/python benchmarks/many_controllers.py
+
+BENCHES := startup parsing kernels backup motion state client deploy driver streaming
+bench: $(STAMP) ## 10 min: the figures of docs/develop/performance.md that need no argument
+	for name in $(BENCHES); do $(BIN)/python benchmarks/$$name.py || exit 1; done
+
+# OLD and NEW are interpreters of environments that have two trees of this project in them. (Whether
+# they behave the same: `python benchmarks/unmoved.py`.)
+side-by-side: $(STAMP) ## 15 min: what has become slower between two trees; OLD=... NEW=...
+	$(BIN)/python benchmarks/side_by_side.py $(OLD) $(NEW)
+
+.PHONY: $(shell sed -n 's/^\([a-z-]*\):.*\#\# .*/\1/p' Makefile)
 
 clean:
 	rm -rf $(VENV) build dist .mypy_cache .ruff_cache .pytest_cache

@@ -170,8 +170,7 @@ class Running:
 
 
 def robot_at(running, **options):
-    robot = Robot("127.0.0.1", timeouts=Timeouts(send=30, reply=60, **options))
-    robot.address = running.address()
+    robot = Robot(str(running.address()), timeouts=Timeouts(send=30, reply=60, **options))
     return robot
 
 
@@ -263,7 +262,7 @@ def stopping(seconds, stops):
         loader = threading.Thread(target=load, daemon=True)
         loader.start()
         time.sleep(0.5)
-        channel = robot._channels[Port.CONTROL]
+        channel = robot._carrier._channels[Port.CONTROL]
         latencies = []
         for _ in range(stops):
             begun = time.monotonic_ns()
@@ -351,12 +350,10 @@ def serve_many(pipe, options, _):
 
 
 def watching(robots, seconds):
-    from rapidgen.client.address import Address
 
     async def watch(ports):
-        watched = [AsyncRobot("127.0.0.1", watch=True) for _ in ports]
-        for robot, port in zip(watched, ports, strict=True):
-            robot.address = Address("127.0.0.1", port, port)
+        watched = [AsyncRobot(f"127.0.0.1:{port},{port}", watch=True) for port in ports]
+        for robot in watched:
             await robot.connect()
         cpu, wall = time.process_time(), time.monotonic()
         before = [robot.state.number for robot in watched]

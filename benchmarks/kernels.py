@@ -336,7 +336,7 @@ def measure(rounds: int) -> dict[str, dict[str, float]]:
                     results[name] = _ratio(lambda name=name: task.call(name), kernel, rounds)
 
             task.launch(body)
-            controller.kernel.advance()
+            controller.scheduler.advance()
     gc.enable()
     return results
 

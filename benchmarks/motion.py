@@ -17,10 +17,12 @@ from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionGroup, MotionSystem
-from rapidgen.motion.moves import CartesianMove, JointMove, Move, Speed, Zone
-from rapidgen.runtime.switches import Dialect
+from rapidgen.motion.moves import CartesianMove, JointMove, Move, MoveSpeed, Zone
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.model import System
+from rapidgen.system.model import System, TaskSpec
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 ZONE = Zone(tcp=0.01, orientation=0.015, external=0.015, angle=0.026)
@@ -35,7 +37,8 @@ def run(moves: Callable[[MotionGroup], list[Move]], period: float = 0.0) -> tupl
     group = MotionSystem(scheduler, [config], log, io).group(config.name)
     group.jump(HOME)
     program = moves(group)
-    task = Task(scheduler, "T_ROB1", SimpleNamespace(dialect=Dialect()))
+    controller = SimpleNamespace(dialect=Switches(), options=Options())
+    task = Task(scheduler, TaskSpec("T_ROB1"), controller, Shared())
     ended = 0
 
     def body() -> None:
@@ -65,7 +68,7 @@ def joint_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
         return [
             JointMove(
                 target=(0.02 * (k % 7), 0.2, 0.1 + 0.01 * (k % 3), 0.0, 0.6, 0.01 * k / count),
-                speed=Speed(0.2),
+                speed=MoveSpeed(0.2),
                 zone=ZONE if k < count - 1 else Zone(fine=True),
                 time=0.1,
             )
@@ -84,7 +87,7 @@ def linear_moves(count: int) -> Callable[[MotionGroup], list[Move]]:
             CartesianMove(
                 target=(frames.add(start[0], (0.0, 0.02 * (k % 2), 0.02 * (k // 2 % 2))), start[1]),
                 external=HOME,
-                speed=Speed(0.2),
+                speed=MoveSpeed(0.2),
                 zone=ZONE if k < count - 1 else Zone(fine=True),
             )
             for k in range(1, count + 1)

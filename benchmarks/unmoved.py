@@ -157,7 +157,8 @@ def either(*names: str) -> object:
 def trace(path: Path) -> dict[str, object]:
     controller_room = either("rapidgen.controller", "rapidgen.virtual")
     tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
-    dialects = either("rapidgen.runtime.switches", "rapidgen.virtual.dialect")
+    switches = either("rapidgen.runtime.switches", "rapidgen.virtual.dialect")
+    parse = getattr(switches, "parse_switches", None) or switches.parse_dialect
     mechanics = either("rapidgen.controller.mechanics", "rapidgen.virtual.mechanics")
     load_config = importlib.import_module("rapidgen.config").load_config
     model = importlib.import_module("rapidgen.system.model")
@@ -188,7 +189,7 @@ def trace(path: Path) -> dict[str, object]:
         cycle="once",
         autostart=False,
         tracing=True,
-        dialect=dialects.parse_dialect(",".join(marks("dialect"))),
+        dialect=parse(",".join(marks("dialect"))),
     ) as controller:
         tracing.Trace(controller, stream)
         controller.operator.subscribe(lambda _, line: printed.append(line))

@@ -1,7 +1,15 @@
-"""How property tests draw: the same examples in every run, or anew in a campaign."""
+"""How property tests draw, and what the tests of each room cost.
+
+Property tests draw the same examples in every run; RAPIDGEN_PROPERTIES=campaign draws anew.
+"""
 
 import os
+import resource
+import time
+from collections import Counter
+from pathlib import Path
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 # Nothing here judges time (a busy machine is no defect), and no failure of an earlier run is tried
@@ -20,3 +28,73 @@ _SETTINGS = settings(
 settings.register_profile("gate", _SETTINGS, derandomize=True)
 settings.register_profile("campaign", _SETTINGS, derandomize=False, max_examples=1000)
 settings.load_profile(os.environ.get("RAPIDGEN_PROPERTIES", "gate"))
+
+COLLECTING = "(start, imports, collection)"
+HERE = Path(__file__).parent
+
+
+def cpu_seconds() -> float:
+    """s of CPU of this process and of those that it has started and seen end."""
+    children = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + children.ru_utime + children.ru_stime
+
+
+class Cost:
+    """CPU time by folder below tests/, and of the dearest tests, if `--durations N` asks.
+
+    A worker of xdist tells its own at its end.
+    """
+
+    def __init__(self) -> None:
+        self.seconds: Counter[str] = Counter()
+        self.tests: Counter[str] = Counter()
+        self.each: Counter[str] = Counter()
+
+    @pytest.hookimpl(trylast=True)
+    def pytest_collection_finish(self) -> None:
+        self.seconds[COLLECTING] += cpu_seconds()
+
+    @pytest.hookimpl(wrapper=True, tryfirst=True)
+    def pytest_runtest_protocol(self, item):
+        began = cpu_seconds()
+        try:
+            return (yield)
+        finally:
+            folder, spent = room(item.path), cpu_seconds() - began
+            self.seconds[folder] += spent
+            self.tests[folder] += 1
+            self.each[item.nodeid] += spent
+
+    def pytest_sessionfinish(self, session) -> None:
+        if hasattr(session.config, "workeroutput"):
+            session.config.workeroutput["cost"] = [
+                dict(told) for told in (self.seconds, self.tests, self.each)
+            ]
+
+    @pytest.hookimpl(optionalhook=True)
+    def pytest_testnodedown(self, node) -> None:
+        for mine, told in zip(
+            (self.seconds, self.tests, self.each),
+            getattr(node, "workeroutput", {}).get("cost", ()),
+            strict=False,  # a worker that was killed has told nothing
+        ):
+            mine.update(told)
+
+    def pytest_terminal_summary(self, terminalreporter) -> None:
+        terminalreporter.section("CPU time by folder")
+        for folder, seconds in self.seconds.most_common():
+            number = f"{self.tests[folder]:5} tests" if self.tests[folder] else ""
+            terminalreporter.write_line(f"{seconds:7.1f} s  {folder:<30}{number}")
+        terminalreporter.write_line(f"{self.seconds.total():7.1f} s  together")
+        for name, seconds in self.each.most_common(terminalreporter.config.option.durations or 0):
+            terminalreporter.write_line(f"{seconds:7.1f} s  {name}")
+
+
+def room(path: Path) -> str:
+    """The folder of tests/ that a test file belongs to."""
+    inside = path.relative_to(HERE).parts if path.is_relative_to(HERE) else path.parts[-1:]
+    return inside[0] if len(inside) > 1 else "tests"
+
+
+def pytest_configure(config) -> None:
+    config.pluginmanager.register(Cost(), "cost")

@@ -19,7 +19,8 @@ from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles, WristArm
 from rapidgen.config.model import ChainLink, GroupConfig
 
 Posture = tuple[float, ...]
-Configuration = tuple[int, int, int, int]
+"""Controller axis values in wire order, rad and m."""
+AxisConfiguration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
 ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
 """How far axes 1, 4 and 6 may be from their quarters, see `Kinematics.room`."""
@@ -112,9 +113,8 @@ class Kinematics:
         values = self.map.to_urdf(posture)
         if self._arm is None:
             return _along(self.steps, values)
-        arm, first, signs, places = self._arm
-        angles = tuple([s * values[i] for s, i in zip(signs, places, strict=True)])
-        pose = arm.forward(angles)  # type: ignore[arg-type]
+        arm, first, _, _ = self._arm
+        pose = arm.forward(self._robot_angles(values))
         base = _along(self.steps[:first], values) if first else None
         return pose if base is None else frames.compose(base, pose)
 
@@ -176,7 +176,8 @@ class Kinematics:
     def _robot_angles(self, values: Posture) -> Angles:
         assert self._arm is not None
         _, _, signs, places = self._arm
-        return tuple([s * values[i] for s, i in zip(signs, places, strict=True)])  # type: ignore[return-value]
+        a, b, c, d, e, f = [s * values[i] for s, i in zip(signs, places, strict=True)]
+        return a, b, c, d, e, f
 
     def _from_base(self, pose: Pose, values: Posture) -> Pose:
         assert self._arm is not None
@@ -240,7 +241,7 @@ class Kinematics:
 
     # -- configuration ----------------------------------------------------------------------
 
-    def configuration(self, posture: Posture) -> Configuration:
+    def configuration(self, posture: Posture) -> AxisConfiguration:
         """confdata of a posture: quarter turns of axes 1, 4 and 6, and cfx.
 
         cfx (memory of RobotWare): +4 wrist centre behind axis 1, +2 behind the lower arm, +1
@@ -258,7 +259,7 @@ class Kinematics:
             x = 4 * back + 2 * behind + (posture[self._axes["rax_5"]] < 0)
         return quarters[0], quarters[1], quarters[2], x
 
-    def misfit(self, posture: Posture, wanted: Configuration) -> float | None:
+    def misfit(self, posture: Posture, wanted: AxisConfiguration) -> float | None:
         """Quarters (m) by which the worst of axes 1, 4 and 6 is outside its own; 0: none is.
 
         None: another cfx. With axis 5 at zero both its signs fit.
@@ -284,14 +285,14 @@ class Kinematics:
         return 1.5 if check == "turn" and self._tells_branches else 0.5
 
     def matches(
-        self, posture: Posture, wanted: Configuration, check: ConfigurationCheck = "turn"
+        self, posture: Posture, wanted: AxisConfiguration, check: ConfigurationCheck = "turn"
     ) -> bool:
         """Whether a posture has a configuration."""
         misfit = self.misfit(posture, wanted)
         return misfit is not None and misfit <= self.room(check) + _NEAR
 
     def fitting(
-        self, postures: Sequence[Posture], wanted: Configuration, check: ConfigurationCheck
+        self, postures: Sequence[Posture], wanted: AxisConfiguration, check: ConfigurationCheck
     ) -> Posture | None:
         """Of the postures that have a configuration the best one, the first of equal ones."""
         best, least = None, self.room(check) + _NEAR

@@ -128,17 +128,17 @@ def thin(times: Array, positions: Array, shortest: float, tolerance: float) -> A
     stamps = np.asarray(times, dtype=np.float64)
     points = np.asarray(positions, dtype=np.float64)
     _segments(stamps, points)
-    keep = [0]
+    chosen = [0]
     last = len(stamps) - 1
-    while keep[-1] < last:
-        start = keep[-1]
+    while chosen[-1] < last:
+        start = chosen[-1]
         end = start + 1
         while end < last and stamps[end] - stamps[start] < shortest - 1e-9:
             if not _is_straight(stamps, points, start, end + 1, tolerance):
                 break
             end += 1
-        keep.append(end)
-    return np.array(keep)
+        chosen.append(end)
+    return np.array(chosen)
 
 
 def _is_straight(stamps: Array, points: Array, start: int, end: int, tolerance: float) -> bool:

@@ -12,9 +12,9 @@ from typing import TypeAlias
 from rapidgen.axes.frames import Pose, Quaternion, Vector, conjugate, multiply, rotate
 
 Angles: TypeAlias = tuple[float, float, float, float, float, float]
-Branch: TypeAlias = tuple[bool, bool, bool]
+ArmBranch: TypeAlias = tuple[bool, bool, bool]
 """Wrist centre behind axis 1, elbow turned over, axis 5 negative."""
-BRANCHES: tuple[Branch, ...] = tuple(
+BRANCHES: tuple[ArmBranch, ...] = tuple(
     (back, elbow, flip)
     for back in (False, True)
     for elbow in (False, True)
@@ -67,7 +67,7 @@ class WristArm:
         cb, sb = cos(bend / 2), sin(bend / 2)
         return c1 * cb, -s1 * sb, c1 * sb, s1 * cb
 
-    def branch(self, angles: Angles) -> Branch:
+    def branch(self, angles: Angles) -> ArmBranch:
         """On which of the eight branches a posture lies."""
         (length2, rise2), (length3, rise3) = self.upper, self.fore
         along = (
@@ -78,7 +78,7 @@ class WristArm:
         # The forearm hangs forward of the upper arm while it is turned clockwise from it.
         return along < 0.0, sin(rise3 - angles[2] - rise2) > 0.0, angles[4] < 0.0
 
-    def solve(self, pose: Pose, branch: Branch, near4: float) -> Angles | None:
+    def solve(self, pose: Pose, branch: ArmBranch, near4: float) -> Angles | None:
         """Angles within +-pi of a flange pose on one branch; None: out of reach.
 
         `near4` is axis 4 where axes 4 and 6 are in line and only their sum is determined.

@@ -6,6 +6,7 @@ Exit codes: 0 done or clean, 1 findings, failed or refused, 2 bad input or usage
 import errno
 import gc
 import os
+import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
@@ -79,23 +80,26 @@ def main(words: list[str]) -> int:
     try:
         result = command.main(args=words, prog_name="rapidgen", standalone_mode=False)
         sys.stdout.flush()
-    except DiagnosticError as error:
-        _show(error.diagnostics)
-        return error.exit_code
-    except TyperException as error:
-        _show((_usage(error),))
+    except DiagnosticError as fault:
+        _show(fault.diagnostics)
+        return fault.exit_code
+    except TyperException as fault:
+        _show((_usage(fault),))
         return 2
     except (KeyboardInterrupt, typer.Abort):
         sys.stderr.write("\nstopped\n")
         return 130
     except BrokenPipeError:
-        # The reader has gone (`| head`): nothing is left to say, and nobody to say it to.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 141
-    except OSError as error:
-        if error.filename is None and error.errno not in _MACHINE | {errno.ENOENT}:
+        return _unheard()
+    except SystemExit as left:
+        # typer's own answer to a broken pipe; it leaves so for nothing else but completion.
+        if isinstance(left.__context__, BrokenPipeError):
+            return _unheard()
+        raise
+    except OSError as fault:
+        if fault.filename is None and fault.errno not in _MACHINE | {errno.ENOENT}:
             raise
-        return _refused(error)
+        return _refused(fault)
     return result if isinstance(result, int) else 0
 
 
@@ -156,31 +160,37 @@ def _root(
     pass
 
 
-def _refused(error: OSError) -> int:
-    """Say what the operating system refused; the exit code."""
-    from rapidgen.diagnostics import Diagnostic, Severity
+def _unheard() -> int:
+    """The reader has gone (`| head`): nothing is left to say, and nobody to say it to."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return 128 + signal.SIGPIPE
 
-    if error.filename is not None:
-        message, mend = f"cannot use {error.filename}", "free it, or name another one"
-    elif error.errno in _MACHINE:
+
+def _refused(fault: OSError) -> int:
+    """Say what the operating system refused; the exit code."""
+    from rapidgen.diagnostics import error
+
+    if fault.filename is not None:
+        message, mend = f"cannot use {fault.filename}", "free it, or name another one"
+    elif fault.errno in _MACHINE:
         # What could not be written to stdout must not be tried again when Python ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         message, mend = "cannot go on", "look at where the output goes, and at the disk"
     else:
         message, mend = "cannot go on", "is the folder that you are in still there?"
-    text = f"{message}: {error.strerror}"
-    _show((Diagnostic("RG903", Severity.ERROR, text, help=mend),))
-    return 2 if error.errno in _BAD_PATH else 1
+    text = f"{message}: {fault.strerror}"
+    _show((error("RG903", None, text, mend),))
+    return 2 if fault.errno in _BAD_PATH else 1
 
 
 def _empty_argument() -> "Diagnostic":
-    from rapidgen.diagnostics import Diagnostic, Severity
+    from rapidgen.diagnostics import error
 
-    return Diagnostic(
+    return error(
         "RG901",
-        Severity.ERROR,
+        None,
         "an argument is empty",
-        help="is a variable of your shell not set? The folder you are in is called `.`",
+        "is a variable of your shell not set? The folder you are in is called `.`",
     )
 
 
@@ -191,15 +201,15 @@ def _show(found: "tuple[Diagnostic, ...]") -> None:
     sys.stderr.write(render(found, colour=use_colour()))
 
 
-def _usage(error: TyperException) -> "Diagnostic":
-    from rapidgen.diagnostics import Diagnostic, Severity
+def _usage(fault: TyperException) -> "Diagnostic":
+    from rapidgen.diagnostics import error
 
-    context = getattr(error, "ctx", None)
+    context = getattr(fault, "ctx", None)
     path = context.command_path if context is not None else "rapidgen"
-    message = (error.format_message() or "nothing to do").rstrip(".")
-    return Diagnostic(
-        code="RG901",
-        severity=Severity.ERROR,
-        message=message[0].lower() + message[1:],
-        help=f"`{path} --help` shows what can be said here",
+    message = (fault.format_message() or "nothing to do").rstrip(".")
+    return error(
+        "RG901",
+        None,
+        message[0].lower() + message[1:],
+        f"`{path} --help` shows what can be said here",
     )

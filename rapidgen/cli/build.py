@@ -5,21 +5,20 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.generate import Change, Output
 
 
 def build(
-    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    config: options.Config,
     out: Annotated[
         Path | None,
         typer.Option("--out", "-o", help="Output folder; default rapid_out/NAME.", metavar="DIR"),
     ] = None,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
+    overrides: options.Overrides = None,
     package_path: Annotated[
         list[Path] | None,
         typer.Option(help="Folder with ROS packages, for $(find ...) in a xacro.", metavar="DIR"),
@@ -74,17 +73,15 @@ def _summary(output: "Output", folder: Path) -> str:
 
 
 def _differs(folder: Path, changes: "list[Change]") -> None:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     paths = ", ".join(change.path for change in changes[:5])
     more = f" and {len(changes) - 5} more" if len(changes) > 5 else ""
-    raise DiagnosticError(
-        Diagnostic(
-            "RG104",
-            Severity.ERROR,
-            f"{folder} is not what the configuration gives: {paths}{more}",
-            help="look with --diff, then build",
-        ),
+    raise refusal(
+        "RG104",
+        None,
+        f"{folder} is not what the configuration gives: {paths}{more}",
+        "look with --diff, then build",
         exit_code=1,
     )
 

@@ -56,10 +56,10 @@ def check(
                 _cfg(path)
             else:
                 modules += _modules(path)
-        except DiagnosticError as error:
+        except DiagnosticError as fault:
             if not path.exists():
                 raise
-            found += error.diagnostics
+            found += fault.diagnostics
     found += _files(modules, dialect)
     import sys
 
@@ -72,20 +72,18 @@ def check(
 
 
 def _dialect(robotware: str | None) -> "Dialect | None":
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
     from rapidgen.rapid import Dialect
 
     if robotware is None:
         return None
     major, _, minor = robotware.partition(".")
     if not major.isdigit() or not (minor == "" or minor.isdigit()) or not 5 <= int(major) <= 7:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG901",
-                Severity.ERROR,
-                f"'{robotware}' is not a RobotWare version",
-                help="give 5, 6 or 7, with a minor version if it matters: 6.15",
-            )
+        raise refusal(
+            "RG901",
+            None,
+            f"'{robotware}' is not a RobotWare version",
+            "give 5, 6 or 7, with a minor version if it matters: 6.15",
         )
     # A major version alone means all of that line.
     return Dialect((int(major), int(minor) if minor else 99))
@@ -128,8 +126,8 @@ def _files(paths: list[Path], dialect: "Dialect | None") -> "list[Diagnostic]":
     for path in paths:
         try:
             modules += _parsed([path], dialect)
-        except DiagnosticError as error:
-            found += error.diagnostics
+        except DiagnosticError as fault:
+            found += fault.diagnostics
     if len(modules) == 1:
         return found + check_rapid(modules[0], dialect=dialect)
     return found + check_rapid(modules, dialect=dialect, gaps=True)
@@ -198,8 +196,8 @@ def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> "list[Diagn
     for folder in (system.home, *(f for f in sorted(system.home.rglob("*")) if f.is_dir())):
         try:
             files = [file for file in module_files(folder) if str(file) not in loaded]
-        except DiagnosticError as error:
-            found += error.diagnostics
+        except DiagnosticError as fault:
+            found += fault.diagnostics
             continue
         for file in files:
             found += _files([file], dialect)
@@ -226,13 +224,11 @@ def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[P
 
 
 def _nothing(given: str) -> Exception:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
-    return DiagnosticError(
-        Diagnostic(
-            "RG904",
-            Severity.ERROR,
-            f"there is nothing to check at {given}",
-            help="name a configuration, a RAPID file, a folder with modules or a backup",
-        )
+    return refusal(
+        "RG904",
+        None,
+        f"there is nothing to check at {given}",
+        "name a configuration, a RAPID file, a folder with modules or a backup",
     )

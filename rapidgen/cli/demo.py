@@ -101,13 +101,13 @@ def _report(
 def _draw(
     output: Path, trajectory: "Trajectory", recording: "JointRecording", group: "GroupConfig"
 ) -> None:
-    from rapidgen.view.plot import Curve, write_plot
+    from rapidgen.view.plot import PlottedCurve, write_plot
 
     png, html = output / "demo.png", output / "demo.html"
     write_plot(
         png,
         html,
-        [Curve("commanded", trajectory), Curve("executed", recording.trajectory())],
+        [PlottedCurve("commanded", trajectory), PlottedCurve("executed", recording.trajectory())],
         title=f"{group.model or group.name}: commanded and executed joints",
         prismatic=[j.name for j in group.joints if j.kind == "prismatic"],
     )

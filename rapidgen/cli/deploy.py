@@ -5,40 +5,23 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def deploy(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
-    to: Annotated[
-        list[str],
-        typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
-            metavar="URL",
-        ),
-    ],
+    config: options.ConfigOrFolder,
+    to: options.Controllers,
     plan: Annotated[
         Path | None, typer.Option(help="Do exactly this plan, or refuse.", metavar="FILE")
     ] = None,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
-    ] = False,
-    yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
-    ] = False,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
-    parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
+    overwrite: options.Overwrite = False,
+    yes: options.Yes = False,
+    overrides: options.Overrides = None,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
+    parallel: options.Parallel = 8,
 ) -> int:
     """Put the driver on one or several controllers: backup, upload, verify, switch.
 
@@ -47,39 +30,26 @@ def deploy(
 
     rapidgen deploy cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME"
     """
+    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
-        apply_all,
+        FleetJob,
         check_plans,
-        confirm,
         plan_all,
         refuse_conflicts,
         wanted_set,
     )
-    from rapidgen.deploy.show import plan_text, table
     from rapidgen.deploy.target import Access
-    from rapidgen.diagnostics import DiagnosticError
 
     wanted = wanted_set(config, overrides or ())
     access = Access(user, secrets, identity, known_hosts, ask=True)
-    job = Job("deploy", parse_targets(to), access, lambda _: wanted, overwrite, parallel)
+    job = FleetJob("deploy", parse_targets(to), access, lambda _: wanted, overwrite, parallel)
     plans = plan_all(job)
-    for made in plans:
-        typer.echo(plan_text(made), err=True, nl=False)
+    show_plans(plans)
     if plan is not None:
         check_plans(plan, plans)
     refuse_conflicts(job, plans)
     if all(made.is_empty for made in plans):
         return 0
-    confirm(
-        f"Change {sum(not p.is_empty for p in plans)} controller(s)?",
-        yes=yes,
-        ask=lambda text: typer.confirm(text, err=True),
-    )
-    outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
-    typer.echo(table(outcomes), nl=False)
-    failures = [o.error for o in outcomes if o.error is not None]
-    if failures:
-        raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)
-    return 0
+    make_sure(f"Change {sum(not p.is_empty for p in plans)} controller(s)?", yes=yes)
+    return carry_out(job, plans)

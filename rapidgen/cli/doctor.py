@@ -1,15 +1,14 @@
 """`rapidgen doctor`: what stands between a configuration and its controller."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def doctor(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
+    config: options.ConfigOrFolder,
     to: Annotated[
         str,
         typer.Option(
@@ -19,18 +18,11 @@ def doctor(
     host: Annotated[
         str, typer.Option(help="Where the robot's ports are; default the host of the URL.")
     ] = "",
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
+    overrides: options.Overrides = None,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array.")] = False,
 ) -> int:
     """Look at a controller: reach, ports, names, RobotWare, disk, what runs.
@@ -73,13 +65,15 @@ def _hello(host: str, port: int, timeout: float = 3.0) -> str | None:
     from rapidgen import __version__
     from rapidgen.wire.simple_message.codec import decode, encode
     from rapidgen.wire.simple_message.frames import FrameSplitter, WireError
-    from rapidgen.wire.simple_message.messages import Hello, HelloReply
+    from rapidgen.wire.simple_message.messages import HelloReply, HelloRequest
     from rapidgen.wire.simple_message.spec import PROTOCOL_VERSION, Comm
 
     major, minor, patch = (int(part) for part in __version__.split(".")[:3])
     end = time.monotonic() + timeout
     with socket.create_connection((host, port), timeout) as connection:
-        connection.sendall(encode(Hello(PROTOCOL_VERSION, (major, minor, patch), 0), Comm.REQUEST))
+        connection.sendall(
+            encode(HelloRequest(PROTOCOL_VERSION, (major, minor, patch), 0), Comm.REQUEST)
+        )
         splitter = FrameSplitter()
         try:
             while (left := end - time.monotonic()) > 0:

@@ -9,7 +9,7 @@ def explain(
     code: Annotated[str, typer.Argument(help="A code such as RG012; `all` lists them.")],
 ) -> None:
     """Explain what a diagnostic's code means, with a bad and a good example."""
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+    from rapidgen.diagnostics import refusal, suggest
     from rapidgen.diagnostics.pages import codes, page, title
 
     if code == "all":
@@ -18,12 +18,10 @@ def explain(
         return
     wanted = code.upper()
     if wanted not in codes():
-        raise DiagnosticError(
-            Diagnostic(
-                code="RG902",
-                severity=Severity.ERROR,
-                message=f"no diagnostic has the code '{code}'",
-                help=suggest(wanted, codes()) or "`rapidgen explain all` lists them",
-            )
+        raise refusal(
+            "RG902",
+            None,
+            f"no diagnostic has the code '{code}'",
+            suggest(wanted, codes()) or "`rapidgen explain all` lists them",
         )
     typer.echo(page(wanted), nl=False)

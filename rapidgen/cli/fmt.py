@@ -34,11 +34,11 @@ def fmt(
         before = read_limited(path)
         try:
             after = format_source(before, path=str(path))
-        except DiagnosticError as error:
-            if any(d.severity is Severity.ERROR for d in error.diagnostics):
-                wrong += error.diagnostics
+        except DiagnosticError as fault:
+            if any(d.severity is Severity.ERROR for d in fault.diagnostics):
+                wrong += fault.diagnostics
             else:
-                typer.echo(f"left {path}: {error.diagnostics[0].message}", err=True)
+                typer.echo(f"left {path}: {fault.diagnostics[0].message}", err=True)
             continue
         if after == before:
             continue
@@ -56,7 +56,7 @@ def fmt(
 
 
 def _files(paths: list[Path]) -> list[Path]:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     found: list[Path] = []
     for path in paths:
@@ -69,14 +69,7 @@ def _files(paths: list[Path]) -> list[Path]:
         elif path.exists():
             found.append(path)
         else:
-            raise DiagnosticError(
-                Diagnostic(
-                    "RG904",
-                    Severity.ERROR,
-                    f"there is no {path}",
-                    help="name RAPID files or folders",
-                )
-            )
+            raise refusal("RG904", None, f"there is no {path}", "name RAPID files or folders")
     return found
 
 

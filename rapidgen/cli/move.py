@@ -6,20 +6,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
-    from rapidgen.client.core.motion import Way
+    from rapidgen.client.core.checks import Way
     from rapidgen.diagnostics import Diagnostic
 
 
 def move(
-    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    config: options.Config,
     points: Annotated[Path, typer.Argument(help="CSV `time,<joint names>` (s, rad, m), or JSON.")],
-    to: Annotated[
-        str,
-        typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]"),
-    ] = "",
-    group: Annotated[str, typer.Option(help="Motion group, where there are several.")] = "",
+    to: options.RobotAddress = "",
+    group: options.Group = "",
     yes: Annotated[
         bool, typer.Option("--yes", "-y", help="Do not ask; answers on this machine only.")
     ] = False,
@@ -142,12 +141,11 @@ def _show_plan(robot: "Robot", trajectory: "Trajectory", speed: float, way: "Way
 
 
 def _ask(robot: "Robot") -> None:
-    from rapidgen.client.errors import NotReady, fault
+    from rapidgen.client.errors import NotReady
 
     if not sys.stdin.isatty():
-        raise NotReady(
-            fault("RG641", "nobody is here to be asked: nothing was sent", "--yes answers"),
-            exit_code=2,
+        raise NotReady.because(
+            "RG641", "nobody is here to be asked: nothing was sent", "--yes answers", exit_code=2
         )
     typer.confirm(f"Move the robot at {robot.address}?", abort=True, err=True)
 

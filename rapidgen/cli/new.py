@@ -30,16 +30,14 @@ def new(
 ) -> None:
     """Write a commented configuration that checks and builds."""
     from rapidgen.config.scaffold import assignments, from_shipped, from_urdf, write_new
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, render
+    from rapidgen.diagnostics import refusal, render
 
     if (robot is None) == (urdf is None):
-        raise DiagnosticError(
-            Diagnostic(
-                "RG020",
-                Severity.ERROR,
-                "give either --robot NAME or --urdf PATH",
-                help="`rapidgen robots` lists the shipped models",
-            )
+        raise refusal(
+            "RG020",
+            None,
+            "give either --robot NAME or --urdf PATH",
+            "`rapidgen robots` lists the shipped models",
         )
     if robot is not None:
         text = from_shipped(robot)

@@ -5,37 +5,24 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def plan(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
-    to: Annotated[
-        list[str],
-        typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
-            metavar="URL",
-        ),
-    ],
+    config: options.ConfigOrFolder,
+    to: options.Controllers,
     out: Annotated[
         Path | None, typer.Option(help="Write the plan for `deploy --plan`.", metavar="FILE")
     ] = None,
     detailed_exitcode: Annotated[
         bool, typer.Option("--detailed-exitcode", help="0 nothing to do, 1 error, 2 changes.")
     ] = False,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
-    parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
+    overrides: options.Overrides = None,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
+    parallel: options.Parallel = 8,
 ) -> int:
     """Show what `deploy` would do: files, cfg instances, restarts.
 
@@ -45,7 +32,7 @@ def plan(
     rapidgen plan cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --out plan.json
     """
     from rapidgen.deploy.fleet import parse_targets
-    from rapidgen.deploy.session import Job, plan_all, wanted_set, write_plans
+    from rapidgen.deploy.session import FleetJob, plan_all, wanted_set, write_plans
     from rapidgen.deploy.show import plan_text
     from rapidgen.deploy.target import Access
     from rapidgen.diagnostics import DiagnosticError
@@ -54,7 +41,7 @@ def plan(
         wanted = wanted_set(config, overrides or ())
         access = Access(user, secrets, identity, known_hosts, ask=True)
         plans = plan_all(
-            Job("deploy", parse_targets(to), access, lambda _: wanted, parallel=parallel)
+            FleetJob("deploy", parse_targets(to), access, lambda _: wanted, parallel=parallel)
         )
         if out is not None:
             write_plans(out, plans)

@@ -7,7 +7,7 @@ import typer
 
 if TYPE_CHECKING:
     from rapidgen.client.trajectory import Array
-    from rapidgen.view.plot import Curve
+    from rapidgen.view.plot import PlottedCurve
 
 _MOVES = "moves reached (program) and under way (robot)"
 
@@ -36,7 +36,7 @@ def plot(
     program and robot were in the moves.
     """
     from rapidgen.client.trajectory import Trajectory
-    from rapidgen.view.plot import Curve, write_plot
+    from rapidgen.view.plot import PlottedCurve, write_plot
 
     metres, counts = list(linear or ()), []
     if executed is None and _is_recording(commanded):
@@ -45,9 +45,9 @@ def plot(
         counts.append(_MOVES)
     else:
         label = "commanded" if executed else commanded.stem
-        curves = [Curve(label, Trajectory.from_csv(commanded))]
+        curves = [PlottedCurve(label, Trajectory.from_csv(commanded))]
     if executed is not None:
-        curves.append(Curve("executed", Trajectory.from_csv(executed)))
+        curves.append(PlottedCurve("executed", Trajectory.from_csv(executed)))
     base = out if out is not None else commanded.with_suffix("")
     paths = base.parent / f"{base.name}.png", base.parent / f"{base.name}.html"
     title = " against ".join(str(path.name) for path in (commanded, executed) if path)
@@ -63,34 +63,34 @@ def _is_recording(path: Path) -> bool:
     return path.is_file() and is_recording(path)
 
 
-def _recorded(path: Path) -> "list[Curve]":
+def _recorded(path: Path) -> "list[PlottedCurve]":
     """Curves of a recording. DiagnosticError RG610: it is damaged."""
     import numpy as np
 
     from rapidgen.client.trajectory import Trajectory
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+    from rapidgen.diagnostics import DiagnosticError, Span, error
     from rapidgen.motion.recorder import read_recording
-    from rapidgen.view.plot import Curve
+    from rapidgen.view.plot import PlottedCurve
 
     try:
         found = read_recording(path)
-    except ValueError as error:
-        place = Span(str(path), 1, 1, 0, 0)
-        help = "record again with `controller.record()` and `write_csv`"
-        fault = Diagnostic("RG610", Severity.ERROR, str(error), place, help=help)
-        raise DiagnosticError(fault, exit_code=2) from None
+    except ValueError as raised:
+        mend = "record again with `controller.record()` and `write_csv`"
+        raise DiagnosticError(error("RG610", Span(str(path), 1, 1), str(raised), mend)) from None
     order: dict[str, int] = {}
     for move in (*found.program_pointer, *found.motion_pointer):
         order.setdefault(move, len(order))
 
-    def curve(label: str, joints: "Array", moves: tuple[str, ...], more: "Array | None") -> Curve:
+    def curve(
+        label: str, joints: "Array", moves: tuple[str, ...], more: "Array | None"
+    ) -> PlottedCurve:
         columns = [joints, np.array([[order[move]] for move in moves], dtype=np.float64)]
         names = [*found.joints, _MOVES]
         if more is not None:
             columns.append(more[:, :3])
             names += ["x", "y", "z"]
         positions = np.hstack(columns)
-        return Curve(label, Trajectory(found.time - found.time[0], positions, tuple(names)))
+        return PlottedCurve(label, Trajectory(found.time - found.time[0], positions, tuple(names)))
 
     return [
         curve("commanded", found.commanded, found.program_pointer, found.tcp),

@@ -24,7 +24,7 @@ def probe(
     """
     from rapidgen._data import data_folder
     from rapidgen._writing import write_whole
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     name = "ROS_probe_motion.mod" if moving else "ROS_probe.mod"
     text = (data_folder("templates") / name).read_text(encoding="latin-1")
@@ -33,14 +33,12 @@ def probe(
         return 0
     try:
         write_whole(output, text.encode("latin-1"))
-    except OSError as error:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG802",
-                Severity.ERROR,
-                f"{output} cannot be written: {error.strerror}",
-                help="name a file in a folder that exists and may be written",
-            )
-        ) from error
+    except OSError as fault:
+        raise refusal(
+            "RG802",
+            None,
+            f"{output} cannot be written: {fault.strerror}",
+            "name a file in a folder that exists and may be written",
+        ) from fault
     typer.echo(f"{output}: load it alone into a NORMAL task, PP to main, Start", err=True)
     return 0

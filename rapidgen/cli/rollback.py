@@ -1,43 +1,28 @@
 """`rapidgen rollback`: put an earlier set back on a controller."""
 
-from pathlib import Path
 from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def rollback(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
-    to: Annotated[
-        list[str],
-        typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
-            metavar="URL",
-        ),
-    ],
+    config: options.ConfigOrFolder,
+    to: options.Controllers,
     number: Annotated[
         int | None, typer.Argument(help="Backup to restore; default the newest.", metavar="[ID]")
     ] = None,
     list_backups: Annotated[
         bool, typer.Option("--list", help="Change nothing; list the backups.")
     ] = False,
-    overwrite: Annotated[
-        bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
-    ] = False,
-    yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
-    ] = False,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
-    parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
+    overwrite: options.Overwrite = False,
+    yes: options.Yes = False,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
+    parallel: options.Parallel = 8,
 ) -> int:
     """Go back to the set before the last deployment, or to backup ID. Undoes a run that was cut.
 
@@ -46,20 +31,17 @@ def rollback(
 
     rapidgen rollback cell1.yaml --to "ftp://192.168.125.1/hd0a/SYSTEM/HOME" --list
     """
+    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
-        apply_all,
+        FleetJob,
         config_name,
-        confirm,
         earlier_set,
         history,
         plan_all,
         refuse_conflicts,
     )
-    from rapidgen.deploy.show import plan_text, table
     from rapidgen.deploy.target import Access
-    from rapidgen.diagnostics import DiagnosticError
 
     name = config_name(config)
     targets = parse_targets(to)
@@ -69,7 +51,7 @@ def rollback(
             for past in history(target, access, name):
                 typer.echo(f"{target.shown}  {past.id}  {past.time}  build {past.build_id}")
         return 0
-    job = Job(
+    job = FleetJob(
         "rollback",
         targets,
         access,
@@ -78,17 +60,7 @@ def rollback(
         parallel,
     )
     plans = plan_all(job)
-    for made in plans:
-        typer.echo(plan_text(made), err=True, nl=False)
+    show_plans(plans)
     refuse_conflicts(job, plans)
-    confirm(
-        f"Roll back {len(plans)} controller(s)?",
-        yes=yes,
-        ask=lambda text: typer.confirm(text, err=True),
-    )
-    outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
-    typer.echo(table(outcomes), nl=False)
-    failures = [o.error for o in outcomes if o.error is not None]
-    if failures:
-        raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)
-    return 0
+    make_sure(f"Roll back {len(plans)} controller(s)?", yes=yes)
+    return carry_out(job, plans)

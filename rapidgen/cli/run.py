@@ -6,11 +6,13 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.diagnostics import Diagnostic
     from rapidgen.runtime.errors import FatalError
-    from rapidgen.runtime.switches import Dialect
+    from rapidgen.runtime.switches import Switches
     from rapidgen.system.model import System
 
 
@@ -71,9 +73,7 @@ def run(
     coverage: Annotated[
         Path | None, typer.Option("--coverage", metavar="F.lcov", help="Lines and branches.")
     ] = None,
-    check: Annotated[
-        bool, typer.Option(help="Refuse programs that a controller would not load.")
-    ] = True,
+    check: options.LoadCheck = True,
 ) -> None:
     """Run RAPID on the virtual clock.
 
@@ -82,7 +82,7 @@ def run(
     stopped with an error, on a deadlock, and at the limits of time and statements.
     """
     from rapidgen._writing import write_whole
-    from rapidgen.cli.loadable import refuse_unloadable
+    from rapidgen.cli.bootable import refuse_unloadable
     from rapidgen.config import load_config
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
@@ -144,20 +144,18 @@ def _print(_task: str, text: str) -> None:
 
 
 def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
     from rapidgen.system import is_backup, is_generated, read_files, read_system
 
     by_task: dict[str, list[Path | str]] = {}
     for text in tasks:
         name, equals, names = text.partition("=")
         if not equals or not name or not names:
-            raise DiagnosticError(
-                Diagnostic(
-                    "RG901",
-                    Severity.ERROR,
-                    f"--task '{text}' is not NAME=FILE,FILE",
-                    help="such as --task T_ROB1=main.mod,data.mod",
-                )
+            raise refusal(
+                "RG901",
+                None,
+                f"--task '{text}' is not NAME=FILE,FILE",
+                "such as --task T_ROB1=main.mod,data.mod",
             )
         by_task.setdefault(name, []).extend(names.split(","))
     if by_task:
@@ -165,13 +163,11 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
             by_task.setdefault("T_ROB1", []).extend(files)
         return read_files(by_task, entry=entry)
     if not files:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG901",
-                Severity.ERROR,
-                "nothing to run",
-                help="name a module, a folder with modules, a generated folder or a backup",
-            )
+        raise refusal(
+            "RG901",
+            None,
+            "nothing to run",
+            "name a module, a folder with modules, a generated folder or a backup",
         )
     _no_configuration(files)
     if len(files) == 1 and files[0].is_dir() and (is_generated(files[0]) or is_backup(files[0])):
@@ -181,72 +177,62 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
 
 def _limits(max_time: float, max_statements: int) -> None:
     """Refuse limits that are none."""
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     if not 0 < max_time <= _LONGEST or max_statements < 1:
         message = f"--max-time is above 0 and at most {_LONGEST:g} s, --max-statements at least 1"
-        raise DiagnosticError(
-            Diagnostic("RG901", Severity.ERROR, message, help="such as --max-time 60")
-        )
+        raise refusal("RG901", None, message, "such as --max-time 60")
 
 
 def _no_configuration(files: list[Path]) -> None:
     """Refuse what `sim` and `build` take and `run` does not."""
     from rapidgen.config import shipped_names
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     for file in files:
         if file.suffix in (".yaml", ".yml") or (str(file) in shipped_names() and not file.exists()):
-            raise DiagnosticError(
-                Diagnostic(
-                    "RG901",
-                    Severity.ERROR,
-                    f"{file} is a configuration, and run takes RAPID",
-                    help=f"`rapidgen sim {file}` boots it; or build it and run the folder",
-                )
+            raise refusal(
+                "RG901",
+                None,
+                f"{file} is a configuration, and run takes RAPID",
+                f"`rapidgen sim {file}` boots it; or build it and run the folder",
             )
 
 
 def _writable(path: Path) -> None:
     """Refuse, before anything runs, a file that cannot be written behind it."""
     from rapidgen._writing import check_writable
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     try:
         check_writable(path)
-    except OSError as error:
-        message = f"cannot write {path}: {error.strerror}"
-        raise DiagnosticError(
-            Diagnostic(
-                "RG901",
-                Severity.ERROR,
-                message,
-                help="name a file in a folder that exists and may be written",
-            )
-        ) from error
+    except OSError as fault:
+        message = f"cannot write {path}: {fault.strerror}"
+        raise refusal(
+            "RG901", None, message, "name a file in a folder that exists and may be written"
+        ) from fault
 
 
-def _dialect(text: str) -> "Dialect":
+def _dialect(text: str) -> "Switches":
     from dataclasses import fields
 
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-    from rapidgen.runtime.switches import Dialect, parse_dialect
+    from rapidgen.diagnostics import refusal
+    from rapidgen.runtime.switches import Switches, parse_switches
 
     try:
-        return parse_dialect(text)
-    except ValueError as error:
-        names = ", ".join(switch.name for switch in fields(Dialect))
-        fault = Diagnostic(
-            "RG901", Severity.ERROR, f"--dialect: {error}", help=f"SWITCH=VALUE; there are {names}"
-        )
-        raise DiagnosticError(fault) from error
+        return parse_switches(text)
+    except ValueError as fault:
+        names = ", ".join(switch.name for switch in fields(Switches))
+        raise refusal(
+            "RG901", None, f"--dialect: {fault}", f"SWITCH=VALUE; there are {names}"
+        ) from fault
 
 
 def _run(
     controller: "VirtualController", max_time: float, max_statements: int
 ) -> "list[Diagnostic]":
     """Run to the end; what went wrong."""
-    from rapidgen.diagnostics import Diagnostic, Severity
+    from rapidgen.diagnostics import error
 
     ended = controller.run(max_time=max_time, max_statements=max_statements)
     found = [
@@ -257,21 +243,16 @@ def _run(
     where = tuple(controller.where())
     if ended == "deadlock":
         found.append(
-            Diagnostic(
-                "RG405",
-                Severity.ERROR,
-                "deadlock: every task waits and nothing is ahead",
-                notes=where,
-            )
+            error("RG405", None, "deadlock: every task waits and nothing is ahead", notes=where)
         )
     elif ended != "finished":
         limit = f"{max_time:g} s" if ended == "time" else f"{max_statements} statements"
         found.append(
-            Diagnostic(
+            error(
                 "RG406",
-                Severity.ERROR,
+                None,
                 f"still running after {limit}",
-                help="raise --max-time or --max-statements, or end the program",
+                "raise --max-time or --max-statements, or end the program",
                 notes=where,
             )
         )
@@ -279,7 +260,7 @@ def _run(
 
 
 def _fault(task: str, fault: "FatalError") -> "Diagnostic":
-    from rapidgen.diagnostics import Diagnostic, Severity
+    from rapidgen.diagnostics import error
 
     place = fault.stack[-1] if fault.stack else None
     notes = [f"event {fault.event} in task {task}"]
@@ -290,11 +271,10 @@ def _fault(task: str, fault: "FatalError") -> "Diagnostic":
         notes.append(f"and {len(callers) - _CALLERS} calls before that")
     if place is not None and place.origin is not None:
         notes.append(f"generated from {place.origin[0]}:{place.origin[1]}")
-    return Diagnostic(
+    return error(
         "RG407",
-        Severity.ERROR,
-        fault.title,
         fault.span or (place.span if place is not None else None),
+        fault.title,
         notes=tuple(notes),
     )
 

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from rapidgen.cli.targets import Target
+    from rapidgen.cli.bootable import Bootable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.faces.control_socket import ControlSocket
 
@@ -52,13 +54,8 @@ def sim(
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
-    check: Annotated[
-        bool, typer.Option(help="Refuse programs that a controller would not load.")
-    ] = True,
+    overrides: options.Overrides = None,
+    check: options.LoadCheck = True,
 ) -> int:
     """Run a virtual controller in real time.
 
@@ -67,8 +64,7 @@ def sim(
     each group, of the control socket, and of the file servers with their login. What the
     operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
-    from rapidgen.cli.loadable import refuse_unloadable
-    from rapidgen.cli.targets import load_target
+    from rapidgen.cli.bootable import load_target, refuse_unloadable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.faults import read_plan
     from rapidgen.faces.control_commands import commands, subscribe
@@ -115,7 +111,7 @@ def sim(
 
 def _serve(
     controller: "VirtualController",
-    target: "Target",
+    target: "Bootable",
     control: "ControlSocket",
     host: str,
     speed: float,
@@ -206,7 +202,7 @@ def _start_cold(controller: "VirtualController") -> None:
 # -- servers ------------------------------------------------------------------------------------
 
 
-def _wanted(target: "Target") -> list[int]:
+def _wanted(target: "Bootable") -> list[int]:
     """Ports that a driver must listen on before it may be called ready."""
     if not target.driver:
         return []
@@ -214,7 +210,7 @@ def _wanted(target: "Target") -> list[int]:
     return [n for p in ports for n in (p.motion, p.control, p.state) if n]
 
 
-def _is_up(controller: "VirtualController", target: "Target") -> bool:
+def _is_up(controller: "VirtualController", target: "Bootable") -> bool:
     wanted = _wanted(target)
     if wanted:
         return all(port in controller.network.listeners for port in wanted)
@@ -222,7 +218,7 @@ def _is_up(controller: "VirtualController", target: "Target") -> bool:
     return not controller.scheduler.ready and controller.now > 0.2
 
 
-def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[str, int]]:
+def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dict[str, int]]:
     listeners = controller.network.listeners
     if not target.driver:
         return {}
@@ -240,20 +236,17 @@ def _ports(controller: "VirtualController", target: "Target") -> dict[str, dict[
     }
 
 
-def _not_up(controller: "VirtualController", target: "Target") -> Exception:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+def _not_up(controller: "VirtualController", target: "Bootable") -> Exception:
+    from rapidgen.diagnostics import refusal
 
     missing = [p for p in _wanted(target) if p not in controller.network.listeners]
     states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
-    return DiagnosticError(
-        Diagnostic(
-            code="RG430",
-            severity=Severity.ERROR,
-            message=f"nothing listens on port {', '.join(map(str, missing)) or '-'}"
-            f" after {PATIENCE:g} s",
-            help="the event log above tells why the tasks do not get there",
-            notes=(*states, *controller.where()),
-        ),
+    return refusal(
+        "RG430",
+        None,
+        f"nothing listens on port {', '.join(map(str, missing)) or '-'} after {PATIENCE:g} s",
+        "the event log above tells why the tasks do not get there",
+        notes=(*states, *controller.where()),
         exit_code=1,
     )
 
@@ -263,15 +256,15 @@ def _check_host(host: str) -> None:
 
     try:
         ipaddress.IPv4Address(host)
-    except ValueError as error:
-        raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from error
+    except ValueError as fault:
+        raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from fault
 
 
-def _check_ports(target: "Target", host: str, offset: int) -> None:
+def _check_ports(target: "Bootable", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     for port in _wanted(target):
         if not 0 < port + offset < 65_536:
@@ -280,16 +273,14 @@ def _check_ports(target: "Target", host: str, offset: int) -> None:
             probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
             try:
                 probe.bind((host, port + offset))
-            except OSError as error:
-                raise DiagnosticError(
-                    Diagnostic(
-                        code="RG431",
-                        severity=Severity.ERROR,
-                        message=f"port {port + offset} of {host} cannot be had: {error.strerror}",
-                        help="move all ports with `--port-offset N`, or let `--ports auto` choose",
-                    ),
+            except OSError as fault:
+                raise refusal(
+                    "RG431",
+                    None,
+                    f"port {port + offset} of {host} cannot be had: {fault.strerror}",
+                    "move all ports with `--port-offset N`, or let `--ports auto` choose",
                     exit_code=1,
-                ) from error
+                ) from fault
 
 
 def _tell(found: "Iterable[object]") -> None:

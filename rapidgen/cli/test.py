@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def test(
-    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    config: options.Config,
     seeds: Annotated[int, typer.Option(help="Random schedules to explore.", min=0)] = 100,
     jobs: Annotated[
         int | None, typer.Option(help="Processes; default one for each core.", min=1)
@@ -40,10 +42,7 @@ def test(
     html: Annotated[
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
     ] = None,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
+    overrides: options.Overrides = None,
 ) -> int:
     """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
 
@@ -78,18 +77,18 @@ def test(
 
 
 def _check_names(names: list[str]) -> None:
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
+    from rapidgen.diagnostics import DiagnosticError, error, suggest
     from rapidgen.proving.suite import CASES
 
     known = [case.name for case in CASES]
     wrong = [name for name in names if name not in known]
     if wrong:
         raise DiagnosticError(
-            Diagnostic(
+            error(
                 "RG801",
-                Severity.ERROR,
+                None,
                 f"there is no case '{name}'",
-                help=suggest(name, known) or f"the cases are: {', '.join(known)}",
+                suggest(name, known) or f"the cases are: {', '.join(known)}",
             )
             for name in wrong
         )
@@ -98,21 +97,19 @@ def _check_names(names: list[str]) -> None:
 def _check_writable(path: Path | None) -> None:
     """Say before a long run that its report has nowhere to go."""
     from rapidgen._writing import check_writable
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+    from rapidgen.diagnostics import refusal
 
     if path is None:
         return
     try:
         check_writable(path)
-    except OSError as error:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG803",
-                Severity.ERROR,
-                f"{path} cannot be written: {error.strerror}",
-                help="name a file in a folder that exists and may be written",
-            )
-        ) from error
+    except OSError as fault:
+        raise refusal(
+            "RG803",
+            None,
+            f"{path} cannot be written: {fault.strerror}",
+            "name a file in a folder that exists and may be written",
+        ) from fault
 
 
 class _Progress:

@@ -5,34 +5,22 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def uninstall(
-    config: Annotated[
-        str, typer.Argument(help="Configuration file, shipped name or generated folder.")
-    ],
-    to: Annotated[
-        list[str],
-        typer.Option(
-            help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
-            metavar="URL",
-        ),
-    ],
+    config: options.ConfigOrFolder,
+    to: options.Controllers,
     overwrite: Annotated[
         bool,
         typer.Option("--overwrite", help="Take hand edits away too; copies go to .rapidgen/."),
     ] = False,
-    yes: Annotated[
-        bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
-    ] = False,
-    user: Annotated[str, typer.Option(help="User name where the URL has none.")] = "",
-    secrets: Annotated[
-        Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
-    ] = None,
-    identity: Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")] = "",
-    known_hosts: Annotated[
-        str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
-    ] = "",
-    parallel: Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")] = 8,
+    yes: options.Yes = False,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    identity: options.Identity = "",
+    known_hosts: options.KnownHosts = "",
+    parallel: options.Parallel = 8,
 ) -> int:
     """Go back to the state before the first deployment.
 
@@ -41,39 +29,26 @@ def uninstall(
 
     rapidgen uninstall cell1.yaml --to "sftp://admin@192.168.125.1/HOME"
     """
+    from rapidgen.cli.carrying_out import carry_out, make_sure, show_plans
     from rapidgen.deploy.fleet import parse_targets
     from rapidgen.deploy.session import (
-        Job,
-        apply_all,
+        FleetJob,
         check_names,
         config_name,
-        confirm,
         plan_all,
         refuse_conflicts,
         save_edits,
     )
-    from rapidgen.deploy.show import plan_text, table
     from rapidgen.deploy.target import Access
-    from rapidgen.diagnostics import DiagnosticError
 
     name = config_name(config)
     access = Access(user, secrets, identity, known_hosts, ask=True)
-    job = Job("uninstall", parse_targets(to), access, lambda _: None, overwrite, parallel)
+    job = FleetJob("uninstall", parse_targets(to), access, lambda _: None, overwrite, parallel)
     plans = plan_all(job)
     check_names(plans, name)
-    for made in plans:
-        typer.echo(plan_text(made), err=True, nl=False)
+    show_plans(plans)
     refuse_conflicts(job, plans)
-    confirm(
-        f"Uninstall from {len(plans)} controller(s)?",
-        yes=yes,
-        ask=lambda text: typer.confirm(text, err=True),
-    )
+    make_sure(f"Uninstall from {len(plans)} controller(s)?", yes=yes)
     for path in save_edits(plans, Path(".rapidgen") / "edited"):
         typer.echo(f"kept a copy of a hand edit: {path}", err=True)
-    outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
-    typer.echo(table(outcomes), nl=False)
-    failures = [o.error for o in outcomes if o.error is not None]
-    if failures:
-        raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)
-    return 0
+    return carry_out(job, plans)

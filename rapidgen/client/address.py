@@ -39,12 +39,10 @@ class Address:
             which
         ]
         if not number:
-            raise ConnectionFailed(
-                fault(
-                    "RG601",
-                    f"nobody knows the {which.name.lower()} port of {self}",
-                    "tell it too: HOST:MOTION,STATE,CONTROL",
-                )
+            raise ConnectionFailed.because(
+                "RG601",
+                f"nobody knows the {which.name.lower()} port of {self}",
+                "tell it too: HOST:MOTION,STATE,CONTROL",
             )
         return number
 

@@ -1,18 +1,20 @@
 """Several groups or robots, started together; when one fails, all are stopped."""
 
 import asyncio
-from collections.abc import Awaitable, Callable, Iterable, Mapping
+from collections.abc import Callable, Coroutine, Iterator, Mapping
 from concurrent.futures import FIRST_EXCEPTION, Future, ThreadPoolExecutor, wait
-from types import TracebackType
 from typing import Self, TypeVar
 
 from rapidgen.client.aio import AsyncExecution, AsyncRobot
-from rapidgen.client.core.download import Download
+from rapidgen.client.core.checks import CheckedTrajectory
+from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import InvalidTrajectory, RobotError
-from rapidgen.client.flows import download as flows
+from rapidgen.client.flows.download import Sending
+from rapidgen.client.flows.effects import Flow
+from rapidgen.client.flows.motion import ready
 from rapidgen.client.threads import Execution, Robot
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
@@ -20,29 +22,36 @@ from rapidgen.diagnostics import Diagnostic
 T = TypeVar("T")
 
 
-def _prepare_all(
-    cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]
-) -> dict[str, tuple[Download, bytes]]:
-    """Every trajectory checked, with the faults of all; then every run made."""
-    unknown = sorted(set(trajectories) - set(cores))
-    if unknown:
-        raise KeyError(f"no robot of this cell is called {unknown[0]!r}")
-    found: list[Diagnostic] = []
-    for name, trajectory in trajectories.items():
-        cores[name].ready()
-        try:
-            cores[name].plan(trajectory, "download")
-        except InvalidTrajectory as error:
-            found += error.diagnostics
-    if found:
-        raise InvalidTrajectory(found)
-    return {name: flows.prepare(cores[name], what) for name, what in trajectories.items()}
+class _Start:
+    """Trajectories that start together."""
 
+    def __init__(self, cores: Mapping[str, Core], trajectories: Mapping[str, Trajectory]) -> None:
+        """Every trajectory is checked, the faults of all are told; then every motion begins."""
+        found: list[Diagnostic] = []
+        checked: dict[str, CheckedTrajectory] = {}
+        for name, trajectory in trajectories.items():
+            cores[name].ready()
+            try:
+                checked[name] = cores[name].check_whole(trajectory)
+            except InvalidTrajectory as error:
+                found += error.diagnostics
+        if found:
+            raise InvalidTrajectory(found)
+        self.sendings = {name: Sending(cores[name], whole) for name, whole in checked.items()}
 
-def _give_up(runs: Iterable[tuple[Download, bytes]], error: RobotError) -> None:
-    """None of these runs is under way any more."""
-    for run, _ in runs:
-        run.failed(error)
+    def phases(self) -> Iterator[dict[str, Flow[None]]]:
+        """All points go to all robots first, then all end frames; then all say what they do."""
+        for phase in (Sending.points, Sending.end, Sending.accepted):
+            yield {name: phase(sending) for name, sending in self.sendings.items()}
+
+    def jobs(self) -> dict[str, Job]:
+        """What is under way, by robot."""
+        return {name: sending.job() for name, sending in self.sendings.items()}
+
+    def give_up(self, error: RobotError) -> None:
+        """None of these is under way any more."""
+        for sending in self.sendings.values():
+            sending.motion.failed(error)
 
 
 class Cell:
@@ -60,58 +69,51 @@ class Cell:
             raise
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
         """Close all; what moves is stopped first."""
-        _each(self.robots, Robot.close)
+        _each(self.robots, lambda robot: robot.close())
 
     def stop(self) -> dict[str, State | None]:
         """Stop all at once. Raises the first StopFailed after all were tried."""
-        return _each(self.robots, Robot.stop)
+        return _each(self.robots, lambda robot: robot.stop())
 
     def execute(self, trajectories: Mapping[str, Trajectory]) -> "CellExecution":
         """Start trajectories together, by robot name.
 
-        Raises InvalidTrajectory with the faults of all before a byte is sent; when one robot
-        refuses or fails, all are stopped and its error is raised.
+        Raises KeyError for a name that no robot has, InvalidTrajectory with the faults of all
+        before a byte is sent; when one robot refuses or fails, all are stopped and its error is
+        raised.
         """
-        moving = {name: robot for name, robot in self.robots.items() if name in trajectories}
-        cores = {name: robot._core for name, robot in self.robots.items()}
-        _each(moving, lambda robot: robot._run(flows.ready(robot._core)))
-        runs = _prepare_all(cores, trajectories)
+        moving = _chosen(self.robots, trajectories)
+        _each(moving, lambda robot: robot._carrier.run(ready(robot._core)))
+        start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
         try:
-            for name, robot in moving.items():
-                robot._run(flows.send_points(robot._core, *runs[name]))
-            pending = {
-                name: robot._run(flows.send_end(robot._core, *runs[name]))
-                for name, robot in moving.items()
-            }
-            for name, robot in moving.items():
-                robot._run(flows.accepted(robot._core, runs[name][0], pending[name]))
-        except RobotError as error:
-            _each(moving, Robot.stop)
-            _give_up(runs.values(), error)
+            for phase in start.phases():
+                for name, flow in phase.items():
+                    moving[name]._carrier.run(flow)
+        except (RobotError, KeyboardInterrupt) as error:
+            _each(moving, lambda robot: robot.stop())
+            if isinstance(error, RobotError):
+                start.give_up(error)
             raise
-        except KeyboardInterrupt:
-            _each(moving, Robot.stop)
-            raise
-        return CellExecution(
-            {name: Execution(robot, runs[name][0]) for name, robot in moving.items()}, self
-        )
+        jobs = start.jobs().items()
+        return CellExecution({n: Execution(moving[n]._carrier, job) for n, job in jobs}, self)
+
+
+def _chosen(robots: Mapping[str, T], trajectories: Mapping[str, Trajectory]) -> dict[str, T]:
+    """Those that have a trajectory. Raises KeyError for a name that none has."""
+    unknown = sorted(set(trajectories) - set(robots))
+    if unknown:
+        raise KeyError(f"no robot of this cell is called {unknown[0]!r}")
+    return {name: robot for name, robot in robots.items() if name in trajectories}
 
 
 def _each(robots: Mapping[str, Robot], do: Callable[[Robot], T]) -> dict[str, T]:
     """The same for all robots at the same time; the first error after all were tried."""
-    if not robots:
-        return {}
-    with ThreadPoolExecutor(len(robots)) as pool:
+    with ThreadPoolExecutor(max(1, len(robots))) as pool:
         futures = {name: pool.submit(do, robot) for name, robot in robots.items()}
     return {name: future.result() for name, future in futures.items()}
 
@@ -153,7 +155,7 @@ class CellExecution:
 
 
 class AsyncCell:
-    """As `Cell`, with AsyncRobots of one loop."""
+    """As `Cell`, with AsyncRobots of one loop; its methods are awaited."""
 
     def __init__(self, robots: Mapping[str, AsyncRobot]) -> None:
         self.robots = dict(robots)
@@ -167,12 +169,7 @@ class AsyncCell:
             raise
         return self
 
-    async def __aexit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    async def __aexit__(self, *_: object) -> None:
         await self.close()
 
     async def close(self) -> None:
@@ -185,32 +182,24 @@ class AsyncCell:
 
     async def execute(self, trajectories: Mapping[str, Trajectory]) -> "AsyncCellExecution":
         """Start trajectories together, by robot name; see `Cell.execute`."""
-        moving = {name: robot for name, robot in self.robots.items() if name in trajectories}
-        cores = {name: robot._core for name, robot in self.robots.items()}
-        await _gather(
-            {name: robot._run(flows.ready(robot._core)) for name, robot in moving.items()}
-        )
-        runs = _prepare_all(cores, trajectories)
+        moving = _chosen(self.robots, trajectories)
+        await _gather({name: r._carrier.run(ready(r._core)) for name, r in moving.items()})
+        start = _Start({name: robot._core for name, robot in moving.items()}, trajectories)
         try:
-            for name, robot in moving.items():
-                await robot._run(flows.send_points(robot._core, *runs[name]))
-            pending = {
-                name: await robot._run(flows.send_end(robot._core, *runs[name]))
-                for name, robot in moving.items()
-            }
-            for name, robot in moving.items():
-                await robot._run(flows.accepted(robot._core, runs[name][0], pending[name]))
+            for phase in start.phases():
+                for name, flow in phase.items():
+                    await moving[name]._carrier.run(flow)
         except (RobotError, asyncio.CancelledError) as error:
             await _gather({name: robot.stop() for name, robot in moving.items()})
             if isinstance(error, RobotError):
-                _give_up(runs.values(), error)
+                start.give_up(error)
             raise
-        return AsyncCellExecution(
-            {name: AsyncExecution(robot, runs[name][0]) for name, robot in moving.items()}, self
-        )
+        jobs = start.jobs().items()
+        executions = {n: AsyncExecution(moving[n]._carrier, job) for n, job in jobs}
+        return AsyncCellExecution(executions, self)
 
 
-async def _gather(waiting: Mapping[str, Awaitable[T]]) -> dict[str, T]:
+async def _gather(waiting: Mapping[str, Coroutine[None, None, T]]) -> dict[str, T]:
     """All of them; the first error after all were tried."""
     outcomes = await asyncio.gather(*waiting.values(), return_exceptions=True)
     results: dict[str, T] = {}
@@ -222,7 +211,7 @@ async def _gather(waiting: Mapping[str, Awaitable[T]]) -> dict[str, T]:
 
 
 class AsyncCellExecution:
-    """Trajectories under way together."""
+    """As `CellExecution`; its methods are awaited."""
 
     def __init__(self, executions: Mapping[str, AsyncExecution], cell: AsyncCell) -> None:
         self.executions = dict(executions)

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from select import POLLOUT, poll
 
 from rapidgen.client.address import Address
-from rapidgen.client.errors import ConnectionLost, RobotTimeout, fault, not_reached, os_reason
+from rapidgen.client.errors import ConnectionLost, RobotTimeout, not_reached, os_reason
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES
 from rapidgen.wire.simple_message.spec import Port
 
@@ -73,8 +73,8 @@ class Channel:
             elif waited >= timeout:
                 # What is missing of a frame goes out before anything else does.
                 self._is_offered = True
-                raise RobotTimeout(
-                    fault("RG603", f"the controller took no byte for {timeout:g} s", "look at it")
+                raise RobotTimeout.because(
+                    "RG603", f"the controller took no byte for {timeout:g} s", "look at it"
                 )
             else:
                 self._wait_writable(_SLICE)
@@ -94,8 +94,8 @@ class Channel:
                     continue
                 if waited >= timeout:
                     self._rest, self._is_offered = view, True
-                    raise RobotTimeout(
-                        fault("RG603", f"the controller took no byte for {timeout:g} s")
+                    raise RobotTimeout.because(
+                        "RG603", f"the controller took no byte for {timeout:g} s"
                     )
                 self._wait_writable(_SLICE)
                 waited += _SLICE
@@ -157,8 +157,8 @@ class Channel:
     def _lost(self, error: OSError) -> ConnectionLost:
         name = self.port.name.lower()
         reason = os_reason(error)
-        return ConnectionLost(
-            fault("RG602", f"the connection to the {name} port was lost: {reason}", "look at it")
+        return ConnectionLost.because(
+            "RG602", f"the connection to the {name} port was lost: {reason}", "look at it"
         )
 
     def close(self) -> None:

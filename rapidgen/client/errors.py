@@ -23,9 +23,9 @@ states. Time is that of the client's clock, s.
 import os
 import socket
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Self
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
 if TYPE_CHECKING:
     from rapidgen.client.core.state import State
@@ -48,6 +48,11 @@ class RobotError(DiagnosticError):
         super().__init__(diagnostics, exit_code=exit_code)
         self.messages = tuple(messages)
         self.states = tuple(states)
+
+    @classmethod
+    def because(cls, code: str, message: str, mend: str = "", *notes: str, **told: Any) -> Self:  # noqa: ANN401
+        """One with a finding that has no place in a text; `told` is what its kind takes."""
+        return cls(fault(code, message, mend, *notes), **told)
 
 
 class ConnectionFailed(RobotError):
@@ -82,56 +87,9 @@ class NotSupported(RobotError):
     """The driver on the controller, or the configuration, does not have what was asked for."""
 
 
-class RequestRefused(RobotError):
-    """The controller did not do what was asked over the control port.
-
-    `reason` is None when the driver gave none.
-    """
-
-    def __init__(
-        self,
-        diagnostic: Diagnostic,
-        *,
-        reason: "Reason | None" = None,
-        messages: Iterable[tuple[float, str]] = (),
-        states: "Iterable[State]" = (),
-    ) -> None:
-        super().__init__(diagnostic, messages=messages, states=states)
-        self.reason = reason
-
-
-class InvalidTrajectory(RobotError):
-    """Every fault of a trajectory, found before a byte of it was sent."""
-
-
-class TrajectoryRefused(RobotError):
-    """The controller refused the whole trajectory; nothing moved.
-
-    `reason` is None when the driver gave none; `point` from 0 (-1 none), `joint` from 1 (0 none).
-    """
-
-    def __init__(
-        self,
-        diagnostic: Diagnostic,
-        *,
-        reason: "Reason | None" = None,
-        point: int = -1,
-        joint: int = 0,
-        messages: Iterable[tuple[float, str]] = (),
-        states: "Iterable[State]" = (),
-    ) -> None:
-        super().__init__(diagnostic, messages=messages, states=states)
-        self.reason = reason
-        self.point = point
-        self.joint = joint
-
-
-class MotionError(RobotError):
-    """The robot began to move and did not reach the end.
-
-    `reached` is the number of points known to be reached, None when the driver does not say;
-    `point` from 0 (-1 none) and `joint` from 1 (0 none) are those at fault.
-    """
+class _Told(RobotError):
+    """What the controller says of it: `reason`, None when it gave none; `point` from 0 (-1 none)
+    and `joint` from 1 (0 none) at fault; `reached` points, None where it does not say."""
 
     def __init__(
         self,
@@ -151,6 +109,24 @@ class MotionError(RobotError):
         self.joint = joint
 
 
+class RequestRefused(_Told):
+    """The controller did not do what was asked over the control port; `reason` says why."""
+
+
+class InvalidTrajectory(RobotError):
+    """Every fault of a trajectory, found before a byte of it was sent."""
+
+
+class TrajectoryRefused(_Told):
+    """The controller refused the whole trajectory, for `reason`, at `point` and `joint`; nothing
+    moved."""
+
+
+class MotionError(_Told):
+    """The robot began to move and did not reach the end: `reached`, and `reason`, `point` and
+    `joint` of the fault."""
+
+
 class MotionStopped(MotionError):
     """Stopped on request."""
 
@@ -161,24 +137,24 @@ class MotionFailed(MotionError):
 
 def fault(code: str, message: str, help: str = "", *notes: str) -> Diagnostic:
     """An error without a place in a text."""
-    return Diagnostic(code, Severity.ERROR, message, help=help, notes=notes)
+    return error(code, None, message, help, notes=notes)
 
 
-def not_reached(where: str, error: OSError, timeout: float) -> ConnectionFailed:
+def not_reached(where: str, raised: OSError, timeout: float) -> ConnectionFailed:
     """Nobody answers at `where` (host and port); `timeout` in s is what a TimeoutError waited."""
-    if isinstance(error, TimeoutError):
+    if isinstance(raised, TimeoutError):
         message = f"no answer from {where} within {timeout:g} s"
         mend = "is the controller on, and this machine in its network?"
     else:
-        message = f"cannot connect to {where}: {os_reason(error)}"
+        message = f"cannot connect to {where}: {os_reason(raised)}"
         mend = "is the driver's task running? `rapidgen sim` starts a virtual controller"
-    if isinstance(error, socket.gaierror):
+    if isinstance(raised, socket.gaierror):
         mend = "mend the name of the host; for a configuration give its file, with the suffix .yaml"
-    return ConnectionFailed(fault("RG601", message, mend))
+    return ConnectionFailed.because("RG601", message, mend)
 
 
-def os_reason(error: OSError) -> str:
+def os_reason(raised: OSError) -> str:
     """What the operating system says, in its own words and small letters."""
-    if isinstance(error, socket.gaierror):
+    if isinstance(raised, socket.gaierror):
         return "no host has this name"
-    return (os.strerror(error.errno) if error.errno else str(error)).lower()
+    return (os.strerror(raised.errno) if raised.errno else str(raised)).lower()

@@ -5,15 +5,28 @@ import io
 import json
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
 
 from rapidgen._writing import write_whole
 from rapidgen.client.errors import InvalidTrajectory, fault, os_reason
-from rapidgen.client.trajectory import Trajectory
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Span, error
 
+Array = npt.NDArray[np.float64]
 _SHOWN = 20
 """Findings of one file that are worth reading."""
+
+
+class Content(NamedTuple):
+    """What a file tells, as a Trajectory takes it."""
+
+    times: npt.ArrayLike
+    positions: npt.ArrayLike
+    names: tuple[str, ...]
+    path: str
+    lines: tuple[int, ...] = ()
 
 
 def _bad(
@@ -21,25 +34,27 @@ def _bad(
 ) -> Diagnostic:
     end = column + width if width else 0
     span = Span(str(path), line, column, line if width else 0, end)
-    return Diagnostic("RG610", Severity.ERROR, message, span, help=help)
+    return error("RG610", span, message, help)
 
 
 def _read(path: Path) -> str:
     try:
         return path.read_text(encoding="utf-8-sig")
-    except OSError as error:
-        reason = os_reason(error)
-        raise InvalidTrajectory(
-            fault("RG610", f"cannot read {path}: {reason}", "give the path of a CSV or JSON file"),
+    except OSError as raised:
+        reason = os_reason(raised)
+        raise InvalidTrajectory.because(
+            "RG610",
+            f"cannot read {path}: {reason}",
+            "give the path of a CSV or JSON file",
             exit_code=2,
-        ) from error
-    except UnicodeDecodeError as error:
-        raise InvalidTrajectory(
-            fault("RG610", f"{path} is not text in UTF-8", "save it as UTF-8"), exit_code=2
-        ) from error
+        ) from raised
+    except UnicodeDecodeError as raised:
+        raise InvalidTrajectory.because(
+            "RG610", f"{path} is not text in UTF-8", "save it as UTF-8", exit_code=2
+        ) from raised
 
 
-def read_csv(path: Path) -> Trajectory:
+def read_csv(path: Path) -> Content:
     """Read `time,<joint names>`. Empty lines and lines that begin with # are skipped."""
     text = _read(path)
     help = "the first line is `time,<joint names>`; then s and rad (m), with a decimal point"
@@ -84,51 +99,32 @@ def read_csv(path: Path) -> Trajectory:
             rest = fault("RG610", f"{len(found) - _SHOWN} more faults of this kind in {path}")
             found = [*found[:_SHOWN], rest]
         raise InvalidTrajectory(found, exit_code=2)
-    return Trajectory(
-        times=_column(rows, 0),
-        positions=_columns(rows, len(names) - 1),
-        names=tuple(names[1:]),
-        path=str(path),
-        lines=tuple(lines),
-    )
+    table = np.array(rows, dtype=np.float64).reshape(len(rows), len(names))
+    return Content(table[:, 0], table[:, 1:], tuple(names[1:]), str(path), tuple(lines))
 
 
-def _column(rows: Sequence[Sequence[float]], index: int) -> Any:  # noqa: ANN401 - numpy
-    import numpy as np
-
-    return np.array([row[index] for row in rows], dtype=np.float64)
-
-
-def _columns(rows: Sequence[Sequence[float]], count: int) -> Any:  # noqa: ANN401 - numpy
-    import numpy as np
-
-    return np.array([row[1:] for row in rows], dtype=np.float64).reshape(len(rows), count)
-
-
-def write_csv(path: Path, trajectory: Trajectory) -> None:
+def write_csv(path: Path, times: Array, positions: Array, names: Sequence[str]) -> None:
     """Write `time,<joint names>`. Raises OSError."""
-    names = trajectory.names or tuple(
-        f"joint_{i + 1}" for i in range(trajectory.positions.shape[1])
-    )
+    names = names or [f"joint_{i + 1}" for i in range(positions.shape[1])]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow(["time", *names])
-    for time, row in zip(trajectory.times.tolist(), trajectory.positions.tolist(), strict=True):
+    for time, row in zip(times.tolist(), positions.tolist(), strict=True):
         writer.writerow([repr(time), *(repr(value) for value in row)])
     write_whole(path, out.getvalue().encode())
 
 
-def read_json(path: Path) -> Trajectory:
+def read_json(path: Path) -> Content:
     """Read `{"joint_names", "times", "positions"}` or a JointTrajectory (`points`)."""
     text = _read(path)
     try:
         content = json.loads(text)
-    except json.JSONDecodeError as error:
+    except json.JSONDecodeError as raised:
         raise InvalidTrajectory(
-            _bad(f"not JSON: {error.msg.lower()}", path, error.lineno, error.colno), exit_code=2
-        ) from error
-    except RecursionError as error:
-        raise InvalidTrajectory(_bad("nested too deep", path), exit_code=2) from error
+            _bad(f"not JSON: {raised.msg.lower()}", path, raised.lineno, raised.colno), exit_code=2
+        ) from raised
+    except RecursionError as raised:
+        raise InvalidTrajectory(_bad("nested too deep", path), exit_code=2) from raised
     if not isinstance(content, dict):
         raise InvalidTrajectory(_bad("the file holds no JSON object", path), exit_code=2)
     if "points" in content:
@@ -144,10 +140,10 @@ def read_json(path: Path) -> Trajectory:
             exit_code=2,
         )
     names = _names(content.get("joint_names", []), str(path))
-    return Trajectory(content["times"], content["positions"], names, path=str(path))
+    return Content(content["times"], content["positions"], names, str(path))
 
 
-def from_ros(message: Mapping[str, Any], *, path: str = "") -> Trajectory:
+def from_ros(message: Mapping[str, Any], *, path: str = "") -> Content:
     """A trajectory_msgs/JointTrajectory as ROS 1 or 2 tools print it.
 
     `time_from_start` is a number of s or a dict with `secs`/`nsecs` or `sec`/`nanosec`. Only
@@ -156,7 +152,7 @@ def from_ros(message: Mapping[str, Any], *, path: str = "") -> Trajectory:
     where = f" in {path}" if path else ""
     points = message.get("points")
     if not isinstance(points, Sequence) or isinstance(points, str):
-        raise InvalidTrajectory(fault("RG610", f"'points' is not a list{where}"), exit_code=2)
+        raise InvalidTrajectory.because("RG610", f"'points' is not a list{where}", exit_code=2)
     names = _names(message.get("joint_names", []), path)
     times: list[float] = []
     positions: list[list[float]] = []
@@ -165,8 +161,8 @@ def from_ros(message: Mapping[str, Any], *, path: str = "") -> Trajectory:
         try:
             times.append(_seconds(point["time_from_start"]))
             row = [float(value) for value in point["positions"]]
-        except (KeyError, TypeError, ValueError) as error:
-            what = f"{error} is missing" if isinstance(error, KeyError) else str(error)
+        except (KeyError, TypeError, ValueError) as raised:
+            what = f"{raised} is missing" if isinstance(raised, KeyError) else str(raised)
             found.append(fault("RG610", f"point {index}{where}: {what}"))
             continue
         if positions and len(row) != len(positions[0]):
@@ -176,21 +172,14 @@ def from_ros(message: Mapping[str, Any], *, path: str = "") -> Trajectory:
     if found:
         raise InvalidTrajectory(found[:_SHOWN], exit_code=2)
     width = len(positions[0]) if positions else len(names)
-    import numpy as np
-
-    return Trajectory(
-        np.array(times, dtype=np.float64),
-        np.array(positions, dtype=np.float64).reshape(len(positions), width),
-        names,
-        path=path,
-    )
+    return Content(times, np.array(positions).reshape(len(positions), width), names, path)
 
 
 def _names(names: object, path: str) -> tuple[str, ...]:
     if not isinstance(names, Sequence) or not all(isinstance(name, str) for name in names):
         where = f" in {path}" if path else ""
-        raise InvalidTrajectory(
-            fault("RG610", f"'joint_names' is not a list of texts{where}"), exit_code=2
+        raise InvalidTrajectory.because(
+            "RG610", f"'joint_names' is not a list of texts{where}", exit_code=2
         )
     return tuple(names)
 

@@ -9,7 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from rapidgen.client.address import Address
-from rapidgen.client.errors import NotReady, fault
+from rapidgen.client.errors import NotReady
 from rapidgen.client.trajectory import Trajectory
 
 FIRST_SPEED = 0.1
@@ -25,13 +25,11 @@ def need_confirmation(address: Address, *, yes: bool, real_robot: str) -> bool:
         return not yes
     if real_robot != address.host:
         said = f", not {real_robot}" if real_robot else ""
-        raise NotReady(
-            fault(
-                "RG640",
-                f"{address.host} may be a real robot{said}: nothing was sent",
-                f"when the area is clear: --move-real-robot {address.host}",
-                "--yes answers on this machine only",
-            ),
+        raise NotReady.because(
+            "RG640",
+            f"{address.host} may be a real robot{said}: nothing was sent",
+            f"when the area is clear: --move-real-robot {address.host}",
+            "--yes answers on this machine only",
             exit_code=2,
         )
     return False

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -9,18 +10,17 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.timing import parametrise, resample
-from rapidgen.client.errors import InvalidTrajectory, fault
+from rapidgen.client import files
+from rapidgen.client.errors import InvalidTrajectory
 
 if TYPE_CHECKING:
-    from os import PathLike
-
     from rapidgen.client.core.group import Group
     from rapidgen.client.core.state import State
 
 Array = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, init=False)
 class Trajectory:
     """`n` points of `k` joints.
 
@@ -31,39 +31,42 @@ class Trajectory:
 
     times: Array
     positions: Array
-    names: tuple[str, ...] = ()
-    path: str = ""
+    names: tuple[str, ...]
+    path: str
     """The file it was read from."""
-    lines: tuple[int, ...] = field(default=(), repr=False)
+    lines: tuple[int, ...] = field(repr=False)
     """The file's line of each point, where there is one."""
 
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        times: npt.ArrayLike,
+        positions: npt.ArrayLike,
+        names: Sequence[str] = (),
+        path: str = "",
+        lines: Sequence[int] = (),
+    ) -> None:
         try:
-            times = np.array(self.times, dtype=np.float64)
-            positions = np.array(self.positions, dtype=np.float64)
+            times = np.array(times, dtype=np.float64)
+            positions = np.array(positions, dtype=np.float64)
         except (TypeError, ValueError) as error:
-            raise InvalidTrajectory(
-                fault("RG611", f"a trajectory needs numbers: {error}"), exit_code=2
+            raise InvalidTrajectory.because(
+                "RG611", f"a trajectory needs numbers: {error}", exit_code=2
             ) from error
-        columns = f"{len(self.names)}" if self.names else "any number of"
         if positions.ndim != 2 or times.shape != (len(positions),):
-            raise InvalidTrajectory(
-                fault(
-                    "RG611",
-                    f"times of shape {times.shape} do not fit positions of shape {positions.shape}",
-                    "give times of shape (n,) and positions of shape (n, joints)",
-                ),
+            raise InvalidTrajectory.because(
+                "RG611",
+                f"times of shape {times.shape} do not fit positions of shape {positions.shape}",
+                "give times of shape (n,) and positions of shape (n, joints)",
                 exit_code=2,
             )
-        if self.names and positions.shape[1] != len(self.names):
-            raise InvalidTrajectory(
-                fault("RG611", f"{positions.shape[1]} columns for {columns} joint names"),
-                exit_code=2,
+        if names and positions.shape[1] != len(names):
+            raise InvalidTrajectory.because(
+                "RG611", f"{positions.shape[1]} columns for {len(names)} joint names", exit_code=2
             )
-        for name, array in (("times", times), ("positions", positions)):
-            array.flags.writeable = False
-            object.__setattr__(self, name, array)
-        object.__setattr__(self, "names", tuple(self.names))
+        times.flags.writeable = positions.flags.writeable = False
+        told = {"times": times, "positions": positions, "names": tuple(names)}
+        for name, value in {**told, "path": path, "lines": tuple(lines)}.items():
+            object.__setattr__(self, name, value)
 
     def __len__(self) -> int:
         return len(self.times)
@@ -88,28 +91,22 @@ class Trajectory:
         positions = np.asarray(points, dtype=np.float64)
         steps = np.broadcast_to(np.asarray(seconds, dtype=np.float64), (max(len(points) - 1, 0),))
         times = np.concatenate([[0.0], np.cumsum(steps)])[: len(points)]
-        return cls(times, positions, tuple(names))
+        return cls(times, positions, names)
 
     @classmethod
-    def from_csv(cls, path: "str | PathLike[str]") -> "Trajectory":
+    def from_csv(cls, path: str | PathLike[str]) -> "Trajectory":
         """Read `time,<joint names>` in s and rad (m). Raises InvalidTrajectory, all faults."""
-        from rapidgen.client.files import read_csv
-
-        return read_csv(Path(path))
+        return cls(*files.read_csv(Path(path)))
 
     @classmethod
-    def from_json(cls, path: "str | PathLike[str]") -> "Trajectory":
+    def from_json(cls, path: str | PathLike[str]) -> "Trajectory":
         """Read a JSON file of the shape of `to_dict` or of trajectory_msgs/JointTrajectory."""
-        from rapidgen.client.files import read_json
-
-        return read_json(Path(path))
+        return cls(*files.read_json(Path(path)))
 
     @classmethod
     def from_ros(cls, message: Mapping[str, Any]) -> "Trajectory":
         """A trajectory_msgs/JointTrajectory as a dict (`joint_names`, `points`)."""
-        from rapidgen.client.files import from_ros
-
-        return from_ros(message)
+        return cls(*files.from_ros(message))
 
     def to_dict(self) -> dict[str, Any]:
         """`{"joint_names", "times", "positions"}` with plain lists."""
@@ -119,11 +116,9 @@ class Trajectory:
             "positions": self.positions.tolist(),
         }
 
-    def to_csv(self, path: "str | PathLike[str]") -> None:
+    def to_csv(self, path: str | PathLike[str]) -> None:
         """Write `time,<joint names>`; numbers read back to the same values."""
-        from rapidgen.client.files import write_csv
-
-        write_csv(Path(path), self)
+        files.write_csv(Path(path), self.times, self.positions, self.names)
 
     def reordered(self, names: Sequence[str]) -> "Trajectory":
         """The same with columns in the order of `names`; without names of its own, unchanged.
@@ -172,8 +167,8 @@ class Trajectory:
         not known, ValueError for fewer than two points.
         """
         if not robot.has_limits:
-            raise InvalidTrajectory(
-                fault("RG615", "the robot's speeds are not known", "connect with a configuration")
+            raise InvalidTrajectory.because(
+                "RG615", "the robot's speeds are not known", "connect with a configuration"
             )
         ordered = self.reordered(robot.names)
         wire = robot.to_wire(ordered.positions)

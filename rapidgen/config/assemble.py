@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
 from rapidgen._data import data_folder
+from rapidgen._json import members, number, text
 from rapidgen.config.layers import (
     Overrides,
     canonical,
@@ -13,17 +13,8 @@ from rapidgen.config.layers import (
     override_tree,
 )
 from rapidgen.config.registry import find_shipped, is_path
-from rapidgen.config.tree import (
-    Mapping,
-    Node,
-    Scalar,
-    decode,
-    error,
-    parse,
-    read_bytes,
-    to_python,
-)
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.config.tree import MappingNode, Node, ScalarNode, decode, parse, read_bytes, to_python
+from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 Figures = dict[tuple[str, str], float]
 _IDENTITY = ("task", "mechanical_unit", "ports")
@@ -42,7 +33,7 @@ class Assembly:
     """One canonical tree, what it was read from, and what each group rests on."""
 
     path: Path
-    root: Mapping
+    root: MappingNode
     bases: dict[str, Basis] = field(default_factory=dict)
     inputs: list[tuple[str, bytes]] = field(default_factory=list)
     found: list[Diagnostic] = field(default_factory=list)
@@ -53,7 +44,7 @@ def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
     text = str(path_or_name)
     shipped = not isinstance(path_or_name, Path) and not is_path(text)
     path = find_shipped(text) if shipped else Path(text)
-    made = Assembly(path, Mapping({}, Span(text, 1, 1)))
+    made = Assembly(path, MappingNode({}, Span(text, 1, 1)))
     user = _read(path, made)
     over, over_inputs = override_tree(overrides)
     base_name = _text(over, "model") or _text(user, "model")
@@ -71,24 +62,24 @@ def assemble(path_or_name: str | Path, overrides: Overrides) -> Assembly:
     return made
 
 
-def _rest_on(made: Assembly, model: str, root: Mapping) -> None:
+def _rest_on(made: Assembly, model: str, root: MappingNode) -> None:
     for name in group_names(root):
         made.bases[name] = Basis(model, _figures(_group(root, name)))
 
 
-def _group(root: Mapping, name: str) -> Mapping:
+def _group(root: MappingNode, name: str) -> MappingNode:
     groups = root.entries["groups"][1]
-    assert isinstance(groups, Mapping)
+    assert isinstance(groups, MappingNode)
     group = groups.entries[name][1]
-    assert isinstance(group, Mapping)
+    assert isinstance(group, MappingNode)
     return group
 
 
-def _figures(group: Mapping) -> Figures:
-    data: Any = to_python(group)
+def _figures(group: MappingNode) -> Figures:
+    joints = members(members(to_python(group))["joints"])
     return {
-        (joint["axis"], figure): joint[figure]
-        for joint in data["joints"].values()
+        (text(joint["axis"]), figure): number(joint[figure])
+        for joint in map(members, joints.values())
         for figure in ("lower", "upper", "speed")
     }
 
@@ -101,42 +92,42 @@ def shown_path(path: Path) -> str:
         return str(path)
 
 
-def _read(path: Path, made: Assembly) -> Mapping:
+def _read(path: Path, made: Assembly) -> MappingNode:
     shown = shown_path(path)
     data = read_bytes(path, shown)
     made.inputs.append((path.name, data))
     root, faults = parse(decode(data, shown), shown)
     made.found += faults
-    if isinstance(root, Scalar) and root.value is None:
-        return Mapping({}, root.span)
-    if not isinstance(root, Mapping):
-        raise DiagnosticError(
-            error("RG006", "a configuration is a mapping of keys", root.span, "not a mapping")
+    if isinstance(root, ScalarNode) and root.value is None:
+        return MappingNode({}, root.span)
+    if not isinstance(root, MappingNode):
+        raise refusal(
+            "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
         )
     return root
 
 
-def _text(root: Mapping, key: str) -> str:
+def _text(root: MappingNode, key: str) -> str:
     """A text at the top of a raw tree, where there is one."""
     entry = root.entries.get(key)
-    if entry and isinstance(entry[1], Scalar) and isinstance(entry[1].value, str):
+    if entry and isinstance(entry[1], ScalarNode) and isinstance(entry[1].value, str):
         return entry[1].value
     return ""
 
 
-def _shipped(name: str, made: Assembly, span: Span | None = None) -> Mapping:
+def _shipped(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
     return canonical(_read(find_shipped(name, span), made), ()).root
 
 
 def _group_models(made: Assembly) -> None:
     """Groups with a `model:` of their own are laid over that model's group."""
     entry = made.root.entries.get("groups")
-    if not entry or not isinstance(entry[1], Mapping):
+    if not entry or not isinstance(entry[1], MappingNode):
         return
     groups: dict[str, tuple[Span, Node]] = {}
     for name, (place, group) in entry[1].entries.items():
-        model = _text(group, "model") if isinstance(group, Mapping) else ""
-        if model and isinstance(group, Mapping):
+        model = _text(group, "model") if isinstance(group, MappingNode) else ""
+        if model and isinstance(group, MappingNode):
             below = _shipped(model, made, group.entries["model"][1].span)
             choices = group_names(below)
             chosen = name if name in choices else choices[0] if len(choices) == 1 else ""
@@ -145,17 +136,17 @@ def _group_models(made: Assembly) -> None:
                 made.bases[name] = Basis(model, _figures(base))
                 # What belongs to a place on a controller is not the model's to say.
                 kept = {k: v for k, v in base.entries.items() if k not in _IDENTITY}
-                group = merge(Mapping(kept, base.span), group, ("groups", name))
+                group = merge(MappingNode(kept, base.span), group, ("groups", name))
             else:
                 made.found.append(
                     error(
                         "RG010",
-                        f"model '{model}' has the groups {', '.join(choices)}, none is '{name}'",
                         place,
-                        "which of them?",
+                        f"model '{model}' has the groups {', '.join(choices)}, none is '{name}'",
                         f"name the group {' or '.join(choices)}, or put `model:` at the top",
+                        label="which of them?",
                     )
                 )
         groups[name] = (place, group)
-    whole = Mapping(groups, entry[1].span)
-    made.root = Mapping({**made.root.entries, "groups": (entry[0], whole)}, made.root.span)
+    whole = MappingNode(groups, entry[1].span)
+    made.root = MappingNode({**made.root.entries, "groups": (entry[0], whole)}, made.root.span)

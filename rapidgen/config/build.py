@@ -4,9 +4,11 @@ import math
 from pathlib import Path
 
 from rapidgen.config import model, schema
-from rapidgen.config.draft import GroupDraft, JointDraft, Report
+from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
+from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
+from rapidgen.config.tooling import tool_of, work_object_of
 from rapidgen.diagnostics import Severity
 
 GENERATIONS = {
@@ -15,7 +17,6 @@ GENERATIONS = {
     "omnicore": (7, 8),
     "virtual": (5, 6, 7, 8),
 }
-MAX_JOINTS = 10
 DEFAULT_PORTS = (11000, 11001, 11002)
 PORT_STEP = 10
 _PLAIN_PORTS_END = 4999
@@ -25,7 +26,7 @@ def build(
     configuration: schema.ConfigurationKeys,
     drafts: list[GroupDraft],
     path: Path,
-    report: Report,
+    report: DraftFindings,
 ) -> model.RobotConfig | None:
     """The model, or None when `report` holds errors; `path` is the file it is named after."""
     _check_controller(configuration, report)
@@ -83,7 +84,7 @@ def _name_of(path: Path) -> str:
     return (kept if kept[:1].isalpha() else f"robot_{kept}")[:40]
 
 
-def _check_controller(configuration: schema.ConfigurationKeys, report: Report) -> None:
+def _check_controller(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
     controller = configuration.controller
     main = controller.robotware[0]
     path: KeyPath = ("controller", "robotware")
@@ -109,7 +110,7 @@ def _check_controller(configuration: schema.ConfigurationKeys, report: Report) -
         )
 
 
-def _check_network(configuration: schema.ConfigurationKeys, report: Report) -> None:
+def _check_network(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
     addresses: list[tuple[KeyPath, str]] = [
         (("network", "allowed_clients", index), address)
         for index, address in enumerate(configuration.network.allowed_clients)
@@ -134,10 +135,10 @@ def _check_network(configuration: schema.ConfigurationKeys, report: Report) -> N
 
 
 def _group(
-    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: Report
+    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: DraftFindings
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
-    joints = _joints(keys, draft, path, report)
+    joints = joints_of(keys, draft, path, report)
     names = {joint.name for joint in draft.joints}
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
@@ -171,8 +172,8 @@ def _group(
         model=draft.model,
         chain=tuple(draft.chain),
         coupling=draft.coupling or 0.0,
-        tool=_tool(keys.tool, (*path, "tool"), report),
-        work_object=_work_object(keys.work_object, (*path, "work_object"), report),
+        tool=tool_of(keys.tool, (*path, "tool"), report),
+        work_object=work_object_of(keys.work_object, (*path, "work_object"), report),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),
         positioners=tuple(
@@ -181,7 +182,7 @@ def _group(
     )
 
 
-def _is_shipped(path: KeyPath, name: str, report: Report) -> bool:
+def _is_shipped(path: KeyPath, name: str, report: DraftFindings) -> bool:
     """Whether a part is as the shipped model has it."""
     if not name:
         return False
@@ -189,7 +190,7 @@ def _is_shipped(path: KeyPath, name: str, report: Report) -> bool:
 
 
 def _chain(
-    chain: list[model.ChainLink], path: KeyPath, names: set[str], among: str, report: Report
+    chain: list[model.ChainLink], path: KeyPath, names: set[str], among: str, report: DraftFindings
 ) -> None:
     for number, step in enumerate(chain):
         if step.axis == (0.0, 0.0, 0.0):
@@ -204,198 +205,8 @@ def _chain(
                 )
 
 
-def _joints(
-    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: Report
-) -> tuple[model.Joint, ...]:
-    where: KeyPath = (*path, "joints")
-    if not draft.joints:
-        report.error(
-            "RG013",
-            f"group '{draft.name}' has no joints",
-            where,
-            help="give `model:` (see `rapidgen robots`), `urdf:` or `joints:`",
-        )
-    elif len(draft.joints) > MAX_JOINTS:
-        report.error(
-            "RG013",
-            f"group '{draft.name}' has {len(draft.joints)} joints; the wire carries {MAX_JOINTS}",
-            where,
-            help="a message of simple_message holds 10 joint values: make two groups",
-        )
-    _check_radians(draft, where, report)
-    seen: dict[str, str] = {}
-    joints = []
-    for joint in draft.joints:
-        here: KeyPath = (*where, joint.name)
-        if joint.axis in seen:
-            report.error(
-                "RG013",
-                f"joints '{seen[joint.axis]}' and '{joint.name}' both drive {joint.axis}",
-                (*here, "axis"),
-                "second time",
-            )
-        if joint.axis:
-            seen.setdefault(joint.axis, joint.name)
-        made = _joint(joint, keys.acceleration_time, here, report)
-        if made:
-            joints.append(made)
-    return tuple(joints)
-
-
-def _check_radians(draft: GroupDraft, path: KeyPath, report: Report) -> None:
-    """Four and more turning axes that all stay within 7: radians, not degrees."""
-    turning = [joint for joint in draft.joints if joint.unit != "mm"]
-    ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
-    if len(turning) >= 4 and len(ends) == 2 * len(turning) and max(map(abs, ends)) <= 7:
-        report.add(
-            "RG037",
-            Severity.WARNING,
-            f"no axis of group '{draft.name}' turns more than {max(map(abs, ends)):g} degrees",
-            path,
-            "radians?",
-            "a configuration has degrees, as ABB's data sheets",
-            key=True,
-        )
-
-
-def _joint(draft: JointDraft, ramp: float, path: KeyPath, report: Report) -> model.Joint | None:
-    missing = [
-        name
-        for name in ("axis", "lower", "upper", "speed")
-        if getattr(draft, name) in (None, "") and not report.is_faulty((*path, name))
-    ]
-    if missing:
-        unit = "mm" if draft.unit == "mm" else "deg"
-        hints = {
-            "axis": "`axis:` is rax_1 to rax_6 or eax_a to eax_f",
-            "lower": f"limits are in {unit}",
-            "upper": f"limits are in {unit}",
-            "speed": f"`speed:` is in {unit}/s",
-        }
-        report.error(
-            "RG007",
-            f"joint '{draft.name}' lacks {', '.join(missing)}",
-            path,
-            "here",
-            "; ".join(dict.fromkeys(hints[name] for name in missing)),
-            key=True,
-        )
-    if draft.lower is None or draft.upper is None or draft.speed is None:
-        return None
-    if draft.lower >= draft.upper:
-        report.error(
-            "RG014",
-            f"joint '{draft.name}': lower limit {draft.lower:g} is not below the upper limit "
-            f"{draft.upper:g}",
-            (*path, "upper"),
-        )
-        return None
-    lower, upper = inwards(draft.lower, draft.upper)
-    factor = 0.001 if draft.unit == "mm" else math.pi / 180
-    acceleration = draft.acceleration if draft.acceleration else draft.speed / ramp
-    return model.Joint(
-        name=draft.name,
-        axis=draft.axis,
-        kind="prismatic" if draft.unit == "mm" else "revolute",
-        lower=_si(lower, draft.unit),
-        upper=_si(upper, draft.unit),
-        speed=_si(draft.speed, draft.unit),
-        acceleration=acceleration * factor,
-        sign=draft.sign,
-        offset=_si(draft.offset, draft.unit),
-        source=draft.source,
-        unsure=bool(draft.unsure),
-    )
-
-
-def _si(value: float, unit: str) -> float:
-    return value / 1000 if unit == "mm" else math.radians(value)
-
-
-def inwards(lower: float, upper: float) -> tuple[float, float]:
-    """Limits rounded inwards to 0.01 (deg or mm); noise below 1e-6 does not count."""
-    return math.ceil(lower * 100 - 1e-4) / 100, math.floor(upper * 100 + 1e-4) / 100
-
-
-def _unit_quaternion(
-    values: list[float], path: KeyPath, report: Report
-) -> tuple[float, float, float, float]:
-    norm = math.sqrt(sum(v * v for v in values))
-    if abs(norm - 1) > 1e-3:
-        report.error(
-            "RG014",
-            f"{values} is not a unit quaternion (its length is {norm:.4g})",
-            path,
-            help="q1 is the scalar; [1, 0, 0, 0] turns nothing",
-        )
-        return (1.0, 0.0, 0.0, 0.0)
-    exact = abs(norm - 1) < 1e-12
-    q1, q2, q3, q4 = (v if exact else v / norm for v in values)
-    return (q1, q2, q3, q4)
-
-
-def _metres(values: list[float]) -> tuple[float, float, float]:
-    x, y, z = (v / 1000 for v in values)
-    return (x, y, z)
-
-
-def _frame(frame: schema.FrameKeys, path: KeyPath, report: Report) -> model.Frame:
-    return model.Frame(
-        _metres(frame.position),
-        _unit_quaternion(frame.orientation, (*path, "orientation"), report),
-    )
-
-
-def _tool(tool: schema.ToolKeys, path: KeyPath, report: Report) -> model.Tool:
-    load = tool.load
-    if tool.name == "tool0" and tool != schema.ToolKeys():
-        report.error(
-            "RG014",
-            "tool0 is the controller's own and cannot be described",
-            path,
-            help="give the tool another `name:`",
-            key=True,
-        )
-    elif tool.name != "tool0" and load.mass <= 0:
-        report.error(
-            "RG014",
-            f"tool '{tool.name}' weighs nothing",
-            (*path, "load", "mass"),
-            help="a controller refuses to move with a tool without mass: add `load: {mass: ...}`",
-        )
-    x, y, z = load.inertia
-    return model.Tool(
-        tool.name,
-        tool.held,
-        _frame(tool.frame, (*path, "frame"), report),
-        model.Load(
-            load.mass,
-            _metres(load.centre),
-            _unit_quaternion(load.axes, (*path, "load", "axes"), report),
-            (x, y, z),
-        ),
-    )
-
-
-def _work_object(given: schema.WorkObjectKeys, path: KeyPath, report: Report) -> model.WorkObject:
-    if given.name == "wobj0" and given != schema.WorkObjectKeys():
-        report.error(
-            "RG014",
-            "wobj0 is the controller's own and cannot be described",
-            path,
-            help="give the work object another `name:`",
-            key=True,
-        )
-    return model.WorkObject(
-        given.name,
-        given.held,
-        _frame(given.user_frame, (*path, "user_frame"), report),
-        _frame(given.object_frame, (*path, "object_frame"), report),
-    )
-
-
 def _check_ports(
-    configuration: schema.ConfigurationKeys, groups: list[model.GroupConfig], report: Report
+    configuration: schema.ConfigurationKeys, groups: list[model.GroupConfig], report: DraftFindings
 ) -> None:
     users: dict[int, str] = {}
     for group in groups:
@@ -424,7 +235,7 @@ def _check_ports(
                 )
 
 
-def _check_tasks(groups: list[model.GroupConfig], report: Report) -> None:
+def _check_tasks(groups: list[model.GroupConfig], report: DraftFindings) -> None:
     for name in ("task", "mechanical_unit"):
         users: dict[str, str] = {}
         for group in groups:

@@ -1,11 +1,11 @@
 """What the shipped models are, in a line each."""
 
 from dataclasses import asdict, dataclass
-from typing import Any
 
+from rapidgen._json import Members
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
-from rapidgen.config.tree import Mapping, Scalar, decode, parse, read_bytes
+from rapidgen.config.tree import MappingNode, ScalarNode, decode, parse, read_bytes
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,7 +19,7 @@ class ShippedModel:
     groups: tuple[tuple[str, int], ...]
     unsure: bool
 
-    def as_json(self) -> dict[str, Any]:
+    def as_json(self) -> Members:
         """Plain data."""
         return {**asdict(self), "groups": {name: joints for name, joints in self.groups}}
 
@@ -45,6 +45,6 @@ def model_description(name: str) -> str:
     """The line that a shipped model says of itself."""
     path = find_shipped(name)
     root, _ = parse(decode(read_bytes(path, str(path)), str(path)), str(path))
-    assert isinstance(root, Mapping)
+    assert isinstance(root, MappingNode)
     entry = root.entries.get("description")
-    return str(entry[1].value) if entry and isinstance(entry[1], Scalar) else ""
+    return str(entry[1].value) if entry and isinstance(entry[1], ScalarNode) else ""

@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 
 from rapidgen.config.model import ChainLink
-from rapidgen.config.tree import Mapping, error, place_of
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.config.tree import MappingNode, place_of
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 Path = tuple[str | int, ...]
 
@@ -44,10 +44,10 @@ class GroupDraft:
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
 
 
-class Report:
+class DraftFindings:
     """Collects findings with places; what lies in a part already found faulty is not repeated."""
 
-    def __init__(self, root: Mapping, removed: Iterable[Path]) -> None:
+    def __init__(self, root: MappingNode, removed: Iterable[Path]) -> None:
         self.root = root
         self.found: list[Diagnostic] = []
         self._removed = set(removed)
@@ -80,7 +80,9 @@ class Report:
         """One finding at a path of the configuration."""
         if not self.is_faulty(path):
             span = self.span(path, key=key)
-            self.found.append(Diagnostic(code, severity, message, span, label, help, notes))
+            self.found.append(
+                error(code, span, message, help, label=label, notes=notes, severity=severity)
+            )
 
     def error(
         self,
@@ -94,7 +96,7 @@ class Report:
     ) -> None:
         """One error at a path of the configuration."""
         if not self.is_faulty(path):
-            self.found.append(error(code, message, self.span(path, key=key), label, help))
+            self.found.append(error(code, self.span(path, key=key), message, help, label=label))
 
     @property
     def failed(self) -> bool:

@@ -5,16 +5,15 @@ without a value counts as absent, so that a section whose lines are all comments
 """
 
 import re
-from collections.abc import Mapping as MappingType
-from collections.abc import Sequence as SequenceType
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from rapidgen.config.schema import GROUP_KEYS
-from rapidgen.config.tree import Mapping, Node, Scalar, Sequence, error, from_python, parse
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.config.tree import MappingNode, Node, ScalarNode, SequenceNode, from_python, parse
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 Entries = dict[str, tuple[Span, Node]]
-Overrides = MappingType[str, object] | SequenceType[str]
+Overrides = Mapping[str, object] | Sequence[str]
 
 DEFAULT_GROUP = "rob1"
 _SHARED_KEYS = ("model",)  # a key of a file as well as of a group: at the top it is the file's
@@ -25,91 +24,91 @@ _KEY = re.compile(r'"([^"]*)"|([^."]+)')
 class Layer:
     """A tree in canonical form (`groups` only) and what was found on the way."""
 
-    root: Mapping
+    root: MappingNode
     found: list[Diagnostic] = field(default_factory=list)
 
 
 def prune(node: Node) -> Node:
     """The tree without keys that have no value."""
-    if isinstance(node, Mapping):
-        return Mapping(
+    if isinstance(node, MappingNode):
+        return MappingNode(
             {
                 key: (place, prune(value))
                 for key, (place, value) in node.entries.items()
-                if not (isinstance(value, Scalar) and value.value is None)
+                if not (isinstance(value, ScalarNode) and value.value is None)
             },
             node.span,
         )
-    if isinstance(node, Sequence):
-        return Sequence(tuple(prune(item) for item in node.items), node.span)
+    if isinstance(node, SequenceNode):
+        return SequenceNode(tuple(prune(item) for item in node.items), node.span)
     return node
 
 
-def group_names(root: Mapping) -> tuple[str, ...]:
+def group_names(root: MappingNode) -> tuple[str, ...]:
     """Names of the groups of a canonical tree."""
     entry = root.entries.get("groups")
-    return tuple(entry[1].entries) if entry and isinstance(entry[1], Mapping) else ()
+    return tuple(entry[1].entries) if entry and isinstance(entry[1], MappingNode) else ()
 
 
 def canonical(root: Node, known: tuple[str, ...]) -> Layer:
     """`root` with its group keys moved under `groups`; `known` are the groups below it."""
-    if isinstance(root, Scalar) and root.value is None:
-        root = Mapping({}, root.span)
-    if not isinstance(root, Mapping):
-        raise DiagnosticError(
-            error("RG006", "a configuration is a mapping of keys", root.span, "not a mapping")
+    if isinstance(root, ScalarNode) and root.value is None:
+        root = MappingNode({}, root.span)
+    if not isinstance(root, MappingNode):
+        raise refusal(
+            "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
         )
     pruned = prune(root)
-    assert isinstance(pruned, Mapping)
+    assert isinstance(pruned, MappingNode)
     top = {k: v for k, v in pruned.entries.items() if k not in GROUP_KEYS or k in _SHARED_KEYS}
     own = {k: v for k, v in pruned.entries.items() if k in GROUP_KEYS and k not in _SHARED_KEYS}
     if not own:
-        return Layer(Mapping(top, pruned.span))
+        return Layer(MappingNode(top, pruned.span))
     given = top.get("groups")
-    names = tuple(dict.fromkeys((*known, *group_names(Mapping(top, pruned.span)))))
+    names = tuple(dict.fromkeys((*known, *group_names(MappingNode(top, pruned.span)))))
     if len(names) > 1 or (given and not known):
         shown = names[0] if names else DEFAULT_GROUP
         found = [
             error(
                 "RG010",
-                f"'{key}' belongs to a group",
                 place,
-                f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
+                f"'{key}' belongs to a group",
                 f"write it as groups.{shown}.{key}",
+                label=f"which of {', '.join(names)}?" if len(names) > 1 else "beside 'groups'",
             )
             for key, (place, _) in own.items()
         ]
-        return Layer(Mapping(top, pruned.span), found)
+        return Layer(MappingNode(top, pruned.span), found)
     name = names[0] if names else DEFAULT_GROUP
     first = next(iter(own.values()))[0]
-    group = Mapping({name: (first, Mapping(own, pruned.span))}, pruned.span)
-    moved = Mapping({"groups": (first, group)}, pruned.span)
-    return Layer(merge(Mapping(top, pruned.span), moved))
+    group = MappingNode({name: (first, MappingNode(own, pruned.span))}, pruned.span)
+    moved = MappingNode({"groups": (first, group)}, pruned.span)
+    return Layer(merge(MappingNode(top, pruned.span), moved))
 
 
-def merge(base: Mapping, over: Mapping, path: tuple[str, ...] = ()) -> Mapping:
+def merge(base: MappingNode, over: MappingNode, path: tuple[str, ...] = ()) -> MappingNode:
     """`over` upon `base`: mappings are joined key by key, everything else is replaced."""
     entries = dict(base.entries)
     if len(path) == 2 and path[0] == "groups":
         entries = _adopt(entries, over)
     for key, (place, value) in over.entries.items():
         below = entries.get(key)
-        if below and isinstance(below[1], Mapping) and isinstance(value, Mapping):
+        if below and isinstance(below[1], MappingNode) and isinstance(value, MappingNode):
             value = merge(below[1], value, (*path, key))
         entries[key] = (place, value)
     group, joint = len(path) == 2, len(path) == 4 and path[2] == "joints"
     if path[:1] == ("groups",) and (group or joint):
         entries = _settle(entries, over)
-    return Mapping(entries, over.span)
+    return MappingNode(entries, over.span)
 
 
-def _adopt(entries: Entries, over: Mapping) -> Entries:
+def _adopt(entries: Entries, over: MappingNode) -> Entries:
     """A joint of a new name on an axis that the model has is that joint, renamed."""
     known, given = entries.get("joints"), over.entries.get("joints")
     if not known or not given:
         return entries
     known_joints, given_joints = known[1], given[1]
-    if not isinstance(known_joints, Mapping) or not isinstance(given_joints, Mapping):
+    if not isinstance(known_joints, MappingNode) or not isinstance(given_joints, MappingNode):
         return entries
     by_axis = {axis: key for key, (_, j) in known_joints.entries.items() if (axis := _axis(j))}
     names = {
@@ -120,7 +119,7 @@ def _adopt(entries: Entries, over: Mapping) -> Entries:
     if not names:
         return entries
     joints = {names.get(key, key): value for key, value in known_joints.entries.items()}
-    made = {**entries, "joints": (known[0], Mapping(joints, known_joints.span))}
+    made = {**entries, "joints": (known[0], MappingNode(joints, known_joints.span))}
     for key in ("chain", "positioners"):
         if key in entries:
             place, chain = entries[key]
@@ -130,10 +129,10 @@ def _adopt(entries: Entries, over: Mapping) -> Entries:
 
 def _renamed(node: Node, names: dict[str, str]) -> Node:
     """A chain with other joint names."""
-    if isinstance(node, Sequence):
-        return Sequence(tuple(_renamed(item, names) for item in node.items), node.span)
-    if isinstance(node, Mapping):
-        return Mapping(
+    if isinstance(node, SequenceNode):
+        return SequenceNode(tuple(_renamed(item, names) for item in node.items), node.span)
+    if isinstance(node, MappingNode):
+        return MappingNode(
             {
                 names.get(key, key): (place, _renamed(value, names))
                 for key, (place, value) in node.entries.items()
@@ -141,40 +140,40 @@ def _renamed(node: Node, names: dict[str, str]) -> Node:
             node.span,
         )
     if isinstance(node.value, str):
-        return Scalar(names.get(node.value, node.value), node.span)
+        return ScalarNode(names.get(node.value, node.value), node.span)
     return node
 
 
 def _axis(joint: Node) -> str:
-    if isinstance(joint, Mapping) and "axis" in joint.entries:
+    if isinstance(joint, MappingNode) and "axis" in joint.entries:
         value = joint.entries["axis"][1]
-        if isinstance(value, Scalar) and isinstance(value.value, str):
+        if isinstance(value, ScalarNode) and isinstance(value.value, str):
             return value.value
     return ""
 
 
-def _settle(entries: Entries, over: Mapping) -> Entries:
+def _settle(entries: Entries, over: MappingNode) -> Entries:
     """A figure that the upper layer gives is no longer an unsure one of the lower layer."""
     if "unsure" not in entries or "unsure" in over.entries:
         return entries
     place, unsure = entries["unsure"]
-    if isinstance(unsure, Sequence):
+    if isinstance(unsure, SequenceNode):
         left = tuple(
             item
             for item in unsure.items
-            if not (isinstance(item, Scalar) and item.value in over.entries)
+            if not (isinstance(item, ScalarNode) and item.value in over.entries)
         )
-        entries["unsure"] = (place, Sequence(left, unsure.span))
+        entries["unsure"] = (place, SequenceNode(left, unsure.span))
     return entries
 
 
-def override_tree(overrides: Overrides) -> tuple[Mapping, tuple[tuple[str, bytes], ...]]:
+def override_tree(overrides: Overrides) -> tuple[MappingNode, tuple[tuple[str, bytes], ...]]:
     """`--set` texts, or a mapping of key paths to values, as one raw tree with its inputs."""
-    root = Mapping({}, Span("--set", 1, 1))
+    root = MappingNode({}, Span("--set", 1, 1))
     inputs: list[tuple[str, bytes]] = []
     found: list[Diagnostic] = []
-    pairs: SequenceType[tuple[str, object, bool]]
-    if isinstance(overrides, MappingType):
+    pairs: Sequence[tuple[str, object, bool]]
+    if isinstance(overrides, Mapping):
         pairs = [(key, value, False) for key, value in overrides.items()]
     else:
         pairs = []
@@ -200,8 +199,8 @@ def override_tree(overrides: Overrides) -> tuple[Mapping, tuple[tuple[str, bytes
             found += fault.diagnostics
             continue
         for part in reversed(keys):
-            node = Mapping({part: (span, node)}, span)
-        assert isinstance(node, Mapping)
+            node = MappingNode({part: (span, node)}, span)
+        assert isinstance(node, MappingNode)
         root = merge(root, node)
         inputs.append(("--set", f"{key}={value}".encode()))
     if found:
@@ -228,7 +227,7 @@ def _split(key: str) -> list[str]:
 def _bad_override(text: str) -> Diagnostic:
     return error(
         "RG008",
-        f"'{text}' is not an override",
         None,
-        help="write key.path=value, such as --set ports.motion=12000",
+        f"'{text}' is not an override",
+        "write key.path=value, such as --set ports.motion=12000",
     )

@@ -1,14 +1,14 @@
 """`load_config`: a file or a shipped name becomes a checked, frozen model, or all its faults."""
 
 import math
-from collections.abc import Sequence as SequenceType
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.config import schema
 from rapidgen.config.assemble import Assembly, Basis, assemble
 from rapidgen.config.build import build
-from rapidgen.config.draft import GroupDraft, JointDraft, Report
+from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import ChainLink, RobotConfig
 from rapidgen.config.validate import validate
@@ -19,7 +19,7 @@ def load_config(
     path_or_name: str | Path,
     *,
     overrides: Overrides = (),
-    package_paths: SequenceType[str | Path] = (),
+    package_paths: Sequence[str | Path] = (),
 ) -> RobotConfig:
     """Read and check a configuration.
 
@@ -31,7 +31,7 @@ def load_config(
     """
     assembly = assemble(path_or_name, overrides)
     valid = validate(assembly.root)
-    report = Report(assembly.root, valid.removed)
+    report = DraftFindings(assembly.root, valid.removed)
     report.found = assembly.found + valid.found
     groups = valid.configuration.groups
     drafts = [_draft(name, keys, assembly.bases.get(name)) for name, keys in groups.items()]
@@ -64,7 +64,7 @@ def _read_urdf(
     elsewhere: set[str],
     package_paths: list[Path],
     assembly: Assembly,
-    report: Report,
+    report: DraftFindings,
 ) -> None:
     from rapidgen.config.urdf.group import complete  # heavy: only where a URDF is read
 
@@ -113,7 +113,7 @@ def _link(step: schema.ChainStepKeys) -> ChainLink:
 
 
 def _report_unknown(
-    drafts: list[GroupDraft], groups: dict[str, schema.GroupKeys], report: Report
+    drafts: list[GroupDraft], groups: dict[str, schema.GroupKeys], report: DraftFindings
 ) -> None:
     """A joint that the model does not have needs an axis of its own; else it is misspelt."""
     for draft in drafts:
@@ -136,7 +136,7 @@ def _report_unknown(
                 report.mute(path)
 
 
-def _report_wider(drafts: list[GroupDraft], report: Report) -> None:
+def _report_wider(drafts: list[GroupDraft], report: DraftFindings) -> None:
     """A limit beyond the shipped model's is said: ranges are never widened silently."""
     for draft in drafts:
         for joint in draft.joints:
@@ -155,7 +155,7 @@ def _report_wider(drafts: list[GroupDraft], report: Report) -> None:
                     )
 
 
-def _report_unsure(draft: GroupDraft, keys: schema.GroupKeys, report: Report) -> None:
+def _report_unsure(draft: GroupDraft, keys: schema.GroupKeys, report: DraftFindings) -> None:
     """One warning for each group that says which figures lack a sure source."""
     parts = [f"{joint.name} {'/'.join(joint.unsure)}" for joint in draft.joints if joint.unsure]
     parts += keys.unsure

@@ -4,20 +4,19 @@ import dataclasses
 import types
 import typing
 from pathlib import Path
-from typing import Any
 
+from rapidgen._json import Json, Members, members
 from rapidgen.config.model import RobotConfig
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.config.rules import Hint
+from rapidgen.diagnostics import refusal
 
 
-def to_manifest(config: RobotConfig) -> dict[str, Any]:
+def to_manifest(config: RobotConfig) -> Members:
     """The configuration as dicts, lists, texts and numbers, without its path and inputs."""
-    made = _out(config)
-    assert isinstance(made, dict)
-    return made
+    return members(_out(config))
 
 
-def _out(value: Any) -> Any:
+def _out(value: object) -> Json:
     if dataclasses.is_dataclass(value):
         return {
             f.name: _out(getattr(value, f.name))
@@ -26,27 +25,27 @@ def _out(value: Any) -> Any:
         }
     if isinstance(value, tuple):
         return [_out(item) for item in value]
-    return value
+    if value is None or isinstance(value, bool | int | float | str):
+        return value
+    raise TypeError(f"a {type(value).__name__} has no place in the model")
 
 
-def from_manifest(data: object, path: Path = Path("manifest.json")) -> RobotConfig:
+def from_manifest(data: Json, path: Path = Path("manifest.json")) -> RobotConfig:
     """The configuration that `to_manifest` wrote; anything else raises DiagnosticError (RG019)."""
     try:
         made = _in(RobotConfig, data, "configuration", path)
     except (TypeError, ValueError) as fault:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG019",
-                Severity.ERROR,
-                f"{path}: not a configuration of this version: {fault}",
-                help="build the folder again with `rapidgen build`",
-            )
+        raise refusal(
+            "RG019",
+            None,
+            f"{path}: not a configuration of this version: {fault}",
+            "build the folder again with `rapidgen build`",
         ) from None
     assert isinstance(made, RobotConfig)
     return made
 
 
-def _in(hint: Any, value: Any, where: str, path: Path) -> Any:
+def _in(hint: Hint, value: Json, where: str, path: Path) -> object:
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if dataclasses.is_dataclass(hint) and isinstance(hint, type):
         return _dataclass(hint, value, where, path)
@@ -67,7 +66,7 @@ def _in(hint: Any, value: Any, where: str, path: Path) -> Any:
         return value
     if origin in (typing.Union, types.UnionType):
         raise TypeError(f"{where}: unions have no place in the model")
-    if hint is float and type(value) in (int, float):
+    if hint is float and isinstance(value, int | float) and not isinstance(value, bool):
         return float(value)
     if hint is Path:
         return path
@@ -76,7 +75,7 @@ def _in(hint: Any, value: Any, where: str, path: Path) -> Any:
     return value
 
 
-def _dataclass(hint: Any, value: Any, where: str, path: Path) -> Any:
+def _dataclass(hint: type, value: Json, where: str, path: Path) -> object:
     if not isinstance(value, dict):
         raise TypeError(f"{where} is not an object")
     hints = typing.get_type_hints(hint)

@@ -66,7 +66,7 @@ class Load:
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class Placement:
     """Position in m and unit quaternion q1..q4 (q1 the scalar)."""
 
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
@@ -79,7 +79,7 @@ class Tool:
 
     name: str = "tool0"
     held: bool = True
-    frame: Frame = field(default_factory=Frame)
+    frame: Placement = field(default_factory=Placement)
     load: Load = field(default_factory=Load)
 
 
@@ -89,8 +89,8 @@ class WorkObject:
 
     name: str = "wobj0"
     held: bool = False
-    user_frame: Frame = field(default_factory=Frame)
-    object_frame: Frame = field(default_factory=Frame)
+    user_frame: Placement = field(default_factory=Placement)
+    object_frame: Placement = field(default_factory=Placement)
 
 
 @dataclass(frozen=True, slots=True)

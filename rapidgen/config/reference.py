@@ -7,8 +7,9 @@ import types
 import typing
 from typing import Any
 
+from rapidgen._json import Members
 from rapidgen.config import schema
-from rapidgen.config.rules import Rule
+from rapidgen.config.rules import Hint, Rule
 
 SECTIONS = (
     schema.ConfigurationKeys,
@@ -29,7 +30,7 @@ SECTIONS = (
 )
 
 
-def json_schema() -> dict[str, Any]:
+def json_schema() -> Members:
     """JSON schema (2020-12) of a configuration file; group keys may stand at the top."""
     from pydantic import TypeAdapter
 
@@ -85,7 +86,7 @@ def _key_of(part: type) -> str:
     return names.get(part, f"`{_shown(part.__name__).lower()}`")
 
 
-def _rules(hint: Any) -> tuple[Rule, ...]:
+def _rules(hint: Hint) -> tuple[Rule, ...]:
     if typing.get_origin(hint) is typing.Annotated:
         first, *rules = typing.get_args(hint)
         return (*_rules(first), *(rule for rule in rules if isinstance(rule, Rule)))
@@ -94,11 +95,11 @@ def _rules(hint: Any) -> tuple[Rule, ...]:
     return ()
 
 
-def _doc(hint: Any) -> str:
+def _doc(hint: Hint) -> str:
     return next((rule.doc for rule in reversed(_rules(hint)) if rule.doc), "")
 
 
-def _type(hint: Any) -> str:
+def _type(hint: Hint) -> str:
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin is typing.Annotated:
         name = _type(arguments[0])
@@ -113,7 +114,12 @@ def _type(hint: Any) -> str:
         return f"{_type(arguments[0])}: {_type(arguments[1])}"
     if hint is Any:
         return "version"
-    names = {str: "text", int: "whole number", float: "number", bool: "`true` `false`"}
+    names: dict[Hint, str] = {
+        str: "text",
+        int: "whole number",
+        float: "number",
+        bool: "`true` `false`",
+    }
     return names.get(hint, "see below")
 
 
@@ -131,17 +137,17 @@ def _bounds(rule: Rule) -> str:
     return " and ".join(parts)
 
 
-def _default(field: "dataclasses.Field[Any]") -> str:
+def _default(field: "dataclasses.Field[object]") -> str:
     if field.default is not dataclasses.MISSING:
         value = field.default
     elif field.default_factory is not dataclasses.MISSING:
         value = field.default_factory()
     else:
         return "required"
-    if field.name == "robotware":
+    if isinstance(value, tuple):  # a version
         return f"`{value[0]}.{value[1]}`"
-    if value in (None, "", [], {}) and value is not False:
+    if isinstance(value, bool):
+        return f"`{str(value).lower()}`"
+    if value in (None, "", [], {}) or dataclasses.is_dataclass(value):
         return ""
-    if dataclasses.is_dataclass(value):
-        return ""
-    return f"`{str(value).lower() if isinstance(value, bool) else value}`"
+    return f"`{value}`"

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from rapidgen._data import data_folder
-from rapidgen.diagnostics import DiagnosticError, Span, suggest
+from rapidgen.diagnostics import Span, refusal, suggest
 
 
 def shipped_names() -> tuple[str, ...]:
@@ -13,20 +13,17 @@ def shipped_names() -> tuple[str, ...]:
 
 def find_shipped(name: str, span: Span | None = None) -> Path:
     """File of a shipped model; an unknown name raises DiagnosticError (RG009)."""
-    from rapidgen.config.tree import error
 
     known = shipped_names()
     if name in known:
         return data_folder("robots") / f"{name}.yaml"
     meant = suggest(name, known)
-    raise DiagnosticError(
-        error(
-            "RG009",
-            f"no shipped model is called '{name}'",
-            span,
-            help=(f"{meant}; " if meant else "") + "`rapidgen robots` lists them; "
-            "for a file of your own write its path with the suffix .yaml",
-        )
+    raise refusal(
+        "RG009",
+        span,
+        f"no shipped model is called '{name}'",
+        (f"{meant}; " if meant else "") + "`rapidgen robots` lists them; "
+        "for a file of your own write its path with the suffix .yaml",
     )
 
 

@@ -10,15 +10,17 @@ import types
 import typing
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
 
 CoreSchema = dict[str, Any]
+Hint: TypeAlias = object
+"""A type as an annotation holds it: a class, or one of typing's forms."""
 
 _LARGEST = 1e6
 """No angle, length, speed or acceleration of a robot is beyond it (deg, mm, kg, s), and a num
 holds such a figure to a tenth [K §2.13]."""
 
-_LEAVES: dict[Any, CoreSchema] = {
+_LEAVES: dict[Hint, CoreSchema] = {
     str: {"type": "str", "strict": True},
     int: {"type": "int", "strict": True},
     float: {
@@ -45,7 +47,7 @@ class Rule:
     min_length: int | None = None
     max_length: int | None = None
     pattern: str | None = None
-    before: Callable[[Any], Any] | None = None
+    before: Callable[[object], object] | None = None
     """Turns what the file says into the value; raises ValueError."""
     json: CoreSchema | None = None
     """JSON schema of what `before` reads."""
@@ -76,7 +78,7 @@ class Rule:
         return {**made, "description": self.doc} if self.doc else made
 
 
-def core(hint: object) -> CoreSchema:
+def core(hint: Hint) -> CoreSchema:
     """Core schema of a type that the configuration uses."""
     if hint is Any:
         return {"type": "any"}
@@ -126,7 +128,7 @@ def _dataclass(cls: type) -> CoreSchema:
     }
 
 
-def _with_default(field: "dataclasses.Field[Any]") -> CoreSchema:
+def _with_default(field: "dataclasses.Field[object]") -> CoreSchema:
     schema = core(field.type)
     if field.default is not dataclasses.MISSING:
         return {"type": "default", "schema": schema, "default": field.default}

@@ -15,7 +15,7 @@ from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.urdf.group import complete_from, request
 from rapidgen.config.urdf.source import macros, read_xml
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
 
 _OPTIONS = """
 # What follows is optional; the values shown are the defaults. `rapidgen schema` and
@@ -165,9 +165,7 @@ def assignments(words: Sequence[str]) -> dict[str, str]:
     for word in words:
         name, equals, value = word.partition("=")
         if not name or not equals:
-            raise DiagnosticError(
-                Diagnostic("RG020", Severity.ERROR, f"'{word}' is not NAME=VALUE")
-            )
+            raise refusal("RG020", None, f"'{word}' is not NAME=VALUE")
         made[name] = value
     return made
 
@@ -181,26 +179,22 @@ def write_new(
     (RG001), or does not load; in the last case nothing is left behind.
     """
     if path.exists() and not force:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG020",
-                Severity.ERROR,
-                f"{path} exists",
-                help="give another name, or --force to replace it",
-            ),
+        raise refusal(
+            "RG020",
+            None,
+            f"{path} exists",
+            "give another name, or --force to replace it",
             exit_code=1,
         )
     before = path.read_bytes() if path.is_file() else None
     try:
         write_whole(path, text.encode())
     except OSError as fault:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG001",
-                Severity.ERROR,
-                f"cannot write {path}: {fault.strerror}",
-                help="name a file in a folder that exists and may be written",
-            )
+        raise refusal(
+            "RG001",
+            None,
+            f"cannot write {path}: {fault.strerror}",
+            "name a file in a folder that exists and may be written",
         ) from None
     try:
         return load_config(path, package_paths=package_paths).diagnostics

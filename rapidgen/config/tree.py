@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen._json import Json
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
 MAX_BYTES = 1_000_000
 MAX_DEPTH = 40
@@ -20,7 +21,7 @@ MAX_NODES = 50_000
 _INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _INF = re.compile(r"[-+]?\.(inf|Inf|INF)")
-_CONSTANTS: dict[str, object] = {
+_CONSTANTS: dict[str, bool | float | None] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),
     **dict.fromkeys(("false", "False", "FALSE"), False),
@@ -41,15 +42,15 @@ class Number(float):
 
 
 @dataclass(frozen=True, slots=True)
-class Scalar:
+class ScalarNode:
     """A leaf: None, bool, int, float or str."""
 
-    value: object
+    value: bool | int | float | str | None
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
-class Sequence:
+class SequenceNode:
     """A list."""
 
     items: tuple["Node", ...]
@@ -57,21 +58,14 @@ class Sequence:
 
 
 @dataclass(frozen=True, slots=True)
-class Mapping:
+class MappingNode:
     """A dictionary in the order of the text; `entries[key]` = (place of the key, value)."""
 
     entries: dict[str, tuple[Span, "Node"]]
     span: Span
 
 
-Node = Scalar | Sequence | Mapping
-
-
-def error(
-    code: str, message: str, span: Span | None, label: str = "", help: str = ""
-) -> Diagnostic:
-    """A finding of severity error; most of this room's are."""
-    return Diagnostic(code, Severity.ERROR, message, span, label, help)
+Node = ScalarNode | SequenceNode | MappingNode
 
 
 def read_bytes(path: Path, shown: str) -> bytes:
@@ -81,17 +75,15 @@ def read_bytes(path: Path, shown: str) -> bytes:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
         reason = getattr(fault, "strerror", None) or str(fault)
-        raise DiagnosticError(
-            error("RG001", f"cannot read {shown}: {reason}", None, help="give the path of a file")
+        raise refusal(
+            "RG001", None, f"cannot read {shown}: {reason}", "give the path of a file"
         ) from None
     if len(data) > MAX_BYTES:
-        raise DiagnosticError(
-            error(
-                "RG002",
-                f"{shown} is larger than {MAX_BYTES:,} bytes",
-                None,
-                help="a configuration is a few kilobytes: is this the right file?",
-            )
+        raise refusal(
+            "RG002",
+            None,
+            f"{shown} is larger than {MAX_BYTES:,} bytes",
+            "a configuration is a few kilobytes: is this the right file?",
         )
     return data
 
@@ -103,14 +95,12 @@ def decode(data: bytes, shown: str) -> str:
     except UnicodeDecodeError as fault:
         line = data.count(b"\n", 0, fault.start) + 1
         column = fault.start - data.rfind(b"\n", 0, fault.start)
-        raise DiagnosticError(
-            error(
-                "RG002",
-                f"{shown} is not UTF-8 text",
-                Span(shown, line, column),
-                f"byte 0x{data[fault.start]:02x}",
-                "save the file as UTF-8",
-            )
+        raise refusal(
+            "RG002",
+            Span(shown, line, column),
+            f"{shown} is not UTF-8 text",
+            "save the file as UTF-8",
+            label=f"byte 0x{data[fault.start]:02x}",
         ) from None
 
 
@@ -128,9 +118,7 @@ def parse(text: str, shown: str, *, at: Span | None = None) -> tuple[Node, list[
     except YAMLError as fault:
         raise DiagnosticError(_syntax(fault, shown, at)) from None
     except (ValueError, OverflowError) as fault:  # an escape that ruamel does not check
-        raise DiagnosticError(
-            error("RG003", f"not YAML: {fault}", at or Span(shown, 1, 1))
-        ) from None
+        raise refusal("RG003", at or Span(shown, 1, 1), f"not YAML: {fault}") from None
 
 
 def _syntax(fault: Any, shown: str, at: Span | None) -> Diagnostic:
@@ -140,9 +128,9 @@ def _syntax(fault: Any, shown: str, at: Span | None) -> Diagnostic:
     span = at or (Span(shown, mark.line + 1, mark.column + 1) if mark else Span(shown, 1, 1))
     return error(
         "RG003",
-        f"not YAML: {problem}" + (f" ({context})" if context else ""),
         span,
-        help="quote a text that holds ': ', '#', '[' or '{'; indent with blanks, never with tabs",
+        f"not YAML: {problem}" + (f" ({context})" if context else ""),
+        "quote a text that holds ': ', '#', '[' or '{'; indent with blanks, never with tabs",
     )
 
 
@@ -170,7 +158,7 @@ class _Builder:
             elif kind in ("ScalarEvent", "AliasEvent", "SequenceStartEvent", "MappingStartEvent"):
                 root = self._node(event, 0)
         if root is None:
-            root = Scalar(None, self._at or Span(self._shown, 1, 1))
+            root = ScalarNode(None, self._at or Span(self._shown, 1, 1))
         return root, self._found
 
     def _span(self, event: Any) -> Span:
@@ -180,7 +168,7 @@ class _Builder:
         return Span(self._shown, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
 
     def _refuse(self, what: str, span: Span) -> DiagnosticError:
-        return DiagnosticError(error("RG002", what, span, help="see `rapidgen explain RG002`"))
+        return refusal("RG002", span, what, "see `rapidgen explain RG002`")
 
     def _node(self, event: Any, depth: int) -> Node:
         span = self._span(event)
@@ -201,7 +189,7 @@ class _Builder:
         if kind == "ScalarEvent":
             plain = event.style in (None, "")
             value = self._resolve(event.value, span) if plain else event.value
-            node = Scalar(value, span)
+            node = ScalarNode(value, span)
         elif kind == "SequenceStartEvent":
             node = self._sequence(span, depth)
         else:
@@ -216,7 +204,7 @@ class _Builder:
         if self._nodes > MAX_NODES:
             raise self._refuse(f"more than {MAX_NODES:,} values, aliases written out", span)
 
-    def _resolve(self, text: str, span: Span) -> object:
+    def _resolve(self, text: str, span: Span) -> bool | int | float | str | None:
         if text in _CONSTANTS:
             return _CONSTANTS[text]
         if _INT.fullmatch(text):
@@ -229,19 +217,19 @@ class _Builder:
             return float(text.replace(".", ""))
         return text
 
-    def _sequence(self, start: Span, depth: int) -> Sequence:
+    def _sequence(self, start: Span, depth: int) -> SequenceNode:
         items: list[Node] = []
         for event in self._events:
             if type(event).__name__ == "SequenceEndEvent":
-                return Sequence(tuple(items), start)
+                return SequenceNode(tuple(items), start)
             items.append(self._node(event, depth + 1))
         raise self._refuse("the text ends inside a list", start)
 
-    def _mapping(self, start: Span, depth: int) -> Mapping:
+    def _mapping(self, start: Span, depth: int) -> MappingNode:
         entries: dict[str, tuple[Span, Node]] = {}
         for event in self._events:
             if type(event).__name__ == "MappingEndEvent":
-                return Mapping(entries, start)
+                return MappingNode(entries, start)
             place = self._span(event)
             if type(event).__name__ != "ScalarEvent" or event.tag is not None:
                 raise self._refuse("a key that is not a plain text", place)
@@ -257,13 +245,12 @@ class _Builder:
 def _duplicate(key: str, place: Span, first: Span) -> Diagnostic:
     from rapidgen.diagnostics import Label
 
-    return Diagnostic(
+    return error(
         "RG004",
-        Severity.ERROR,
-        f"duplicate key '{key}'",
         place,
-        "second time",
+        f"duplicate key '{key}'",
         "keep one of the two",
+        label="second time",
         related=(Label(first, "first time"),),
     )
 
@@ -272,19 +259,19 @@ def from_python(value: object, span: Span) -> Node:
     """A tree for a value given from Python; every part has the one place `span`."""
     if isinstance(value, dict):
         entries = {str(k): (span, from_python(v, span)) for k, v in value.items()}
-        return Mapping(entries, span)
+        return MappingNode(entries, span)
     if isinstance(value, list | tuple):
-        return Sequence(tuple(from_python(v, span) for v in value), span)
+        return SequenceNode(tuple(from_python(v, span) for v in value), span)
     if value is None or isinstance(value, bool | int | float | str):
-        return Scalar(value, span)
-    raise DiagnosticError(error("RG008", f"an override cannot be a {type(value).__name__}", span))
+        return ScalarNode(value, span)
+    raise refusal("RG008", span, f"an override cannot be a {type(value).__name__}")
 
 
-def to_python(node: Node) -> Any:
+def to_python(node: Node) -> Json:
     """Plain dicts, lists and scalars."""
-    if isinstance(node, Mapping):
+    if isinstance(node, MappingNode):
         return {key: to_python(value) for key, (_, value) in node.entries.items()}
-    if isinstance(node, Sequence):
+    if isinstance(node, SequenceNode):
         return [to_python(item) for item in node.items]
     return node.value
 
@@ -293,11 +280,11 @@ def place_of(root: Node, path: tuple[str | int, ...]) -> tuple[Span, Span]:
     """Places (key or item, value) of what `path` leads to, or of the nearest that exists."""
     node, key = root, root.span
     for part in path:
-        if isinstance(node, Mapping) and part in node.entries:
+        if isinstance(node, MappingNode) and part in node.entries:
             key, node = node.entries[str(part)]
-        elif isinstance(node, Sequence) and isinstance(part, int) and part < len(node.items):
+        elif isinstance(node, SequenceNode) and isinstance(part, int) and part < len(node.items):
             node = node.items[part]
             key = node.span
         else:
             break
-    return key, node.span if isinstance(node, Scalar) else key
+    return key, node.span if isinstance(node, ScalarNode) else key

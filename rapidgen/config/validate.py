@@ -8,15 +8,15 @@ import dataclasses
 import types
 import typing
 from dataclasses import dataclass, field
-from typing import Any
 
-from pydantic_core import SchemaValidator, ValidationError
+from pydantic_core import ErrorDetails, SchemaValidator, ValidationError
 
+from rapidgen._json import Json, items, members
 from rapidgen.config.layers import group_names
-from rapidgen.config.rules import core
+from rapidgen.config.rules import Hint, core
 from rapidgen.config.schema import GROUP_KEYS, TOP_KEYS, ConfigurationKeys
-from rapidgen.config.tree import Mapping, error, place_of, to_python
-from rapidgen.diagnostics import Diagnostic, suggest
+from rapidgen.config.tree import MappingNode, place_of, to_python
+from rapidgen.diagnostics import Diagnostic, error, suggest
 
 Path = tuple[str | int, ...]
 
@@ -30,11 +30,10 @@ class Validated:
     removed: set[Path] = field(default_factory=set)
 
 
-def validate(root: Mapping) -> Validated:
+def validate(root: MappingNode) -> Validated:
     """Validate a canonical tree."""
     data = to_python(root)
-    schema: Any = core(ConfigurationKeys)
-    validator = SchemaValidator(schema)
+    validator = SchemaValidator(core(ConfigurationKeys))
     found: list[Diagnostic] = []
     removed: set[Path] = set()
     while True:
@@ -49,59 +48,63 @@ def validate(root: Mapping) -> Validated:
                 found.append(_missing(root, item["loc"]))
                 path = path if len(path) < len(item["loc"]) else path[:-1]
             elif path not in paths:
-                found.append(_translate(root, path, is_key, dict(item)))
+                found.append(_translate(root, path, is_key, item))
             paths.add(path)
         removed |= paths
         for path in sorted(paths, key=len, reverse=True):
             _remove(data, path)
 
 
-def _real_path(data: Any, loc: tuple[str | int, ...]) -> tuple[Path, bool]:
+def _real_path(data: Json, loc: tuple[str | int, ...]) -> tuple[Path, bool]:
     """The part of `loc` that leads through the data (unions and keys add parts of their own)."""
-    node: Any = data
+    node = data
     path: list[str | int] = []
     for part in loc:
-        in_list = isinstance(node, list) and isinstance(part, int) and part < len(node)
-        if not in_list and not (isinstance(node, dict) and part in node):
+        try:
+            node = _part(node, part)
+        except (KeyError, IndexError, TypeError):
             break
-        node = node[part]
         path.append(part)
     return tuple(path), loc[-1] == "[key]"
 
 
-def _remove(data: Any, path: Path) -> None:
+def _part(node: Json, part: str | int) -> Json:
+    return items(node)[part] if isinstance(part, int) else members(node)[part]
+
+
+def _remove(data: Json, path: Path) -> None:
     *parents, last = path
     for part in parents:
         try:
-            data = data[part]
+            data = _part(data, part)
         except (KeyError, IndexError, TypeError):
             return  # an outer part went already
     if isinstance(data, dict):
-        data.pop(last, None)
+        data.pop(str(last), None)
     elif isinstance(data, list):
         # An element of a list cannot be missing: the whole list goes with it.
         data.clear()
 
 
-def shown(root: Mapping, path: Path) -> str:
+def shown(root: MappingNode, path: Path) -> str:
     """A path as a user may write it: the only group's keys stand at the top."""
     if len(path) > 2 and path[0] == "groups" and len(group_names(root)) == 1:
         path = path[2:]
     return ".".join(str(part) for part in path)
 
 
-def _missing(root: Mapping, loc: Path) -> Diagnostic:
+def _missing(root: MappingNode, loc: Path) -> Diagnostic:
     key, _ = place_of(root, loc[:-1])
     return error(
         "RG007",
-        f"'{shown(root, loc[:-1])}' lacks '{loc[-1]}'",
         key,
-        "here",
+        f"'{shown(root, loc[:-1])}' lacks '{loc[-1]}'",
         f"add `{loc[-1]}:`",
+        label="here",
     )
 
 
-def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) -> Diagnostic:
+def _translate(root: MappingNode, path: Path, is_key: bool, item: ErrorDetails) -> Diagnostic:
     key, value = place_of(root, path)
     if item["type"] == "unexpected_keyword_argument":
         known = keys_at(path[:-1])
@@ -109,16 +112,16 @@ def _translate(root: Mapping, path: Path, is_key: bool, item: dict[str, Any]) ->
         where = f" in '{shown(root, path[:-1])}'" if len(path) > 1 else ""
         return error(
             "RG005",
-            f"unknown key '{_short(path[-1])}'{where}",
             key,
-            "not a key of the configuration" if len(path) == 1 else "not a key here",
+            f"unknown key '{_short(path[-1])}'{where}",
             meant or (f"known here: {', '.join(known)}" if len(known) < 25 else ""),
+            label="not a key of the configuration" if len(path) == 1 else "not a key here",
         )
     return error(
         "RG006",
-        f"'{shown(root, path)}': {_reason(item, is_key)}",
         key if is_key else value,
-        _input(item),
+        f"'{shown(root, path)}': {_reason(item, is_key)}",
+        label=_input(item),
     )
 
 
@@ -128,7 +131,7 @@ def _short(given: object) -> str:
     return text if len(text) <= 60 else f"{text[:57]}..."
 
 
-def _input(item: dict[str, Any]) -> str:
+def _input(item: ErrorDetails) -> str:
     given = item.get("input")
     if isinstance(given, dict):
         return "a mapping"
@@ -137,7 +140,7 @@ def _input(item: dict[str, Any]) -> str:
     return ""
 
 
-def _reason(item: dict[str, Any], is_key: bool) -> str:
+def _reason(item: ErrorDetails, is_key: bool) -> str:
     kind, context = item["type"], item.get("ctx", {})
     given = item.get("input")
     fixed = {
@@ -182,21 +185,21 @@ def keys_at(path: Path) -> tuple[str, ...]:
     """Keys that the schema knows at a path of the canonical tree."""
     if not path:
         return tuple(dict.fromkeys((*TOP_KEYS, *GROUP_KEYS)))
-    hint: Any = ConfigurationKeys
+    hint: Hint = ConfigurationKeys
     for part in path:
         hint = _step(hint, part)
     model = _model(hint)
     return tuple(f.name for f in dataclasses.fields(model)) if model else ()
 
 
-def _model(hint: Any) -> Any:
+def _model(hint: Hint) -> type | None:
     for option in _options(hint):
         if isinstance(option, type) and dataclasses.is_dataclass(option):
             return option
     return None
 
 
-def _options(hint: Any) -> tuple[Any, ...]:
+def _options(hint: Hint) -> tuple[Hint, ...]:
     if typing.get_origin(hint) is typing.Annotated:
         return _options(typing.get_args(hint)[0])
     if typing.get_origin(hint) in (typing.Union, types.UnionType):
@@ -204,7 +207,7 @@ def _options(hint: Any) -> tuple[Any, ...]:
     return (hint,)
 
 
-def _step(hint: Any, part: str | int) -> Any:
+def _step(hint: Hint, part: str | int) -> Hint:
     model = _model(hint)
     if model:
         return next((f.type for f in dataclasses.fields(model) if f.name == part), None)

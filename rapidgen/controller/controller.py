@@ -1,19 +1,22 @@
 """The virtual controller: one scheduler, tasks, I/O, motion, files, network and event log."""
 
 import threading
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from os import PathLike
 from pathlib import Path
-from typing import Any, Literal, Self
+from typing import Literal, Self, TypedDict, TypeVar, Unpack
 
+from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
-from rapidgen.controller.state import ControllerState
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
-from rapidgen.machine.configuration import Configuration
+from rapidgen.controller.loading import Trees, configured, load
+from rapidgen.controller.operation import Mode, Operation
+from rapidgen.controller.system_signals import SystemSignals
+from rapidgen.controller.thread import ControllerThread
+from rapidgen.controller.views import Signals, TaskView
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -23,157 +26,57 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
-from rapidgen.rapid import Dialect as TextDialect
-from rapidgen.rapid import parse
-from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
-from rapidgen.runtime.compiler.predefined import find_type
-from rapidgen.runtime.compiler.program import Shared
-from rapidgen.runtime.compiler.symbols import Data, Routine
-from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.loading import ModuleTable
+from rapidgen.runtime.meetings import Meetings
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.sockets import SocketTable
-from rapidgen.runtime.switches import Dialect
-from rapidgen.runtime.task.recovery import Place
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.switches import Switches
+from rapidgen.runtime.task.statements import Statements
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.texts import TextTables
-from rapidgen.runtime.values import Type
-from rapidgen.system.model import ModuleFile, System
+from rapidgen.system import is_generated, read_files, read_manifest, read_system
+from rapidgen.system.model import System
 
+_T = TypeVar("_T")
 _NS = 1_000_000_000
 Cycle = Literal["once", "forever"]
-_THREAD_LOOK = 0.1
-"""s between two looks whether the controller's thread is still there to answer."""
+Accounting = Literal["block", "statement", "none"]
 
 
 class Deadlock(Exception):
     """Every task waits and nothing is ahead that could wake one."""
 
 
-class Signals(Mapping[str, float]):
-    """Values of the signals by name; assigning sets one."""
+class Choices(TypedDict, total=False):
+    """Keywords of `VirtualController`."""
 
-    def __init__(self, io: IOSystem) -> None:
-        self._io = io
-
-    def __getitem__(self, name: str) -> float:
-        return self._io[name].value
-
-    def __setitem__(self, name: str, value: float) -> None:
-        self._io.set(self._io[name], value)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter([s.name for s in self._io.signals.values()])
-
-    def __len__(self) -> int:
-        return len(self._io.signals)
-
-
-class TaskView:
-    """A task for tests: `task["Module:name"]` is a raw RAPID value (deg, mm)."""
-
-    def __init__(self, task: RapidTask) -> None:
-        self.rapid = task
-
-    @property
-    def name(self) -> str:
-        """Name of the task."""
-        return self.rapid.name
-
-    @property
-    def state(self) -> str:
-        """`ready`, `running`, `stopped`, `finished`, `error` or `empty`."""
-        return self.rapid.state
-
-    @property
-    def fault(self) -> FatalError | None:
-        """Why the task stopped with an error."""
-        return self.rapid.fault
-
-    @property
-    def stack(self) -> tuple[Place, ...]:
-        """Where it is, outermost routine first."""
-        return self.rapid.stack()
-
-    def _data(self, name: str) -> tuple[Data, Any]:
-        program = self.rapid.program
-        where, colon, key = name.lower().rpartition(":")
-        module = program.modules.get(where) if colon else None
-        if colon and module is None:
-            raise KeyError(name)
-        data = program.find_data(module, key)
-        if data is None:
-            raise KeyError(name)
-        return data, program.space.get(data.code)
-
-    def __getitem__(self, name: str) -> Any:  # noqa: ANN401
-        data, kept = self._data(name)
-        if data.storage == "inline":
-            return data.value
-        return kept.v if data.storage == "cell" else kept
-
-    def __setitem__(self, name: str, value: Any) -> None:  # noqa: ANN401
-        data, kept = self._data(name)
-        if data.readonly:
-            raise KeyError(f"{name} is a constant")
-        if data.storage == "cell":
-            kept.set(value)
-        else:
-            program = self.rapid.program
-            program.space[program.global_ref(data)].set(value)
-
-    def type_of(self, name: str) -> tuple[Type, tuple[int, ...]]:
-        """Type and dimensions of a datum. KeyError: there is none."""
-        data, _ = self._data(name)
-        return data.type, data.dims
-
-    def start(self) -> None:
-        """Start or go on."""
-        self.rapid.start()
-
-    def stop(self) -> None:
-        """Stop the program."""
-        self.rapid.stop()
-
-    def step(self, *, back: bool = False, over: bool = False) -> None:
-        """Execute one statement; `over`: calls as a whole. CannotStep says why not.
-
-        Time has to pass for it; the task is `stopped` again then.
-        """
-        self.rapid.controller.step_program(self.rapid, back=back, over=over)
-
-    @property
-    def place(self) -> Place | None:
-        """The statement before which a stopped task stands; None when that is unknown."""
-        return self.rapid.stands_before()
-
-    def pp_to_routine(self, name: str) -> None:
-        """Set the program pointer to a procedure without parameters. CannotStep: no such one."""
-        self.rapid.pp_to_routine(name)
-        self.rapid.controller.drop_paths()
-
-    def pp_to_statement(self, line: int) -> None:
-        """Set the program pointer to another statement of the routine (PP to cursor).
-
-        Data and interrupts are kept, the path is gone. CannotStep: it cannot go on there.
-        """
-        self.rapid.pp_to_statement(line)
-        self.rapid.controller.drop_paths()
-
-    def call_service(self, name: str) -> None:
-        """Execute a service routine of a stopped task. CannotStep: it runs, or no such one."""
-        self.rapid.call_service(name)
-
-    def pp_to_main(self) -> None:
-        """Set the program pointer to main."""
-        self.rapid.pp_to_main()
+    robots: Sequence[GroupConfig]
+    clock: ClockKind
+    seed: int
+    speed: float
+    costs: Costs | None
+    dialect: Switches | None
+    host: str
+    ports: PortMap
+    cycle: Cycle
+    schedule: Schedule
+    switch_at_pers: bool
+    accounting: Accounting
+    tracing: bool
+    answers: Iterable[Answer] | None
+    network: Network | None
+    folder: Path | None
+    faults: FaultPlan | None
+    autostart: bool
 
 
-class VirtualController(ControllerState):
+class VirtualController:
     """Executes the RAPID of a `System`.
 
     Bound to the thread that steps it, or, after `start()`, to a thread of its own. Positions
@@ -189,13 +92,13 @@ class VirtualController(ControllerState):
         seed: int = 0,
         speed: float = 1.0,
         costs: Costs | None = None,
-        dialect: Dialect | None = None,
+        dialect: Switches | None = None,
         host: str = "",
         ports: PortMap = 0,
         cycle: Cycle = "forever",
         schedule: Schedule = "round-robin",
         switch_at_pers: bool = False,
-        accounting: Literal["block", "statement", "none"] = "block",
+        accounting: Accounting = "block",
         tracing: bool = False,
         answers: Iterable[Answer] | None = None,
         network: Network | None = None,
@@ -211,7 +114,7 @@ class VirtualController(ControllerState):
         """
         self.system = system
         self.costs = costs if costs is not None else Costs()
-        self.dialect = dialect if dialect is not None else Dialect()
+        self.dialect = dialect if dialect is not None else Switches()
         self.cycle: Cycle = cycle
         self.scheduler = Scheduler(
             clock=clock,
@@ -242,10 +145,14 @@ class VirtualController(ControllerState):
         self.operator = Operator(self.scheduler, answers)
         self.texts = TextTables()
         self.modules = ModuleTable()
+        self.statements = Statements()
         self.queues = QueueSystem(system.tasks)
         self.test_signals: dict[int, float] = {}
         """Values of the servos' test signals by channel."""
-        self.configuration = Configuration(system, tuple(robots))
+        self.booked: set[int] = set()
+        """Error numbers that BookErrNo gave."""
+        self.meetings = Meetings()
+        self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
             statement=self.costs.statement,
@@ -256,20 +163,21 @@ class VirtualController(ControllerState):
             tracing=tracing,
             dialect=self.dialect,
         )
-        self.shared = Shared(self._configured(robots))
-        self._parsed: dict[bytes, n.Module] = {}
-        self._thread: threading.Thread | None = None
-        self._stopping = False
-        super().__init__()
+        self.shared = Shared(configured(system, robots, self.io))
+        self.parse_module = Trees(system.robotware).parse
+        self.recovered = self.log.recovered
+        self.operation = Operation(self)
+        signals = SystemSignals(self, self.operation)
+        self._thread = ControllerThread(self.scheduler, f"virtual controller {system.name}")
         self.rapid_tasks = {
-            spec.name: RapidTask(self.scheduler, spec, self, self.shared) for spec in system.tasks
+            spec.name: Task(self.scheduler, spec, self, self.shared) for spec in system.tasks
         }
-        self._views = {name: TaskView(task) for name, task in self.rapid_tasks.items()}
-        self.diagnostics: list[Diagnostic] = []
-        self._load()
-        self.io.on_action = self.system_input
-        self.io.on_end = self.system_input_ended
-        self.power_up()
+        self.tasks: Mapping[str, TaskView] = {
+            name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
+        }
+        self.diagnostics = load(self.rapid_tasks.values(), self.parse_module)
+        signals.connect()
+        self.operation.power_up()
         if faults is not None:
             schedule_faults(faults, self)
         if autostart:
@@ -292,14 +200,11 @@ class VirtualController(ControllerState):
     # -- other ways in ---------------------------------------------------------------------------
 
     @classmethod
-    def from_folder(cls, path: Path | str, **options: Any) -> Self:  # noqa: ANN401
+    def from_folder(cls, path: Path | str, **options: Unpack[Choices]) -> Self:
         """A generated folder (its manifest tells the robots) or an ABB backup.
 
         DiagnosticError when it cannot be read.
         """
-        from rapidgen.config import from_manifest
-        from rapidgen.system import is_generated, read_manifest, read_system
-
         folder = Path(path)
         system = read_system(folder)
         if is_generated(folder):
@@ -314,11 +219,9 @@ class VirtualController(ControllerState):
         files: Mapping[str, Sequence[Path | str]] | Sequence[Path | str],
         *,
         entry: str = "main",
-        **options: Any,  # noqa: ANN401
+        **options: Unpack[Choices],
     ) -> Self:
         """Loose module files: one task T_ROB1, or one for each key."""
-        from rapidgen.system import read_files
-
         return cls(read_files(files, entry=entry), **options)
 
     @classmethod
@@ -327,85 +230,18 @@ class VirtualController(ControllerState):
         config: "RobotConfig | str | PathLike[str]",
         *,
         overrides: Sequence[str] = (),
-        **options: Any,  # noqa: ANN401
+        **options: Unpack[Choices],
     ) -> Self:
         """The driver that a configuration (a file, a shipped name) generates, without files.
 
         `overrides` are `key.path=value` texts. DiagnosticError when it has faults.
         """
-        from rapidgen.controller.booting import generated_system
+        from rapidgen.generate import build, make_system
 
-        system, model = generated_system(config, tuple(overrides))
-        return cls(system, tuple(model.groups), **options)
-
-    # -- loading ---------------------------------------------------------------------------------
-
-    def _configured(self, robots: Sequence[GroupConfig]) -> dict[str, tuple[Any, Any]]:
-        """Objects that the configuration predefines: signals, mechanical units, taskids."""
-        found: dict[str, tuple[Any, Any]] = {}
-        for task in self.system.tasks:
-            kind = find_type("taskid")
-            if kind is not None:
-                found[f"{task.name.lower()}id"] = (kind, self._named(kind, task.name))
-        for group in robots:
-            for unit in (group.mechanical_unit, *group.external_units):
-                kind = find_type("mecunit")
-                if kind is not None and unit:
-                    found[unit.lower()] = (kind, self._named(kind, unit))
-        for signal in self.io.signals.values():
-            kind = find_type(f"signal{signal.spec.type.lower()}")
-            if kind is not None:
-                found[signal.name.lower()] = (kind, signal)
-        return found
-
-    @staticmethod
-    def _named(kind: Any, name: str) -> Any:  # noqa: ANN401
-        made = kind.default()
-        made.value = name
-        return made
-
-    def parse_module(self, file: ModuleFile) -> n.Module:
-        """The tree of a module file; the same bytes are parsed once."""
-        tree = self._parsed.get(file.data)
-        if tree is None or tree.source.path != file.path:
-            tree = parse(
-                file.data, path=file.path, dialect=TextDialect(robotware=self.system.robotware)
-            )
-            self._parsed[file.data] = tree
-        return tree
-
-    def _load(self) -> None:
-        found: list[Diagnostic] = []
-        for task in self.rapid_tasks.values():
-            trees = [(self.parse_module(file), file) for file in task.spec.modules]
-            for tree, _ in trees:
-                found += [d for d in tree.diagnostics if d not in found]
-            task.program.load([(t, f) for t, f in trees if t.name])
-            found += task.program.faults
-            entry = task.program.globals.get(task.spec.entry.lower())
-            if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
-                task.state = "ready"
-            else:
-                found.append(self._no_entry(task))
-            found += self._missing(task)
-        self.diagnostics = found
-        errors = [d for d in found if d.severity is Severity.ERROR]
-        if errors:
-            raise DiagnosticError(found)
-
-    def _no_entry(self, task: RapidTask) -> Diagnostic:
-        return Diagnostic(
-            "RG402",
-            Severity.WARNING if not task.spec.modules else Severity.ERROR,
-            f"task {task.name} has no procedure {task.spec.entry} without parameters",
-            help=f"declare PROC {task.spec.entry}() in one of its modules, or name another entry",
-        )
-
-    def _missing(self, task: RapidTask) -> list[Diagnostic]:
-        """Routines that are called and do not exist here: said once for each name."""
-        from rapidgen.runtime.compiler.missing import missing_routines
-
-        return missing_routines(task.program)
+        if not isinstance(config, RobotConfig):
+            config = load_config(str(config), overrides=tuple(overrides))
+        options.setdefault("robots", tuple(config.groups))
+        return cls(in_its_cell(make_system(config, build(config)), config), **options)
 
     # -- stepping --------------------------------------------------------------------------------
 
@@ -414,14 +250,9 @@ class VirtualController(ControllerState):
         """Simulated seconds since the controller was made."""
         return self.scheduler.now / _NS
 
-    @property
-    def tasks(self) -> Mapping[str, TaskView]:
-        """Tasks by name."""
-        return self._views
-
     def task(self, name: str) -> TaskView:
         """A task by name."""
-        return self._views[name]
+        return self.tasks[name]
 
     @property
     def signals(self) -> Signals:
@@ -471,14 +302,12 @@ class VirtualController(ControllerState):
         if outcome == "stop":
             return "statements"
         # Nothing ahead before the limit of time is a deadlock, however long one would wait.
-        idle = scheduler.next_event() is None and not scheduler.ready and not self._computing()
+        busy = scheduler.ready or scheduler.preempted is not None
+        idle = scheduler.next_event() is None and not busy
         return "deadlock" if outcome == "idle" or idle else "time"
 
     def _all_ended(self) -> bool:
         return all(t.state != "running" for t in self.rapid_tasks.values())
-
-    def _computing(self) -> bool:
-        return self.scheduler.preempted is not None
 
     def where(self) -> list[str]:
         """For each running task where it is, as `task: file:line (routine)`."""
@@ -526,70 +355,89 @@ class VirtualController(ControllerState):
         numbers = ",".join(str(listeners[port][1]) for port in wanted)
         return f"{listeners[ports.motion][0]}:{numbers}"
 
+    # -- modes and stops ---------------------------------------------------------------------------
+
+    @property
+    def mode(self) -> Mode:
+        """`auto`, `manual_reduced` or `manual_full`."""
+        return self.operation.mode
+
+    @property
+    def motors_on(self) -> bool:
+        """Whether the motors are on."""
+        return self.operation.motors_on
+
+    @property
+    def e_stop(self) -> bool:
+        """Whether the emergency stop is pressed."""
+        return self.operation.e_stop
+
+    @property
+    def execution_error(self) -> bool:
+        """Whether an error stopped a task, and nothing was started since."""
+        return self.operation.execution_error
+
+    @property
+    def failed(self) -> bool:
+        """SYS FAIL: nothing starts until a restart."""
+        return self.operation.failed
+
+    def perform(self, action: str) -> None:
+        """Do what a person would: `e-stop`, `motors-on`, `manual`, ... (operation.ACTIONS)."""
+        self.operation.perform(action)
+
+    def start_program(self) -> bool:
+        """Start all tasks; False when the state does not allow it."""
+        return self.operation.start_program()
+
+    def stop_program(self) -> None:
+        """Stop all NORMAL tasks and the robots; (semi)static tasks go on."""
+        self.operation.stop_program()
+
+    def pp_to_main(self) -> None:
+        """Set the program pointer of all NORMAL tasks to main."""
+        self.operation.pp_to_main()
+
+    def set_motors(self, on: bool) -> None:
+        """Motors on or off; off stops the program."""
+        self.operation.set_motors(on)
+
+    def set_e_stop(self, pressed: bool) -> None:
+        """Press or reset the emergency stop; motors stay off after a reset."""
+        self.operation.set_e_stop(pressed)
+
+    def set_mode(self, mode: str) -> None:
+        """Change the operating mode; motors go off. ValueError: there is no such mode."""
+        self.operation.set_mode(mode)
+
+    def power_loss(self) -> None:
+        """Power goes and comes back: a warm start."""
+        self.operation.power_loss()
+
+    def before_statement(
+        self, task: str, module: str, line: int, count: int, action: Callable[[], None]
+    ) -> None:
+        """Call `action` when a statement is reached for the `count`-th time."""
+        self.statements.before(self.rapid_tasks, task, module, line, count, action)
+
     # -- real time -------------------------------------------------------------------------------
 
     def start(self) -> None:
         """Run in a thread of its own from now on. ValueError: the clock is not the real one."""
-        if self.scheduler.clock != "real":
-            raise ValueError('only clock="real" runs by itself; else use run_for and run_until')
-        if self._thread is not None:
-            return
-        self._stopping = False
-        self.scheduler.rebase()
-        self._thread = threading.Thread(
-            target=self._run_thread, name=f"virtual controller {self.system.name}", daemon=True
-        )
         self._thread.start()
-
-    def _run_thread(self) -> None:
-        self.scheduler.advance(stop=lambda: self._stopping)
 
     def stop(self) -> None:
         """End the thread; the controller can be started again."""
-        thread = self._thread
-        if thread is None:
-            return
+        self._thread.stop()
 
-        def end() -> None:
-            self._stopping = True
-
-        self.scheduler.post(end)
-        thread.join()
-        self._thread = None
-
-    def call(self, function: Callable[[], Any]) -> Any:  # noqa: ANN401
+    def call(self, function: Callable[[], _T]) -> _T:
         """Run `function` on the controller's thread and return what it returns."""
-        thread = self._thread
-        if thread is None or thread is threading.current_thread() or not thread.is_alive():
-            return function()
-        done = threading.Event()
-        result: list[Any] = []
-
-        def run() -> None:
-            try:
-                result.append(function())
-            finally:
-                done.set()
-
-        self.scheduler.post(run)
-        while not done.wait(_THREAD_LOOK):
-            if not thread.is_alive() and not done.is_set():
-                # A fault has ended the thread: nobody else runs anything any more.
-                return function()
-        if not result:
-            raise RuntimeError("the controller's thread could not carry out the request")
-        return result[0]
+        return self._thread.call(function)
 
     def close(self) -> None:
         """Stop and give everything back: thread, sockets, files."""
-
-        def end() -> None:
-            # In one go: nothing may run between the tasks' end and the thread's.
-            self._stopping = True
-            self.scheduler.close_processes(self.rapid_tasks.values())
-
-        self.call(end)
-        self.stop()
+        # In one go: nothing may run between the tasks' end and the thread's.
+        self._thread.stop(lambda: self.scheduler.close_processes(self.rapid_tasks.values()))
         for name in self.rapid_tasks:
             self.sockets.close_task(name)
         self.network.shut_down()

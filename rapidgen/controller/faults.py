@@ -4,12 +4,12 @@ A plan is data read from YAML (`sim --faults FILE`). `network/faulty.py` carries
 connections; the part about the controller is put on its clock by `schedule`.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import Field, dataclass, fields
 from pathlib import Path
-from typing import Any, Literal, Protocol, get_args
+from typing import Literal, Protocol, TypeVar, get_args
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+from rapidgen.diagnostics import DiagnosticError, Span, refusal, suggest
 from rapidgen.machine.network.rules import NetworkRule
 from rapidgen.machine.scheduler import S, Scheduler
 
@@ -32,6 +32,9 @@ class ControllerRule:
     module: str = ""
     line: int = 0
     pass_: int = 1
+
+
+_R = TypeVar("_R")
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,26 +88,36 @@ def read_plan(path: Path) -> FaultPlan:
         raise _unusable(path, str(error).splitlines()[0]) from error
     if not isinstance(content, dict) or set(content) - {"network", "controller"}:
         raise _unusable(path, "it is no mapping with `network` and `controller`")
-    network = _rules(path, content.get("network"), "network", NetworkRule)
-    controller = _rules(path, content.get("controller"), "controller", ControllerRule)
+    network = _rules(path, content, "network", NetworkRule, fields(NetworkRule))
+    controller = _rules(path, content, "controller", ControllerRule, fields(ControllerRule))
     for i, rule in enumerate(controller, 1):
         if (rule.at >= 0) == bool(rule.line):
             raise _unusable(path, f"controller rule {i}: either `at`, or `module` and `line`")
     return FaultPlan(tuple(network), tuple(controller))
 
 
-def _rules(path: Path, entries: object, where: str, kind: type[Any]) -> list[Any]:
+def _rules(
+    path: Path,
+    plan: Mapping[str, object],
+    part: str,
+    make: Callable[..., _R],
+    known: Sequence[Field[object]],
+) -> list[_R]:
+    entries = plan.get(part)
     if entries is None:
         return []
     if not isinstance(entries, list):
-        raise _unusable(path, f"`{where}` is no list")
-    return [_rule(path, f"{where} rule {i}", entry, kind) for i, entry in enumerate(entries, 1)]
+        raise _unusable(path, f"`{part}` is no list")
+    by_name = {field.name.rstrip("_"): field for field in known}
+    rules = [_rule(path, f"{part} rule {i}", e, by_name) for i, e in enumerate(entries, 1)]
+    return [make(**rule) for rule in rules]
 
 
-def _rule(path: Path, where: str, entry: object, kind: type[Any]) -> object:
+def _rule(
+    path: Path, where: str, entry: object, known: Mapping[str, Field[object]]
+) -> dict[str, object]:
     if not isinstance(entry, Mapping):
         raise _unusable(path, f"{where} is no mapping")
-    known = {f.name.rstrip("_"): f for f in fields(kind)}
     chosen: dict[str, object] = {}
     for key, value in entry.items():
         field = known.get(str(key))
@@ -113,10 +126,10 @@ def _rule(path: Path, where: str, entry: object, kind: type[Any]) -> object:
         chosen[field.name] = _checked(path, f"{where}: `{key}`", value, field.type)
     if "do" not in chosen:
         raise _unusable(path, f"{where}: `do` is missing")
-    return kind(**chosen)
+    return chosen
 
 
-def _checked(path: Path, where: str, value: object, wanted: Any) -> object:  # noqa: ANN401
+def _checked(path: Path, where: str, value: object, wanted: object) -> object:
     allowed = get_args(wanted)
     if allowed:
         if value not in allowed:
@@ -133,13 +146,10 @@ def _checked(path: Path, where: str, value: object, wanted: Any) -> object:  # n
     return value
 
 
-def _unusable(path: Path, reason: str, help: str = "") -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            code="RG421",
-            severity=Severity.ERROR,
-            message=f"the fault plan cannot be used: {reason}",
-            span=Span(str(path), 1, 1),
-            help=help or "`rapidgen explain RG421` shows a plan",
-        )
+def _unusable(path: Path, reason: str, mend: str = "") -> DiagnosticError:
+    return refusal(
+        "RG421",
+        Span(str(path), 1, 1),
+        f"the fault plan cannot be used: {reason}",
+        mend or "`rapidgen explain RG421` shows a plan",
     )

@@ -6,8 +6,8 @@ from typing import TextIO
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.program import LoadedModule
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.task.task import Task
 
@@ -37,7 +37,7 @@ class Trace:
     def __init__(self, controller: VirtualController, stream: TextIO) -> None:
         self._stream = stream
         self._scheduler = controller.scheduler
-        controller.tracers.append(self._statement)
+        controller.statements.tracers.append(self._statement)
 
     def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
         module = routine.module
@@ -58,7 +58,7 @@ class Profile:
         self._open: dict[str, tuple[tuple[str, str, str, int], int]] = {}
         self.time: Counter[tuple[str, str, str, int]] = Counter()
         self.passes: Counter[tuple[str, str, str, int]] = Counter()
-        controller.tracers.append(self._statement)
+        controller.statements.tracers.append(self._statement)
 
     def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
         module = routine.module
@@ -98,7 +98,7 @@ class Coverage:
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
         self._hits: Counter[int] = Counter()
-        controller.tracers.append(self._statement)
+        controller.statements.tracers.append(self._statement)
 
     def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
         self._hits[id(node)] += 1

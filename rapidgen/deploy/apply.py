@@ -15,9 +15,13 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
-from rapidgen.deploy.operation import (
-    Operation,
+from rapidgen.deploy.plan import FileChange, Plan
+from rapidgen.deploy.planning import make_plan
+from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
+from rapidgen.deploy.work import (
     Say,
+    Work,
     delete,
     delete_all,
     delete_folder,
@@ -27,11 +31,7 @@ from rapidgen.deploy.operation import (
     swap,
     write,
 )
-from rapidgen.deploy.plan import FileChange, Plan
-from rapidgen.deploy.planning import make_plan
-from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
-from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, refusal
 
 
 def apply(
@@ -71,35 +71,33 @@ def conflicts_of(plan: Plan) -> list[Diagnostic]:
 
 def moved_on(target: str) -> DiagnosticError:
     """RG522."""
-    return DiagnosticError(
-        Diagnostic(
-            "RG522",
-            Severity.ERROR,
-            f"{target} has changed since it was planned",
-            help="plan again, and look at what has changed",
-        ),
+    return refusal(
+        "RG522",
+        None,
+        f"{target} has changed since it was planned",
+        "plan again, and look at what has changed",
         exit_code=1,
     )
 
 
-def _begin(transport: Transport, plan: Plan, say: Say) -> Operation:
+def _begin(transport: Transport, plan: Plan, say: Say) -> Work:
     """The state folder, what rename does here, and room on the disk."""
-    folder = Operation(transport, plan, "none", say).folder
+    folder = Work(transport, plan, "none", say).folder
     try:
         transport.make_folder(folder)
-        work = Operation(transport, plan, probe(transport, folder), say, {folder})
+        work = Work(transport, plan, probe(transport, folder), say, {folder})
         needed = sum(len(c.before or b"") + 2 * len(c.after or b"") for c in plan.changes)
         free = transport.free()
         if free is not None and free < needed:
             raise TransportFault("full", f"{plan.target}: {free} bytes free, {needed} needed")
     except TransportFault as fault:
         if fault.kind not in ("lost", "garbled") and not plan.state.present:
-            delete_folder(Operation(transport, plan, "none", say), folder)
+            delete_folder(Work(transport, plan, "none", say), folder)
         raise
     return work
 
 
-def _prepare(work: Operation) -> Journal:
+def _prepare(work: Work) -> Journal:
     """Journal, backup and staged files; on a refusal all of it is taken away again."""
     plan, old = work.plan, work.plan.state.journal
     number = old.id if old and plan.repair else 1 + (plan.had.id if plan.had else 0)
@@ -140,7 +138,7 @@ def _prepare(work: Operation) -> Journal:
     return journal
 
 
-def _switch(work: Operation) -> None:
+def _switch(work: Work) -> None:
     """Fence in, the old set's own key modules out, the rest, fence out."""
     plan = work.plan
     fences = _fences(work)
@@ -165,7 +163,7 @@ def _switch(work: Operation) -> None:
         swap(work, change.where, NEW, change.after or b"", exists=True)
 
 
-def _fences(work: Operation) -> dict[str, bytes]:
+def _fences(work: Work) -> dict[str, bytes]:
     """Fences of the new set; none when the whole switch is one atomic rename."""
     steps = [c for c in work.plan.changes if c.action != "same" and c.kind != "cfg"]
     if work.plan.wanted is None or not steps or (work.mode == "replace" and len(steps) == 1):
@@ -186,14 +184,14 @@ def _old_fences(plan: Plan) -> frozenset[str]:
     return frozenset(old.fences())
 
 
-def _verify(work: Operation) -> None:
+def _verify(work: Work) -> None:
     """Everything read back once more, in place."""
     for change in work.plan.changes:
         if read_or_none(work.transport, change.where) != change.after:
             raise differs(change.shown)
 
 
-def _finish(work: Operation, journal: Journal | None) -> None:
+def _finish(work: Work, journal: Journal | None) -> None:
     """Manifest, then the end of the notes; without a journal only the notes are cleared."""
     folder = work.folder
     present = names(work.transport, folder)
@@ -218,7 +216,7 @@ def _finish(work: Operation, journal: Journal | None) -> None:
     delete_empty_folders(work)
 
 
-def _clean(work: Operation) -> None:
+def _clean(work: Work) -> None:
     """Take away what an earlier run left half-done; what it switched is in the plan already."""
     journal = work.plan.state.journal
     if work.plan.repair:
@@ -233,7 +231,7 @@ def _clean(work: Operation) -> None:
     delete_all(work, [f"{work.folder}/journal.a", f"{work.folder}/journal.b"])
 
 
-def _undo_preparation(work: Operation, journal: Journal) -> None:
+def _undo_preparation(work: Work, journal: Journal) -> None:
     """Best effort: what stays is named in the journal, and the next run takes it away."""
     try:
         delete_all(work, journal.staged)
@@ -250,7 +248,7 @@ def _undo_preparation(work: Operation, journal: Journal) -> None:
         return
 
 
-def _write_journal(work: Operation, journal: Journal) -> None:
+def _write_journal(work: Work, journal: Journal) -> None:
     """Into the file that is not in use, then the other goes: one of them is always whole."""
     current = work.plan.state.journal_file
     name = "journal.b" if current == "journal.a" else "journal.a"
@@ -263,11 +261,11 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
     return DiagnosticError(
         [
             *fault.diagnostics,
-            Diagnostic(
+            error(
                 "RG527",
-                Severity.ERROR,
+                None,
                 f"{plan.verb} of {plan.target} was cut while it switched files",
-                help=f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
+                f"run `rapidgen {plan.verb}` again to finish, or `rapidgen rollback` to undo",
                 notes=("what lies there now is the old set, the new set, or refuses to move",),
             ),
         ],
@@ -277,18 +275,17 @@ def _cut(plan: Plan, fault: TransportFault) -> DiagnosticError:
 
 def _conflict(change: FileChange) -> Diagnostic:
     if change.conflict == "stranger":
-        return Diagnostic(
+        return error(
             "RG521",
-            Severity.ERROR,
+            None,
             f"{change.shown} is there already, and rapidgen did not put it there",
-            help="rename or remove it, or --overwrite: a copy stays on the controller, and "
+            "rename or remove it, or --overwrite: a copy stays on the controller, and "
             "`rapidgen uninstall` puts it back",
         )
-    return Diagnostic(
+    return error(
         "RG520",
-        Severity.ERROR,
+        None,
         f"{change.shown} was edited by hand since the last deployment",
-        help="take the edit over into the configuration, or --overwrite: a copy stays in the "
-        "backup",
+        "take the edit over into the configuration, or --overwrite: a copy stays in the backup",
         notes=(change.note,) if change.note else (),
     )

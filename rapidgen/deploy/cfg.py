@@ -7,8 +7,9 @@ attributes that make them what they are.
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import Json, Members, items, text
 from rapidgen.system import Attribute, CfgText, Instance, Section
 
 _KEYS: dict[str, tuple[str, ...]] = {
@@ -67,7 +68,7 @@ def compare(wanted: Keyed, present: Keyed, ours: frozenset[str]) -> tuple[CfgCha
 
 
 def merged(
-    present: CfgText, wanted: Keyed, ours: frozenset[str], before: Mapping[str, Any]
+    present: CfgText, wanted: Keyed, ours: frozenset[str], before: Mapping[str, Json]
 ) -> CfgText:
     """`present` with the wanted instances of its domain, and without those only in `ours`.
 
@@ -88,7 +89,7 @@ def merged(
             elif " ".join(key) in ours:
                 old = before.get(" ".join(key))
                 if old is not None:
-                    kept.append(_from_json(old))
+                    kept.append(instance_from(old))
             else:
                 kept.append(instance)
         kept += (
@@ -103,7 +104,7 @@ def merged(
     return CfgText(domain, present.version, tuple(s for s in sections if s.instances), present.path)
 
 
-def remember(wanted: Keyed, present: Keyed, before: Mapping[str, Any]) -> dict[str, Any]:
+def remember(wanted: Keyed, present: Keyed, before: Mapping[str, Json]) -> Members:
     """`before` with an entry for each wanted instance: what was there first, or None."""
     result = dict(before)
     for key in wanted:
@@ -143,9 +144,14 @@ def _equal(one: Instance, other: Instance) -> bool:
     return plain(one) == plain(other)
 
 
-def _to_json(instance: Instance) -> list[Any]:
+def _to_json(instance: Instance) -> list[Json]:
     return [[a.name, list(a.values)] for a in instance.attributes]
 
 
-def _from_json(data: Any) -> Instance:  # noqa: ANN401 - whatever JSON held
-    return Instance(tuple(Attribute(str(name), tuple(values)) for name, values in data))
+def instance_from(data: Json) -> Instance:
+    """An instance as a manifest holds it. Raises TypeError or ValueError for anything else."""
+    attributes = []
+    for name, values in map(items, items(data)):
+        kept = tuple(v for v in items(values) if isinstance(v, str | int | float))
+        attributes.append(Attribute(text(name), kept))
+    return Instance(tuple(attributes))

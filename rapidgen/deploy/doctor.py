@@ -2,10 +2,11 @@
 
 import re
 import socket
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import members, whole
 from rapidgen.deploy.cfg import keyed
 from rapidgen.deploy.driverset import DriverSet
 from rapidgen.deploy.plan import Plan
@@ -64,12 +65,13 @@ def examine(
 
 
 def _running(host: str, wanted: DriverSet, hello: Hello, timeout: float) -> Iterator[Check]:
-    groups: Mapping[str, Any] = wanted.generated.get("groups") or {}
+    groups = members(wanted.generated.get("groups") or {})
     if not host:
         yield Check("ports", "unknown", "a folder has no ports", "name the robot with --host")
         return
     for name, group in groups.items():
-        for role, port in (group.get("ports") or {}).items():
+        for role, number in members(members(group).get("ports") or {}).items():
+            port = whole(number)
             where = f"{name} {role} {host}:{port}"
             if role == "state":
                 yield _state_port(where, host, port, wanted.build_id, hello)

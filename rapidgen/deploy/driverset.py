@@ -5,10 +5,11 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import Json, items
 from rapidgen.deploy.transports.transport import TransportFault, safe
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.system import CfgText, parse_cfg, read_manifest
 
 Kind = Literal["module", "cfg"]
@@ -45,7 +46,7 @@ class DriverSet:
     build_id: str
     robotware: tuple[int, int]
     files: tuple[SetFile, ...]
-    generated: Mapping[str, Any] = field(default_factory=dict)
+    generated: Mapping[str, Json] = field(default_factory=dict)
     """manifest.json of the generated folder without its line map."""
 
     @property
@@ -104,8 +105,8 @@ def from_files(files: Mapping[str, bytes], *, source: str = "the build") -> Driv
         )
     except TransportFault as fault:
         raise _bad(fault.diagnostics[0].message, "module paths stay inside HOME") from None
-    except (KeyError, TypeError, ValueError, RecursionError) as error:
-        raise _bad(f"the manifest of {source} is damaged: {error!r}", "build it again") from None
+    except (KeyError, TypeError, ValueError, RecursionError) as cause:
+        raise _bad(f"the manifest of {source} is damaged: {cause!r}", "build it again") from None
     uncovered = {t for f in wanted for t in f.tasks} - {
         t for f in wanted if f.path in result.fences() for t in f.tasks
     }
@@ -121,7 +122,7 @@ def from_folder(folder: Path) -> DriverSet:
     """The set in a generated folder. Raises DiagnosticError RG530, RG704, RG711."""
     manifest = read_manifest(folder)
     files = {"manifest.json": (folder / "manifest.json").read_bytes()}
-    for entry in manifest["files"]:
+    for entry in items(manifest["files"]):
         path = str(entry.get("path")) if isinstance(entry, dict) else ""
         try:
             target = folder / safe(path)
@@ -130,10 +131,10 @@ def from_folder(folder: Path) -> DriverSet:
             files[path] = target.read_bytes()
         except TransportFault as fault:
             raise _bad(fault.diagnostics[0].message, "build it again") from None
-        except OSError as error:
-            raise _bad(f"{path} of {folder}: {error.strerror}", "build it again") from error
+        except OSError as cause:
+            raise _bad(f"{path} of {folder}: {cause.strerror}", "build it again") from cause
     return from_files(files, source=str(folder))
 
 
 def _bad(message: str, help: str) -> DiagnosticError:
-    return DiagnosticError(Diagnostic("RG530", Severity.ERROR, message, help=help))
+    return refusal("RG530", None, message, help)

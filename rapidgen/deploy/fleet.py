@@ -11,7 +11,7 @@ from typing import Literal, TypeVar
 from rapidgen.deploy.target import Access, connect, parse_target
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 T = TypeVar("T")
 
@@ -59,9 +59,9 @@ def on_all(
             return None
         try:
             return work(target)
-        except DiagnosticError as error:
+        except DiagnosticError as fault:
             stop.set()
-            return error
+            return fault
 
     with ThreadPoolExecutor(max_workers=max(1, min(parallel, len(targets)))) as pool:
         return list(pool.map(guarded, targets))
@@ -80,20 +80,18 @@ def connected(target: Target, access: Access) -> Iterator[Transport]:
 def _lines(path: str) -> list[str]:
     try:
         text = Path(path).read_text(encoding="utf-8")
-    except OSError as error:
-        raise _bad(f"{path}: {error.strerror}") from error
-    except UnicodeDecodeError as error:
-        raise _bad(f"{path} is not text in UTF-8") from error
+    except OSError as fault:
+        raise _bad(f"{path}: {fault.strerror}") from fault
+    except UnicodeDecodeError as fault:
+        raise _bad(f"{path} is not text in UTF-8") from fault
     lines = (line.partition("#")[0].strip() for line in text.splitlines())
     return [line for line in lines if line]
 
 
 def _bad(message: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG509",
-            Severity.ERROR,
-            f"--to: {message}",
-            help="--to ftp://192.168.125.1/hd0a/SYSTEM/HOME, repeated or as @FILE",
-        )
+    return refusal(
+        "RG509",
+        None,
+        f"--to: {message}",
+        "--to ftp://192.168.125.1/hd0a/SYSTEM/HOME, repeated or as @FILE",
     )

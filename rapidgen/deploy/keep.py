@@ -2,12 +2,11 @@
 
 from dataclasses import replace
 from datetime import UTC, datetime
-from typing import Any
 
 from rapidgen import __version__
+from rapidgen._json import Members
 from rapidgen.deploy.cfg import keyed, remember
 from rapidgen.deploy.driverset import DriverSet, SetFile, digest
-from rapidgen.deploy.operation import Operation, delete, delete_folder, names, write
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.state import (
     KEPT,
@@ -19,9 +18,10 @@ from rapidgen.deploy.state import (
     read_backup,
 )
 from rapidgen.deploy.transports.transport import Transport, parent, read_or_none
+from rapidgen.deploy.work import Work, delete, delete_folder, names, write
 
 
-def back_up(work: Operation, number: int) -> None:
+def back_up(work: Work, number: int) -> None:
     """Strangers' files for `uninstall`, and the whole set as it lies there, edits included."""
     plan, had = work.plan, work.plan.had
     if plan.wanted is None:
@@ -74,7 +74,7 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     undone = plan.repair and had is not None and had.files == files
     if had is not None and not undone:
         history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
-    before: dict[str, Any] = dict(plan.cfg_before)
+    before: Members = dict(plan.cfg_before)
     if plan.cfg_seen:
         before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before)
     return Manifest(
@@ -106,7 +106,7 @@ def backup_set(transport: Transport, home: str, number: int) -> DriverSet:
     )
 
 
-def delete_backups(work: Operation, *, keep: frozenset[str]) -> None:
+def delete_backups(work: Work, *, keep: frozenset[str]) -> None:
     """All backups but those named."""
     folder = f"{work.folder}/backup"
     for name in sorted(names(work.transport, folder) - keep):
@@ -115,7 +115,7 @@ def delete_backups(work: Operation, *, keep: frozenset[str]) -> None:
         delete_folder(work, folder)
 
 
-def delete_backup(work: Operation, name: str) -> None:
+def delete_backup(work: Work, name: str) -> None:
     """One backup; `backup.json` first, without which the rest counts as none."""
     folder = f"{work.folder}/backup/{name}"
     for member in sorted(names(work.transport, folder), key=lambda n: n != "backup.json"):
@@ -123,7 +123,7 @@ def delete_backup(work: Operation, name: str) -> None:
     delete_folder(work, folder)
 
 
-def delete_empty_folders(work: Operation) -> None:
+def delete_empty_folders(work: Work) -> None:
     """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR."""
     folders: set[str] = set()
     for change in work.plan.changes:

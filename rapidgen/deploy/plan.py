@@ -6,8 +6,9 @@ planning.py makes one, apply.py carries it out.
 import difflib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import Json, Members
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.driverset import DriverSet, digest
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder
@@ -83,7 +84,7 @@ class Plan:
     """A run was cut while it switched files."""
     origin: Mapping[str, FileRecord] = field(default_factory=dict, repr=False)
     """Copies of strangers' files, by path."""
-    cfg_before: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    cfg_before: Mapping[str, Json] = field(default_factory=dict, repr=False)
     cfg_present: tuple[CfgText, ...] = field(default=(), repr=False)
     """SYSPAR as it was read; empty where it is not seen."""
 
@@ -106,7 +107,7 @@ class Plan:
         return recorded != {f.path: f.sha256 for f in self.wanted.files}
 
 
-def plan_json(plan: Plan) -> dict[str, Any]:
+def plan_json(plan: Plan) -> Members:
     """The plan as `--out` writes it: hashes and words, no contents, no secrets."""
     return {
         "format": 1,

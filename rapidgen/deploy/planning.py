@@ -3,8 +3,9 @@
 import difflib
 import json
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
+from rapidgen._json import Members
 from rapidgen.deploy.cfg import compare, keyed, names_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_of
@@ -12,7 +13,7 @@ from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
 from rapidgen.deploy.transports.transport import Transport, read_or_none
-from rapidgen.diagnostics import DiagnosticError, error
+from rapidgen.diagnostics import DiagnosticError, refusal
 from rapidgen.system import CfgText, parse_cfg
 
 
@@ -27,19 +28,25 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
     base = _base(transport, layout.home, state)
     had = base.had
     if state.damaged and not base.repair:
-        raise _refusal(
+        raise refusal(
             "RG531",
+            None,
             state.damaged,
             f"restore HOME:/{STATE}/manifest.json from a backup of the controller, or delete "
             "it: then files that lie there count as a stranger's",
+            exit_code=1,
         )
     if wanted is None and had is None and not base.interrupted:
-        raise _refusal("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
+        raise refusal(
+            "RG529", None, f"{transport.shown}: no deployment of rapidgen lies there", exit_code=1
+        )
     if wanted is not None and had is not None and had.name != wanted.name:
-        raise _refusal(
+        raise refusal(
             "RG524",
+            None,
             f"{transport.shown} carries the driver of {had.name!r}, not of {wanted.name!r}",
             f"check the URL; to replace it, `rapidgen uninstall {had.name} --to ...` first",
+            exit_code=1,
         )
     changes = _file_changes(transport, layout, base, wanted)
     syspar = read_syspar(transport, layout.syspar)
@@ -136,7 +143,7 @@ class _Base:
     records: dict[str, FileRecord]
     known: dict[str, set[str]]
     origin: dict[str, FileRecord]
-    cfg_before: dict[str, Any]
+    cfg_before: Members
     interrupted: str
     repair: bool
     pieces: dict[str, list[bytes]]
@@ -170,7 +177,7 @@ def _base(transport: Transport, home: str, state: StateFolder) -> _Base:
     known = {p: set(h) for p, h in journal.known.items()} if journal and repair else {}
     records: dict[str, FileRecord] = {}
     origin: dict[str, FileRecord] = {}
-    before: dict[str, Any] = {}
+    before: Members = {}
     for manifest in filter(None, manifests):
         origin |= {r.path: r for r in manifest.origin}
         before = {**manifest.cfg_before, **before}
@@ -271,17 +278,15 @@ def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
 def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, target: str) -> None:
     for text in texts:
         if wanted is not None and text.version[0] != wanted.robotware[0]:
-            raise _refusal(
+            raise refusal(
                 "RG525",
+                None,
                 f"{target} runs RobotWare {text.version[0]} ({text.path}), the driver is built "
                 f"for {_ware(wanted.robotware)}",
                 f"set `robotware: {text.version[0]}` in the configuration and build again",
+                exit_code=1,
             )
 
 
 def _ware(robotware: tuple[int, int]) -> str:
     return f"{robotware[0]}.{robotware[1]:02d}"
-
-
-def _refusal(code: str, message: str, mend: str = "") -> DiagnosticError:
-    return DiagnosticError(error(code, None, message, mend), exit_code=1)

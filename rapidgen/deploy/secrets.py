@@ -8,7 +8,7 @@ import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 ENVIRONMENT = "RAPIDGEN_PASSWORD"
 DEFAULTS = frozenset(
@@ -87,12 +87,12 @@ def _entry(path: Path, host: str, port: int) -> dict[str, str]:
             if status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
                 raise _refused(path, "others on this machine can read it", f"chmod 600 {path}")
             data = tomllib.load(file)
-    except OSError as error:
-        raise _refused(path, error.strerror or str(error), "name a file that exists") from error
-    except ValueError as error:  # TOMLDecodeError, UnicodeDecodeError: without the line's text
+    except OSError as fault:
+        raise _refused(path, fault.strerror or str(fault), "name a file that exists") from fault
+    except ValueError as fault:  # TOMLDecodeError, UnicodeDecodeError: without the line's text
         raise _refused(
             path, "it is not TOML", '["192.168.125.1"]\nuser = "..."\npassword = "..."'
-        ) from error
+        ) from fault
     for name in (f"{host}:{port}", host, "default"):
         entry = data.get(name)
         if isinstance(entry, dict):
@@ -101,6 +101,4 @@ def _entry(path: Path, host: str, port: int) -> dict[str, str]:
 
 
 def _refused(path: Path, reason: str, help: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic("RG511", Severity.ERROR, f"secrets file {path} is not used: {reason}", help=help)
-    )
+    return refusal("RG511", None, f"secrets file {path} is not used: {reason}", help)

@@ -5,8 +5,8 @@ import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from rapidgen._json import items, members
 from rapidgen._writing import write_whole
 from rapidgen.deploy.apply import apply, conflicts_of, moved_on
 from rapidgen.deploy.driverset import DriverSet, digest, from_files, from_folder
@@ -18,13 +18,13 @@ from rapidgen.deploy.state import Past, read_state
 from rapidgen.deploy.target import Access
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 Say = Callable[[str], None]
 
 
 @dataclass(frozen=True, slots=True)
-class Job:
+class FleetJob:
     """One verb on several controllers. `find` gives the set that has to lie on a controller."""
 
     verb: Verb
@@ -55,7 +55,7 @@ def config_name(config: str) -> str:
     return load_config(config).name
 
 
-def plan_all(job: Job) -> list[Plan]:
+def plan_all(job: FleetJob) -> list[Plan]:
     """Plans of all targets. Raises the faults of those that could not be planned."""
 
     def work(target: Target) -> Plan:
@@ -72,7 +72,7 @@ def plan_all(job: Job) -> list[Plan]:
     return [r for r in results if isinstance(r, Plan)]
 
 
-def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
+def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     """Carry the plans out; a controller that has changed since refuses (RG522)."""
     by_target = dict(zip(job.targets, plans, strict=True))
 
@@ -105,7 +105,7 @@ def apply_all(job: Job, plans: Sequence[Plan], say: Say) -> list[TargetOutcome]:
     return outcomes
 
 
-def refuse_conflicts(job: Job, plans: Sequence[Plan]) -> None:
+def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
     """RG520, RG521 of all targets, before anything is changed on any."""
     if job.overwrite:
         return
@@ -119,19 +119,15 @@ def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
     if yes:
         return
     if not sys.stdin.isatty():
-        raise DiagnosticError(
-            Diagnostic(
-                "RG533",
-                Severity.ERROR,
-                "nobody is there to answer: nothing was changed",
-                help="look at `rapidgen plan`, then say --yes",
-            ),
+        raise refusal(
+            "RG533",
+            None,
+            "nobody is there to answer: nothing was changed",
+            "look at `rapidgen plan`, then say --yes",
             exit_code=1,
         )
     if not ask(question):
-        raise DiagnosticError(
-            Diagnostic("RG533", Severity.ERROR, "not confirmed: nothing was changed"), exit_code=1
-        )
+        raise refusal("RG533", None, "not confirmed: nothing was changed", exit_code=1)
 
 
 def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:
@@ -159,13 +155,11 @@ def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSe
         return backup_set(transport, home, journal.id)
     past = plan.had.history if plan.had else ()
     if not past:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG528",
-                Severity.ERROR,
-                f"{plan.target}: no earlier set is kept there",
-                help="`rapidgen uninstall` goes back to the state before the first deployment",
-            ),
+        raise refusal(
+            "RG528",
+            None,
+            f"{plan.target}: no earlier set is kept there",
+            "`rapidgen uninstall` goes back to the state before the first deployment",
             exit_code=1,
         )
     return backup_set(transport, home, past[-1].id)
@@ -176,8 +170,8 @@ def write_plans(path: Path, plans: Sequence[Plan]) -> None:
     text = json.dumps({"format": 1, "plans": [plan_json(p) for p in plans]}, indent=2) + "\n"
     try:
         write_whole(path, text.encode())
-    except OSError as error:
-        raise _plan_file(path, error.strerror or str(error)) from error
+    except OSError as fault:
+        raise _plan_file(path, fault.strerror or str(fault)) from fault
 
 
 def check_plans(path: Path, plans: Sequence[Plan]) -> None:
@@ -188,11 +182,11 @@ def check_plans(path: Path, plans: Sequence[Plan]) -> None:
     """
     try:
         stored = json.loads(path.read_text(encoding="utf-8"))["plans"]
-        by_target: dict[str, dict[str, Any]] = {str(p["target"]): p for p in stored}
-    except OSError as error:
-        raise _plan_file(path, error.strerror or str(error)) from error
-    except (ValueError, KeyError, TypeError, RecursionError) as error:
-        raise _plan_file(path, "it is not a plan that rapidgen wrote") from error
+        by_target = {str(p["target"]): p for p in map(members, items(stored))}
+    except OSError as fault:
+        raise _plan_file(path, fault.strerror or str(fault)) from fault
+    except (ValueError, KeyError, TypeError, RecursionError) as fault:
+        raise _plan_file(path, "it is not a plan that rapidgen wrote") from fault
     if set(by_target) != {p.target for p in plans}:
         raise _plan_file(path, f"it is for {', '.join(sorted(by_target)) or 'no controller'}")
     for plan in plans:
@@ -229,24 +223,20 @@ def check_names(plans: Sequence[Plan], name: str) -> None:
 
 def _check_name(plan: Plan, name: str) -> None:
     if plan.had is not None and name and plan.had.name != name:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG524",
-                Severity.ERROR,
-                f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
-                help="check the URL",
-            ),
+        raise refusal(
+            "RG524",
+            None,
+            f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
+            "check the URL",
             exit_code=1,
         )
 
 
 def _plan_file(path: Path, reason: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG523",
-            Severity.ERROR,
-            f"plan {path} cannot be carried out: {reason}",
-            help="make a new one with `rapidgen plan ... --out FILE`",
-        ),
+    return refusal(
+        "RG523",
+        None,
+        f"plan {path} cannot be carried out: {reason}",
+        "make a new one with `rapidgen plan ... --out FILE`",
         exit_code=1,
     )

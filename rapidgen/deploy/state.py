@@ -9,11 +9,12 @@ import json
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
 
+from rapidgen._json import Json, Members, items, members, whole
+from rapidgen.deploy.cfg import instance_from
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, digest
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 FORMAT = 1
 KEPT = 5
@@ -68,9 +69,9 @@ class Manifest:
     origin: tuple[FileRecord, ...] = ()
     """Strangers' files that were overwritten: kept for `uninstall`."""
     history: tuple[Past, ...] = ()
-    cfg_before: Mapping[str, Any] = field(default_factory=dict)
+    cfg_before: Mapping[str, Json] = field(default_factory=dict)
     """cfg instances of SYSPAR before the first deployment: key to attributes, or null."""
-    generated: Mapping[str, Any] = field(default_factory=dict)
+    generated: Mapping[str, Json] = field(default_factory=dict)
 
     def record(self, path: str) -> FileRecord | None:
         """The record of a path in HOME."""
@@ -122,8 +123,8 @@ def read_state(transport: Transport, home: str) -> StateFolder:
     if raw is not None:
         try:
             manifest = manifest_from(json.loads(raw))
-        except DAMAGE as error:
-            damaged = f"manifest.json on the controller is damaged ({type(error).__name__})"
+        except DAMAGE as cause:
+            damaged = f"manifest.json on the controller is damaged ({type(cause).__name__})"
     journals: list[tuple[int, str, Journal, bytes]] = []
     for name in sorted(names & {"journal.a", "journal.b"}):
         text = read_or_none(transport, f"{folder}/{name}") or b""
@@ -144,7 +145,7 @@ def read_state(transport: Transport, home: str) -> StateFolder:
     )
 
 
-def manifest_json(manifest: Manifest) -> dict[str, Any]:
+def manifest_json(manifest: Manifest) -> Members:
     """As it stands on the controller."""
     return {
         "format": FORMAT,
@@ -164,29 +165,39 @@ def manifest_json(manifest: Manifest) -> dict[str, Any]:
     }
 
 
-def manifest_from(data: Any) -> Manifest:  # noqa: ANN401 - whatever JSON held
+def manifest_from(read: Json) -> Manifest:
     """Raises one of DAMAGE for anything unexpected."""
+    data = members(read)
     if data["format"] != FORMAT:
         raise ValueError("a later format")
-    first, second = data["robotware"]
+    first, second = items(data["robotware"])
     return Manifest(
-        int(data["id"]),
+        whole(data["id"]),
         _text(data["time"]),
         _text(data["name"]),
         _text(data["build_id"]),
-        (int(first), int(second)),
-        tuple(_record(r) for r in data["files"]),
-        tuple(_record(r) for r in data["origin"]),
+        (whole(first), whole(second)),
+        tuple(_record(r) for r in items(data["files"])),
+        tuple(_record(r) for r in items(data["origin"])),
         tuple(
-            Past(int(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
-            for p in data["history"]
+            Past(whole(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
+            for p in map(members, items(data["history"]))
         ),
-        dict(data["cfg_before"]),
-        dict(data["generated"]),
+        _instances(data["cfg_before"]),
+        members(data["generated"]),
     )
 
 
-def journal_json(journal: Journal) -> dict[str, Any]:
+def _instances(read: Json) -> Members:
+    """What was there before the first deployment: instances, or null for those that were not."""
+    found = members(read)
+    for old in found.values():
+        if old is not None:
+            instance_from(old)
+    return found
+
+
+def journal_json(journal: Journal) -> Members:
     """As it stands on the controller."""
     return {
         "format": FORMAT,
@@ -201,23 +212,27 @@ def journal_json(journal: Journal) -> dict[str, Any]:
     }
 
 
-def journal_from(data: Any) -> Journal:  # noqa: ANN401 - whatever JSON held
+def journal_from(read: Json) -> Journal:
     """Raises one of DAMAGE for anything unexpected."""
+    data = members(read)
     if data["format"] != FORMAT:
         raise ValueError("a later format")
     return Journal(
-        int(data["id"]),
-        int(data["attempt"]),
+        whole(data["id"]),
+        whole(data["attempt"]),
         _text(data["verb"]),
         _text(data["started"]),
         manifest_from(data["old"]) if data["old"] is not None else None,
         manifest_from(data["new"]) if data["new"] is not None else None,
-        {safe(path): tuple(_sha(h) for h in hashes) for path, hashes in data["known"].items()},
-        tuple(_staged(path) for path in data["staged"]),
+        {
+            safe(path): tuple(_sha(h) for h in items(hashes))
+            for path, hashes in members(data["known"]).items()
+        },
+        tuple(_staged(path) for path in items(data["staged"])),
     )
 
 
-def encode(data: dict[str, Any]) -> bytes:
+def encode(data: Members) -> bytes:
     """JSON as it is stored: stable, readable, ASCII."""
     return (json.dumps(data, indent=1, sort_keys=False) + "\n").encode("ascii")
 
@@ -233,8 +248,8 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
         raise _no_backup(f"there is no backup {number} on the controller")
     try:
         manifest = manifest_from(json.loads(raw))
-    except DAMAGE as error:
-        raise _no_backup(f"backup {number} is damaged: {error!r}") from None
+    except DAMAGE as fault:
+        raise _no_backup(f"backup {number} is damaged: {fault!r}") from None
     files = {}
     for record in manifest.files:
         data = read_or_none(transport, f"{folder}/{safe(record.stored)}")
@@ -245,19 +260,13 @@ def read_backup(transport: Transport, home: str, number: int) -> tuple[Manifest,
 
 
 def _no_backup(message: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG528",
-            Severity.ERROR,
-            message,
-            help="`rapidgen rollback --list` shows which there are",
-        ),
-        exit_code=1,
+    return refusal(
+        "RG528", None, message, "`rapidgen rollback --list` shows which there are", exit_code=1
     )
 
 
-def _record_json(record: FileRecord) -> dict[str, Any]:
-    data: dict[str, Any] = {
+def _record_json(record: FileRecord) -> Members:
+    data: Members = {
         "path": record.path,
         "sha256": record.sha256,
         "size": record.size,
@@ -269,14 +278,15 @@ def _record_json(record: FileRecord) -> dict[str, Any]:
     return data
 
 
-def _record(data: Any) -> FileRecord:  # noqa: ANN401 - whatever JSON held
+def _record(read: Json) -> FileRecord:
+    data = members(read)
     return FileRecord(
         safe(_text(data["path"])),
         _sha(data["sha256"]),
-        int(data["size"]),
+        whole(data["size"]),
         _text(data["kind"]),
-        tuple(_text(t) for t in data["task"]),
-        safe(data["stored"]) if "stored" in data else "",
+        tuple(_text(t) for t in items(data["task"])),
+        safe(_text(data["stored"])) if "stored" in data else "",
     )
 
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
+from rapidgen._json import Json
 from rapidgen.deploy.cfg import keyed, merged
 from rapidgen.deploy.transports.transport import Transport, read_or_none
 from rapidgen.system import CfgText, parse_cfg, write_cfg
@@ -47,7 +47,7 @@ def syspar_changes(
     files: tuple[SysparFile, ...],
     wanted: tuple[CfgText, ...],
     ours: frozenset[str],
-    before: Mapping[str, Any],
+    before: Mapping[str, Json],
     originals: Mapping[str, str],
 ) -> list[SysparChange]:
     """Files in which something differs.

@@ -9,7 +9,7 @@ from urllib.parse import unquote, urlsplit
 from rapidgen.deploy.secrets import Credentials, find_password
 from rapidgen.deploy.transports.registry import SCHEMES, Target
 from rapidgen.deploy.transports.transport import Transport
-from rapidgen.diagnostics import DiagnosticError, error, suggest
+from rapidgen.diagnostics import DiagnosticError, refusal, suggest
 
 _LATER = ("rws", "rwss")
 
@@ -49,14 +49,12 @@ def parse_target(url: str) -> Target:
     except ValueError as fault:
         raise _bad("--to", str(fault)) from None
     if parts.password is not None:
-        raise DiagnosticError(
-            error(
-                "RG510",
-                None,
-                f"a password stands in the URL of {host}",
-                "URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
-                "or wait for the prompt",
-            )
+        raise refusal(
+            "RG510",
+            None,
+            f"a password stands in the URL of {host}",
+            "URLs end in histories and logs: use --secrets FILE, RAPIDGEN_PASSWORD, "
+            "or wait for the prompt",
         )
     path = unquote(parts.path).rstrip("/")
     if not host or parts.query or parts.fragment:
@@ -87,4 +85,4 @@ def credentials(target: Target, access: Access) -> Credentials:
 def _bad(url: str, reason: str, mend: str = "") -> DiagnosticError:
     # A URL that is not understood may hold a password in an odd place: it is not repeated.
     shown = url if "@" not in url else url.partition("://")[0] + "://..."
-    return DiagnosticError(error("RG509", None, f"--to {shown}: {reason}", mend))
+    return refusal("RG509", None, f"--to {shown}: {reason}", mend)

@@ -7,6 +7,7 @@ from rapidgen.diagnostics.model import (
     Severity,
     Span,
     error,
+    refusal,
     suggest,
 )
 from rapidgen.diagnostics.render import Format, render
@@ -19,6 +20,7 @@ __all__ = [
     "Severity",
     "Span",
     "error",
+    "refusal",
     "render",
     "suggest",
 ]

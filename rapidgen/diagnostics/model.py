@@ -88,6 +88,22 @@ class DiagnosticError(Exception):
         return type(self), (self.diagnostics,), {"exit_code": self.exit_code}
 
 
+def refusal(
+    code: str,
+    at: Span | None,
+    message: str,
+    mend: str = "",
+    *,
+    label: str = "",
+    notes: Sequence[str] = (),
+    related: Sequence[Label] = (),
+    exit_code: int = 2,
+) -> DiagnosticError:
+    """One error that ends what was under way, to be raised."""
+    found = error(code, at, message, mend, label=label, notes=notes, related=related)
+    return DiagnosticError(found, exit_code=exit_code)
+
+
 def suggest(word: str, known: Sequence[str]) -> str:
     """A "did you mean" sentence for `word`, or an empty text when nothing is close."""
     folded = {name.casefold(): name for name in known}

@@ -1,38 +1,28 @@
 """What the control socket can do with a controller: one small function a request."""
 
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable
+from typing import get_args
 
-from rapidgen.controller.controller import TaskView, VirtualController
-from rapidgen.faces.control_socket import CommandError, Request
+from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.operation import ACTIONS, Mode
+from rapidgen.controller.views import TaskView
+from rapidgen.faces.control_socket import Command, CommandError, Json, Listener, Message
 from rapidgen.machine.io import Signal
 from rapidgen.machine.log import Event
 from rapidgen.machine.operator import Question
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.task.stepping import CannotStep
+from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.text import NotALiteral, parse_value, value_text
 from rapidgen.runtime.values import Type
 
-_ACTIONS = (
-    "e-stop",
-    "reset-e-stop",
-    "motors-on",
-    "motors-off",
-    "auto",
-    "manual",
-    "start",
-    "stop",
-    "pp-to-main",
-    "power-loss",
-)
 _LARGEST = 1e300
-_MODES = ("auto", "manual_reduced", "manual_full")
+_MODES: tuple[Mode, ...] = get_args(Mode)
 
 
-def commands(controller: VirtualController) -> dict[str, Callable[[Request], object]]:
+def commands(controller: VirtualController) -> dict[str, Command]:
     """Every request's function, by the word in `do`."""
     remote = _Remote(controller)
-    found: dict[str, Callable[[Request], object]] = {
+    found: dict[str, Command] = {
         "status": remote.status,
         "mode": remote.mode,
         "override": remote.override,
@@ -47,14 +37,12 @@ def commands(controller: VirtualController) -> dict[str, Callable[[Request], obj
         "where": remote.where,
         "step": remote.step,
     }
-    for action in _ACTIONS:
+    for action in ACTIONS:
         found[action] = remote.action(action)
     return found
 
 
-def subscribe(
-    controller: VirtualController, listener: Callable[[Mapping[str, Any]], None]
-) -> Callable[[], None]:
+def subscribe(controller: VirtualController, listener: Listener) -> Callable[[], None]:
     """Send new log entries, texts on the screen and dialogs; the result ends that."""
     known: set[int] = set()
 
@@ -82,14 +70,14 @@ def subscribe(
 
 
 class _Remote:
-    """Requests carried out on one controller, on its own thread."""
+    """Messages carried out on one controller, on its own thread."""
 
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
 
     # -- state ------------------------------------------------------------------------------
 
-    def status(self, _request: Request) -> object:
+    def status(self, _request: Message) -> Json:
         """Modes, tasks, positions (rad, m in wire order)."""
         c = self._controller
         return {
@@ -112,29 +100,28 @@ class _Remote:
             "listeners": {str(port): at[1] for port, at in c.network.listeners.items()},
         }
 
-    def where(self, _request: Request) -> object:
+    def where(self, _request: Message) -> Json:
         """Where each task is."""
         return self._controller.where()
 
-    def action(self, name: str) -> Callable[[Request], object]:
+    def action(self, name: str) -> Command:
         """A request without arguments."""
 
-        def perform(_request: Request) -> object:
+        def perform(_request: Message) -> Json:
             self._controller.perform(name)
             return None
 
         return perform
 
-    def mode(self, request: Request) -> object:
+    def mode(self, request: Message) -> Json:
         """`value`: auto, manual_reduced or manual_full."""
         wanted = request.get("value")
-        for mode in _MODES:
-            if wanted == mode:
-                self._controller.set_mode(mode)  # type: ignore[arg-type]
-                return None
-        raise CommandError(f"value is one of {', '.join(_MODES)}")
+        if wanted not in _MODES:
+            raise CommandError(f"value is one of {', '.join(_MODES)}")
+        self._controller.set_mode(wanted)
+        return None
 
-    def override(self, request: Request) -> object:
+    def override(self, request: Message) -> Json:
         """`value` in percent, of all groups or of `group`."""
         value = _number(request, "value")
         if not 0 <= value <= 100:
@@ -149,11 +136,11 @@ class _Remote:
 
     # -- signals ----------------------------------------------------------------------------
 
-    def signals(self, _request: Request) -> object:
+    def signals(self, _request: Message) -> Json:
         """Values by name."""
         return {s.name: s.value for s in self._controller.io.signals.values()}
 
-    def set_signal(self, request: Request) -> object:
+    def set_signal(self, request: Message) -> Json:
         """`name`, `value`: inputs are meant, outputs are possible."""
         signal = self._signal(request)
         try:
@@ -162,7 +149,7 @@ class _Remote:
             raise CommandError(str(error)) from error
         return None
 
-    def _signal(self, request: Request) -> Signal:
+    def _signal(self, request: Message) -> Signal:
         name = _text(request, "name")
         signal = self._controller.io.get(name)
         if signal is None:
@@ -171,7 +158,7 @@ class _Remote:
 
     # -- variables --------------------------------------------------------------------------
 
-    def get(self, request: Request) -> object:
+    def get(self, request: Message) -> Json:
         """`task`, `name` as `Module:datum`: the value as RAPID text."""
         task, name = self._datum(request)
         try:
@@ -181,7 +168,7 @@ class _Remote:
         except KeyError as error:
             raise CommandError(f"{task.name} has no data '{name}'") from error
 
-    def set(self, request: Request) -> object:
+    def set(self, request: Message) -> Json:
         """`task`, `name`, `value` as RAPID text."""
         task, name = self._datum(request)
         text = _text(request, "value")
@@ -197,7 +184,7 @@ class _Remote:
             raise CommandError(error.name) from error
         return None
 
-    def step(self, request: Request) -> object:
+    def step(self, request: Message) -> Json:
         """One statement of `task`; `back` and `over` are true or false."""
         try:
             self._task(request).step(
@@ -207,11 +194,11 @@ class _Remote:
             raise CommandError(str(error)) from error
         return None
 
-    def _datum(self, request: Request) -> tuple[TaskView, str]:
+    def _datum(self, request: Message) -> tuple[TaskView, str]:
         name = _text(request, "name")
         return self._task(request), name
 
-    def _task(self, request: Request) -> TaskView:
+    def _task(self, request: Message) -> TaskView:
         wanted = _text(request, "task")
         for task in self._controller.tasks.values():
             if task.name.lower() == wanted.lower():
@@ -220,22 +207,22 @@ class _Remote:
 
     # -- log, screen, dialogs ---------------------------------------------------------------
 
-    def log(self, request: Request) -> object:
+    def log(self, request: Message) -> Json:
         """Events after sequence number `since`, oldest first."""
         since = request.get("since", 0)
         if not isinstance(since, int):
             raise CommandError("since is a sequence number")
         return [_event(event) for event in self._controller.log.since(since)]
 
-    def screen(self, _request: Request) -> object:
+    def screen(self, _request: Message) -> Json:
         """Rows of the operator window."""
         return list(self._controller.operator.rows)
 
-    def questions(self, _request: Request) -> object:
+    def questions(self, _request: Message) -> Json:
         """Dialogs that wait."""
         return [_question(question) for question in self._controller.operator.questions]
 
-    def answer(self, request: Request) -> object:
+    def answer(self, request: Message) -> Json:
         """`number` of a question, `value`: a choice's text or number, a number, a text."""
         try:
             self._controller.operator.answer(
@@ -253,7 +240,7 @@ def _has_value(type_: Type) -> None:
         raise CommandError(f"{type_.name} is no value type")
 
 
-def _event(event: Event) -> dict[str, Any]:
+def _event(event: Event) -> dict[str, Json]:
     return {
         "sequence": event.sequence,
         "time": event.time,
@@ -265,7 +252,7 @@ def _event(event: Event) -> dict[str, Any]:
     }
 
 
-def _question(question: Question) -> dict[str, Any]:
+def _question(question: Question) -> dict[str, Json]:
     return {
         "number": question.number,
         "task": question.task,
@@ -275,7 +262,7 @@ def _question(question: Question) -> dict[str, Any]:
     }
 
 
-def _text(request: Request, key: str) -> str:
+def _text(request: Message, key: str) -> str:
     value = request.get(key)
     if isinstance(value, int | float) and not isinstance(value, bool):
         return str(value)
@@ -284,7 +271,7 @@ def _text(request: Request, key: str) -> str:
     return value
 
 
-def _number(request: Request, key: str) -> float:
+def _number(request: Message, key: str) -> float:
     value = request.get(key)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise CommandError(f"'{key}' is missing or no number")

@@ -10,8 +10,8 @@ import json
 import math
 import selectors
 import socket
-from collections.abc import Callable, Mapping
-from typing import Any
+from collections.abc import Callable, Mapping, Sequence
+from typing import TypeAlias
 
 from rapidgen.machine.scheduler import Scheduler
 
@@ -20,8 +20,12 @@ MAX_LINE = 65_536
 MAX_UNREAD = 1_048_576
 """Bytes that may wait for a client that does not read."""
 
-Request = Mapping[str, Any]
-Subscribe = Callable[[Callable[[Mapping[str, Any]], None]], Callable[[], None]]
+Json: TypeAlias = "bool | float | str | Sequence[Json] | Mapping[str, Json] | None"
+Message: TypeAlias = Mapping[str, Json]
+Command: TypeAlias = Callable[[Message], Json]
+"""What carries out a request, and its result."""
+Listener: TypeAlias = Callable[[Message], None]
+Subscribe: TypeAlias = Callable[[Listener], Callable[[], None]]
 
 
 def _finite(text: str) -> float:
@@ -57,7 +61,7 @@ class ControlSocket:
     def __init__(
         self,
         scheduler: Scheduler,
-        commands: Mapping[str, Callable[[Request], object]],
+        commands: Mapping[str, Command],
         subscribe: Subscribe,
         *,
         host: str = "127.0.0.1",
@@ -134,24 +138,24 @@ class ControlSocket:
             self._send(client, {"ok": False, "error": f"a line has at most {MAX_LINE} bytes"})
             self._drop(client)
 
-    def _answer(self, client: _Client, line: bytes) -> dict[str, Any]:
+    def _answer(self, client: _Client, line: bytes) -> Message:
         try:
             request = json.loads(line, parse_float=_finite, parse_constant=_finite)
         except (ValueError, RecursionError) as error:
             return {"ok": False, "error": f"not JSON: {error}"}
-        if not isinstance(request, dict) or not isinstance(request.get("do"), str):
+        name = request.get("do") if isinstance(request, dict) else None
+        if not isinstance(name, str):
             return {"ok": False, "error": 'a request is an object with "do"'}
         if not isinstance(request.get("id", ""), str | int):
             return {"ok": False, "error": "an id is a text or a whole number"}
-        answer: dict[str, Any] = {"id": request["id"]} if "id" in request else {}
+        answer: dict[str, Json] = {"id": request["id"]} if "id" in request else {}
         try:
-            result = self._perform(client, request)
+            result = self._perform(client, name, request)
         except CommandError as error:
             return {**answer, "ok": False, "error": str(error)}
         return {**answer, "ok": True, "result": result}
 
-    def _perform(self, client: _Client, request: dict[str, Any]) -> object:
-        name = request["do"]
+    def _perform(self, client: _Client, name: str, request: Message) -> Json:
         if name == "subscribe":
             if client.end is None:
                 client.end = self._subscribe(lambda event: self._send(client, event))
@@ -162,7 +166,7 @@ class ControlSocket:
             raise CommandError(f"cannot do '{name}'; can do {known}")
         return command(request)
 
-    def _send(self, client: _Client, message: Mapping[str, Any]) -> None:
+    def _send(self, client: _Client, message: Message) -> None:
         if client not in self._clients:
             return
         client.output += json.dumps(message, allow_nan=False).encode() + b"\n"

@@ -4,7 +4,7 @@ import ipaddress
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,25 +34,21 @@ def loopback(host: str) -> str:
     except ValueError:
         address = None
     if address is None or not address.is_loopback:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG560",
-                Severity.ERROR,
-                f"the file servers of a virtual controller listen on loopback only, not on {host}",
-                help="use --host 127.0.0.1, or leave out --ftp and --sftp",
-            )
+        raise refusal(
+            "RG560",
+            None,
+            f"the file servers of a virtual controller listen on loopback only, not on {host}",
+            "use --host 127.0.0.1, or leave out --ftp and --sftp",
         )
     return name
 
 
 def in_use(host: str, port: int, error: OSError) -> DiagnosticError:
     """RG561: the port could not be had."""
-    return DiagnosticError(
-        Diagnostic(
-            "RG561",
-            Severity.ERROR,
-            f"cannot serve files at {host}:{port}: {error.strerror or error}",
-            help="name another port, or 0 for any free one",
-        ),
+    return refusal(
+        "RG561",
+        None,
+        f"cannot serve files at {host}:{port}: {error.strerror or error}",
+        "name another port, or 0 for any free one",
         exit_code=1,
     )

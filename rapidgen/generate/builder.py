@@ -4,10 +4,10 @@ import hashlib
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 from rapidgen import __version__
 from rapidgen._data import data_folder
+from rapidgen._json import Members
 from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
@@ -100,7 +100,7 @@ def _cfg(path: str, text: str) -> OutputFile:
     return OutputFile(path, text.replace("\n", "\r\n").encode("latin-1"), "cfg")
 
 
-def _head(config: RobotConfig, build_id: str) -> dict[str, Any]:
+def _head(config: RobotConfig, build_id: str) -> Members:
     return {
         "format": 1,
         "rapidgen": __version__,

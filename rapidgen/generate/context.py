@@ -6,7 +6,7 @@ from dataclasses import asdict
 from pathlib import Path
 
 from rapidgen import __version__
-from rapidgen.config.model import Frame, GroupConfig, Joint, Load, RobotConfig, Tool, WorkObject
+from rapidgen.config.model import GroupConfig, Joint, Load, Placement, RobotConfig, Tool, WorkObject
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
@@ -114,7 +114,7 @@ def _tight(config: RobotConfig, group: GroupConfig) -> bool:
     return policy.corners == "tight" and policy.zone != "fine" and bool(group.chain)
 
 
-def _one_build(role: layout.Role) -> list[str]:
+def _one_build(role: layout.TaskRole) -> list[str]:
     """The constants that have to equal ROS_BUILD_ID for a task to be of one build."""
     return [_build_constant(module) for module in role.modules if module != layout.COMMON]
 
@@ -243,7 +243,7 @@ def _list(values: tuple[float, ...], factor: float = 1.0) -> str:
     return "[" + ",".join(literal(v * factor) for v in values) + "]"
 
 
-def _frame(frame: Frame) -> str:
+def _frame(frame: Placement) -> str:
     return f"[{_list(frame.position, _MM)},{_list(frame.orientation)}]"
 
 

@@ -27,7 +27,7 @@ MESSAGES, SOCKET = "ROS_messages", "ROS_socket"
 
 
 @dataclass(frozen=True, slots=True)
-class Role:
+class TaskRole:
     """One task of a motion group; the motion task's name is the group's own."""
 
     name: str
@@ -37,8 +37,8 @@ class Role:
 
 
 ROLES = (
-    Role("motion", "", (COMMON, "ROS_motion")),
-    Role(
+    TaskRole("motion", "", (COMMON, "ROS_motion")),
+    TaskRole(
         "motion_server",
         "T_ROS_RECV",
         (
@@ -52,14 +52,14 @@ ROLES = (
             "ROS_motionServer",
         ),
     ),
-    Role("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
-    Role("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_control")),
-    Role("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
+    TaskRole("supervisor", "T_ROS_SUP", (COMMON, "ROS_supervisor")),
+    TaskRole("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_control")),
+    TaskRole("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
 )
 SYSTEM_MODULES = (COMMON, LIMITS, MESSAGES, SOCKET)
 
 
-def roles(group: GroupConfig) -> tuple[Role, ...]:
+def roles(group: GroupConfig) -> tuple[TaskRole, ...]:
     """The tasks of a group: without a control port there is no control server."""
     return tuple(role for role in ROLES if group.ports.control or role.name != "control")
 
@@ -124,7 +124,7 @@ def suffix(config: RobotConfig, group: GroupConfig) -> str:
     return f"_{config.groups.index(group) + 1}"
 
 
-def task_name(config: RobotConfig, group: GroupConfig, role: Role) -> str:
+def task_name(config: RobotConfig, group: GroupConfig, role: TaskRole) -> str:
     """Name of the task that plays `role` for a group."""
     return (role.task + suffix(config, group)) if role.task else group.task
 
@@ -223,7 +223,7 @@ def sio_cfg() -> CfgText:
     return CfgText("SIO", (7, 0), (Section("FIREWALL_MANAGER", (rule,)),))
 
 
-def _task(config: RobotConfig, group: GroupConfig, role: Role) -> TaskSpec:
+def _task(config: RobotConfig, group: GroupConfig, role: TaskRole) -> TaskSpec:
     motion = not role.task
     background: TaskType = "NORMAL" if config.commissioning else "SEMISTATIC"
     modules = tuple(

@@ -2,7 +2,7 @@
 
 import re
 
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Span, error
 
 MAX_NAME = 32
 MAX_STRING = 80
@@ -39,13 +39,12 @@ def lint(path: str, text: str, *, ascii_only: bool = False) -> list[Diagnostic]:
 
 
 def _fault(path: str, line: int, column: int, label: str) -> Diagnostic:
-    return Diagnostic(
+    return error(
         "RG101",
-        Severity.ERROR,
-        "the configuration does not fit into RAPID text",
         Span(path, line, column),
-        label,
-        help="use shorter names of Latin-1 letters in the configuration",
+        "the configuration does not fit into RAPID text",
+        "use shorter names of Latin-1 letters in the configuration",
+        label=label,
         notes=(
             f"names have at most {MAX_NAME} characters, strings {MAX_STRING}, "
             f"lines here {MAX_LINE}",

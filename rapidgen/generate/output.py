@@ -7,9 +7,9 @@ import shutil
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen._json import Json, Members, items
+from rapidgen.diagnostics import DiagnosticError, refusal
 
 MANIFEST = "manifest.json"
 MAX_COMPARED = 16 * 1024 * 1024
@@ -44,9 +44,9 @@ class Change:
     new: bytes | None
 
 
-def manifest_file(files: list[OutputFile], head: dict[str, Any]) -> OutputFile:
+def manifest_file(files: list[OutputFile], head: Members) -> OutputFile:
     """manifest.json over `files`; `head` has what comes before the list of files."""
-    manifest = {
+    manifest: Members = {
         **head,
         "files": [
             {
@@ -70,14 +70,14 @@ def manifest_file(files: list[OutputFile], head: dict[str, Any]) -> OutputFile:
     return OutputFile(MANIFEST, text.encode("ascii"), "manifest")
 
 
-def _rows(value: Any) -> str:  # noqa: ANN401
+def _rows(value: Json) -> str:
     """A list or an object with one member a line: it reads and compares well."""
     if isinstance(value, dict):
         rows = [
             f"    {json.dumps(k)}: {json.dumps(v, ensure_ascii=True)}" for k, v in value.items()
         ]
         return "{\n" + ",\n".join(rows) + "\n  }" if rows else "{}"
-    rows = [f"    {json.dumps(v, ensure_ascii=True)}" for v in value]
+    rows = [f"    {json.dumps(v, ensure_ascii=True)}" for v in items(value)]
     return "[\n" + ",\n".join(rows) + "\n  ]" if rows else "[]"
 
 
@@ -103,8 +103,8 @@ def write(output: Output, folder: Path) -> None:
         folder.parent.mkdir(parents=True, exist_ok=True)
         # A sibling, so that it lies on the same file system and can be renamed into place.
         scratch = Path(tempfile.mkdtemp(prefix=f".{folder.name}.", dir=folder.parent))
-    except OSError as error:
-        raise _unwritable(folder, error) from error
+    except OSError as fault:
+        raise _unwritable(folder, fault) from fault
     try:
         fresh = scratch / "new"
         for file in output.files:
@@ -114,10 +114,10 @@ def write(output: Output, folder: Path) -> None:
         if folder.exists():
             os.rename(folder, scratch / "old")
         os.rename(fresh, folder)
-    except OSError as error:
+    except OSError as fault:
         if not folder.exists() and (scratch / "old").exists():
             os.rename(scratch / "old", folder)
-        raise _unwritable(folder, error) from error
+        raise _unwritable(folder, fault) from fault
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
 
@@ -154,7 +154,7 @@ def _built(folder: Path) -> set[str]:
 
 
 def _foreign(message: str, help: str) -> DiagnosticError:
-    return DiagnosticError(Diagnostic("RG102", Severity.ERROR, message, help=help))
+    return refusal("RG102", None, message, help)
 
 
 def _is_ours(folder: Path) -> bool:
@@ -172,13 +172,11 @@ def _read(folder: Path) -> dict[str, bytes]:
     return found
 
 
-def _unwritable(folder: Path, error: OSError) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG103",
-            Severity.ERROR,
-            f"cannot write {folder}: {error.strerror}",
-            help="what was there before is untouched",
-        ),
+def _unwritable(folder: Path, fault: OSError) -> DiagnosticError:
+    return refusal(
+        "RG103",
+        None,
+        f"cannot write {folder}: {fault.strerror}",
+        "what was there before is untouched",
         exit_code=1,
     )

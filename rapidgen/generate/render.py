@@ -6,9 +6,9 @@ that can produce text and stripped after rendering; so the output does not depen
 
 import os
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import jinja2
 
@@ -41,7 +41,7 @@ class Renderer:
             bytecode_cache=_compiled(),
         )
 
-    def add_filter(self, name: str, function: Any) -> None:  # noqa: ANN401
+    def add_filter(self, name: str, function: Callable[..., object]) -> None:
         """Make `function` known to templates."""
         self._environment.filters[name] = function
 
@@ -66,7 +66,9 @@ def _compiled() -> jinja2.BytecodeCache | None:
 
 
 class _Loader(jinja2.FileSystemLoader):
-    def get_source(self, environment: jinja2.Environment, template: str) -> tuple[str, str, Any]:
+    def get_source(
+        self, environment: jinja2.Environment, template: str
+    ) -> tuple[str, str, Callable[[], bool]]:
         source, name, uptodate = super().get_source(environment, template)
         return marked(source, template), name, uptodate
 

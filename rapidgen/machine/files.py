@@ -11,7 +11,7 @@ import tempfile
 import weakref
 from enum import StrEnum
 from pathlib import Path
-from typing import BinaryIO
+from typing import IO
 
 _DEVICES = {
     "home:": "HOME",
@@ -52,7 +52,7 @@ class IODevice:
     __slots__ = ("binary", "file", "path", "readable", "writable")
 
     def __init__(self) -> None:
-        self.file: BinaryIO | None = None
+        self.file: IO[bytes] | None = None
         self.path = Path()
         self.binary = False
         self.readable = False

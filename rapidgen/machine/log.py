@@ -63,7 +63,7 @@ class Event:
         )
 
 
-class Clock(Protocol):
+class TimeSource(Protocol):
     """What tells the time: the scheduler."""
 
     @property
@@ -77,7 +77,7 @@ class EventLog:
     A listener runs on the controller's own thread, at the moment of the event.
     """
 
-    def __init__(self, clock: Clock, *, capacity: int = 1000) -> None:
+    def __init__(self, clock: TimeSource, *, capacity: int = 1000) -> None:
         self._clock = clock
         self._events: deque[Event] = deque(maxlen=capacity)
         self._listeners: list[Callable[[Event], None]] = []

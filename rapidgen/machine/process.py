@@ -1,6 +1,7 @@
 """Processes: greenlets that share the CPU of a scheduler and are charged for what they do."""
 
 from collections.abc import Callable
+from types import FrameType
 
 import greenlet
 
@@ -43,9 +44,10 @@ class Process:
         return self.body is not None and not self.body.dead
 
     @property
-    def frame(self) -> object:
+    def frame(self) -> FrameType | None:
         """Innermost Python frame of a suspended process, for call stacks."""
-        return self.body.gr_frame if self.body is not None else None
+        found: FrameType | None = self.body.gr_frame if self.body is not None else None
+        return found
 
     def wake(self) -> None:
         """Make a blocked process ready; it looks at the reason itself."""

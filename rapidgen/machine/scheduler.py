@@ -25,7 +25,7 @@ import greenlet
 
 ClockKind: TypeAlias = Literal["virtual", "real"]
 Schedule: TypeAlias = Literal["round-robin", "random"]
-Outcome: TypeAlias = Literal["time", "stop", "idle"]
+AdvanceEnd: TypeAlias = Literal["time", "stop", "idle"]
 
 MS = 1_000_000
 S = 1_000_000_000
@@ -212,7 +212,9 @@ class Scheduler:
 
     # -- the loop --------------------------------------------------------------------------------
 
-    def advance(self, until: int | None = None, stop: Callable[[], bool] | None = None) -> Outcome:
+    def advance(
+        self, until: int | None = None, stop: Callable[[], bool] | None = None
+    ) -> AdvanceEnd:
         """Let time pass.
 
         Returns "time" when `until` is reached, "stop" when `stop()` said so after something
@@ -242,7 +244,7 @@ class Scheduler:
             self.idle += max(0, ahead - self._now)
             self._fire(ahead, one=True)
 
-    def _advance_real(self) -> Outcome:
+    def _advance_real(self) -> AdvanceEnd:
         until, stop = self._until, self._stop
         while True:
             if self._posted:

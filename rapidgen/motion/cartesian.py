@@ -6,23 +6,23 @@ from math import ceil
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
-from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
+from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.axes.limits import outside
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.motion.moves import (
     NO_TURN,
+    SHORTEST,
     CartesianMove,
     Measure,
-    Posture,
     Singularities,
     largest,
     nominal_time,
+    timed,
 )
-from rapidgen.motion.pieces import AxisLimits, Curve, Piece
+from rapidgen.motion.pieces import AxisLimits, Piece
 from rapidgen.motion.sampling import interval_limits, largest_step, spaced
 from rapidgen.motion.singular import put_tcp, wrist_end, wrist_places
-from rapidgen.motion.timed import SHORTEST, timed
 
 _STEP = 0.12
 """rad or m of one axis that an interval of the sampling should not exceed."""
@@ -138,7 +138,7 @@ class CartesianWay:
                 right = begin + self.duration
             low, high = max(left, start), min(right, end)
             if high - low > 1e-12:
-                found.append(Curve(low, high, at, self._ceilings[k], self.tcp))
+                found.append(Piece(low, high, at, self._ceilings[k], self.tcp))
         if found:
             found[0].start, found[-1].end = start, end
         return found

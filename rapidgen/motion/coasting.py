@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S
-from rapidgen.motion.moves import Posture
 
 _STEP = 1e-6
 """s over which the axes' speeds are measured."""
@@ -48,15 +48,16 @@ def coast(
 ) -> Coast:
     """From a posture, and the one a moment earlier; `factor` times the axes' acceleration.
 
-    An axis that would leave its range stops harder, at the end of it.
+    An axis that would leave its range stops harder, at the end of it; one that is there stays.
     """
     rates, slowing = [], []
     for q, p, joint in zip(here, before, joints, strict=True):
         rate = (q - p) / _STEP
         room = (joint.upper - q) if rate > 0 else (q - joint.lower)
-        least = rate * rate / (2 * room) if room > 0 else 0.0
+        if room <= 0:
+            rate, room = 0.0, 1.0
         rates.append(rate)
-        slowing.append(max(joint.acceleration * factor, least))
+        slowing.append(max(joint.acceleration * factor, rate * rate / (2 * room)))
     return Coast(now, here, tuple(rates), tuple(slowing))
 
 

@@ -10,7 +10,7 @@ from itertools import pairwise
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Quaternion, Vector
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.motion.cartesian import CartesianWay, external_places, with_external
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.legs import Geometry, JointWay, Leg
@@ -18,12 +18,11 @@ from rapidgen.motion.moves import (
     NO_TURN,
     NO_WAY,
     Carrier,
-    Posture,
     Zone,
     corner_shares,
     extended_share,
 )
-from rapidgen.motion.pieces import AxisLimits, Curve, Piece, joint_corner
+from rapidgen.motion.pieces import AxisLimits, Piece, joint_corner
 from rapidgen.motion.sampling import interval_limits, largest_step, sample, spaced
 
 Bend = tuple[float, float, list[Piece]]
@@ -87,7 +86,7 @@ def _extended(
 
 
 def _parameter(before: float, after: float) -> Callable[[float], float]:
-    """w from 0 to 1 over nominal times -before to after: see `pieces.Parabola`."""
+    """w from 0 to 1 over nominal times -before to after: see `pieces.joint_corner`."""
     middle = 1 / (before + after)
     first, last = 1 / (2 * before), 1 / (2 * after)
     half = 0.25 + before * middle / 2
@@ -296,7 +295,7 @@ def _curves(
 ) -> list[Piece]:
     """A piece for each interval."""
     places = pairwise(spaced(*bounds, len(ceilings)))
-    return [Curve(*ends, at, own, tcp) for ends, own in zip(places, ceilings, strict=True)]
+    return [Piece(*ends, at, own, tcp) for ends, own in zip(places, ceilings, strict=True)]
 
 
 # -- joint space along both tangents ------------------------------------------------------------

@@ -3,16 +3,16 @@
 from collections.abc import Callable, Sequence
 from math import inf
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.config.model import Joint
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import smoothing
 from rapidgen.motion.coasting import Coast, coast, moment_before
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import Posture
 from rapidgen.motion.path import Path
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.timelaw import Span, TimeLaw, brake, plan
+from rapidgen.motion.timelaw import Stretch, TimeLaw, brake, plan
 
 MANUAL_REDUCED = 0.25
 """m/s of the TCP in manual mode with reduced speed."""
@@ -22,7 +22,7 @@ _NOT_PLANNED: tuple[int, tuple[Piece, ...], TimeLaw | None] = (-1, (), None)
 
 
 class Drive:
-    """Runs one path. What is on the path, and when to stop, is the business of `group.py`."""
+    """Runs one path. What is on the path, and when to stop, is the business of `execution.py`."""
 
     __slots__ = (
         "_history",
@@ -126,7 +126,7 @@ class Drive:
         cap = self.override * (self.refresh if self.refreshed else 1.0)
         return plan(self._spans(pieces), place, speed, cap, limit, self.ramp, wait)
 
-    def _spans(self, pieces: tuple[Piece, ...]) -> tuple[Span, ...] | list[Span]:
+    def _spans(self, pieces: tuple[Piece, ...]) -> tuple[Stretch, ...] | list[Stretch]:
         if self.ramp <= 0.0 or not pieces:
             return pieces
         return smoothing.widened(pieces, pieces[0].start, self.ramp / 2)
@@ -187,8 +187,8 @@ class Drive:
         if self.settings.servo_lag > 0:
             old = now - round(self.settings.servo_lag * S)
             later = [m for m in self._history if m.since > old]
-            kept = self._history[-len(later) - 1 :] if self._history else []
-            self._history = [*kept, self.motion]
+            recent = self._history[-len(later) - 1 :] if self._history else []
+            self._history = [*recent, self.motion]
         legs = tuple((leg.end, leg.move) for leg in path.legs)
         self.motion = Motion(now, start, law, path.pieces, rest, legs, self.ramp, stop)
         for observer in self.observers:

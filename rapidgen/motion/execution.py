@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import ceil, inf
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler, Timer, WaitSet
 from rapidgen.motion import events
@@ -15,7 +16,7 @@ from rapidgen.motion.corners import zone_entry
 from rapidgen.motion.drive import Drive
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.moves import Move
 from rapidgen.motion.path import Path
 from rapidgen.motion.pathevents import PathEvents
 from rapidgen.motion.pieces import AxisLimits
@@ -33,7 +34,7 @@ class PutAside:
     events: PathEvents
 
 
-class Execution:
+class PathExecution:
     """Runs the path of one group."""
 
     __slots__ = (

@@ -4,28 +4,41 @@ Moves, stops with their reasons, speeds, paths put aside. What happens when on t
 business of `execution.py`, how a move becomes a way that of `planner.py`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from math import inf
+from typing import Protocol
 
-from rapidgen.axes.kinematics import Kinematics, MovingFrame
+from rapidgen.axes.kinematics import Kinematics, MovingFrame, Posture
 from rapidgen.axes.mapping import JointMap
 from rapidgen.config.model import GroupConfig
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import Scheduler, WaitSet
-from rapidgen.motion.execution import Execution, PutAside
+from rapidgen.motion.execution import PathExecution, PutAside
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.legs import Leg
 from rapidgen.motion.modal import ModalSettings
 from rapidgen.motion.motion import Motion
-from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.moves import Move
 from rapidgen.motion.path import Path
 from rapidgen.motion.planner import Planner
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.motion.waiter import Waiter
 
 _BRAKES = "brakes"
 """The stop that holds while the brakes bring the robot to rest."""
+
+
+class Waiter(Protocol):
+    """What a group needs of a program: RAPID tasks do it, and Python functions in tests."""
+
+    def wait_for(
+        self,
+        predicate: Callable[[], bool],
+        *,
+        on: Iterable[WaitSet] = (),
+        timeout: float | None = None,
+    ) -> bool:
+        """Wait until the predicate holds."""
 
 
 class MotionGroup:
@@ -54,7 +67,7 @@ class MotionGroup:
         self.on_reset: list[Callable[[], None]] = []
         """Called when the modal settings are reset (PP to main)."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
-        self._execution = Execution(scheduler, log, self.planner, start, self._report)
+        self._execution = PathExecution(scheduler, log, self.planner, start, self._report)
         self._drive = self._execution.drive
         self._stops = self._execution.stops
         self._report(True)

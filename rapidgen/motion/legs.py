@@ -6,19 +6,19 @@ from math import inf
 from typing import Protocol
 
 from rapidgen.axes import frames
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.config.model import GroupConfig
 from rapidgen.motion.moves import (
+    SHORTEST,
     Carrier,
     JointMove,
     Measure,
     Move,
-    Posture,
     largest,
     nominal_time,
+    timed,
 )
-from rapidgen.motion.pieces import AxisLimits, JointLine, Piece
-from rapidgen.motion.timed import SHORTEST, timed
+from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
 
 _CHORDS = 4
 """Straight parts that stand for the TCP's way in a joint move."""
@@ -119,7 +119,8 @@ class JointWay:
 
     def pieces(self, begin: float, start: float, end: float) -> list[Piece]:
         """One straight piece."""
-        return [JointLine(start, end, begin, self.origin, self.rates, self.limits, self.tcp)]
+        line = begin, self.origin, self.rates
+        return [joint_line(start, end, line, self.limits, self.tcp)]
 
 
 def joint_way(

@@ -3,10 +3,11 @@
 from dataclasses import dataclass
 from math import ceil
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import smoothing
 from rapidgen.motion.coasting import Coast
-from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.moves import Move
 from rapidgen.motion.path import posture_at
 from rapidgen.motion.pieces import Piece
 from rapidgen.motion.timelaw import TimeLaw

@@ -3,21 +3,22 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
+from math import inf, sqrt
 
 from rapidgen.axes.frames import IDENTITY, Pose, compose, invert
-from rapidgen.axes.kinematics import Configuration, MovingFrame
+from rapidgen.axes.kinematics import AxisConfiguration, MovingFrame, Posture
 from rapidgen.motion.faults import MotionFault, Refusal
 
-Posture = tuple[float, ...]
-"""Controller axis values in wire order, rad and m."""
 NO_WAY = 1e-7
 """m of TCP way that count as none."""
 NO_TURN = 1e-9
 """rad, or m of an external axis, that count as none."""
+SHORTEST = 1e-4
+"""s of nominal time that the shortest way takes."""
 
 
 @dataclass(frozen=True, slots=True)
-class Speed:
+class MoveSpeed:
     """speeddata: TCP m/s, reorientation rad/s, external axes m/s and rad/s."""
 
     tcp: float
@@ -92,7 +93,7 @@ class Carrier:
 class Move:
     """What every move instruction has."""
 
-    speed: Speed
+    speed: MoveSpeed
     zone: Zone
     time: float | None = None
     """\\T, s"""
@@ -138,7 +139,7 @@ class CartesianMove(Move):
     target: Pose
     external: Posture
     via: Pose | None = None
-    wanted: Configuration | None = None
+    wanted: AxisConfiguration | None = None
     """confdata that is checked at the end (ConfL \\On)."""
     circle: CircleMode = CircleMode.PATH
     singularities: Singularities = Singularities.OFF
@@ -167,7 +168,7 @@ class PathEvent:
     lag: float = 0.0
 
 
-def nominal_time(measure: Measure, speed: Speed) -> float:
+def nominal_time(measure: Measure, speed: MoveSpeed) -> float:
     """s that the slowest part needs at programmed speed; 0 when nothing moves.
 
     All parts end together: the slowest one limits the move (S4 datasys 1-speeddata-1).
@@ -186,6 +187,22 @@ def nominal_time(measure: Measure, speed: Speed) -> float:
                 raise MotionFault(Refusal.NO_SPEED)
             times.append(way / rate)
     return max(times)
+
+
+def timed(total: float, fastest: float, acceleration: float, ramps: float) -> float:
+    """Nominal time of a way whose whole time, ramps at rest included, is to be `total` s (\\T).
+
+    `fastest` is the nominal time at the axes' full speed, `acceleration` the way's share per
+    s^2, `ramps` half the number of ends at rest: total = 1/c + ramps c / acceleration for a
+    speed of c ways per s. Where no speed does it, the best that the limits allow.
+    """
+    if ramps == 0.0 or acceleration == inf:
+        return max(total, fastest, SHORTEST)
+    square = total * total - 4 * ramps / acceleration
+    if total <= 0.0 or square <= 0.0:
+        return max(fastest, sqrt(ramps / acceleration), SHORTEST)
+    speed = acceleration * (total - sqrt(square)) / (2 * ramps)
+    return max(fastest, 1 / speed)
 
 
 def corner_shares(zone: Zone, before: Measure, after: Measure) -> tuple[float, float] | None:

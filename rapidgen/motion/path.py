@@ -1,21 +1,21 @@
 """The path of one robot: legs and pieces in order, extended at its end, cut at a stop.
 
-Pure bookkeeping of places; when anything happens is the business of `group.py`.
+Pure bookkeeping of places; when anything happens is the business of `execution.py`.
 """
 
 from collections import deque
 from collections.abc import Callable
 
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.motion.corners import corner
 from rapidgen.motion.legs import Geometry, Leg
-from rapidgen.motion.moves import Move, Posture
-from rapidgen.motion.pieces import AxisLimits, JointLine, Piece
+from rapidgen.motion.moves import Move
+from rapidgen.motion.pieces import AxisLimits, Piece, joint_line
 from rapidgen.motion.timelaw import TimeLaw
 
 WayMaker = Callable[[Posture, Move, bool], Geometry]
 """(from, move, from rest) -> geometry of the move."""
-Planner = Callable[[tuple[Piece, ...]], TimeLaw | None]
+LawFinder = Callable[[tuple[Piece, ...]], TimeLaw | None]
 """The time law over pieces from the robot's present state; None when there is none."""
 _SHRINK = (1.0, 0.5, 0.25, 0.1, 0.03)
 REGAIN_SPEED = 0.1
@@ -44,7 +44,7 @@ class Path:
         self,
         move: Move,
         make: WayMaker,
-        plan: Planner,
+        plan: LawFinder,
         limits: AxisLimits,
         fixed: float,
         kinematics: Kinematics | None = None,
@@ -106,10 +106,10 @@ class Path:
         self.target = leg.way.target
 
     def _until(self, place: float) -> tuple[Piece, ...]:
-        kept = [piece for piece in self.pieces if piece.start < place]
-        if kept and kept[-1].end > place:
-            kept[-1] = kept[-1].until(place)
-        return tuple(kept)
+        pieces = [piece for piece in self.pieces if piece.start < place]
+        if pieces and pieces[-1].end > place:
+            pieces[-1] = pieces[-1].until(place)
+        return tuple(pieces)
 
     def passed(self, place: float) -> list[Leg]:
         """Legs that the robot has left or whose stop point it has reached; they are taken off."""
@@ -123,11 +123,11 @@ class Path:
 
     def prune(self, place: float) -> None:
         """Forget pieces behind the robot."""
-        keep = 0
-        while keep < len(self.pieces) - 1 and self.pieces[keep].end <= place:
-            keep += 1
-        if keep:
-            self.pieces = self.pieces[keep:]
+        first = 0
+        while first < len(self.pieces) - 1 and self.pieces[first].end <= place:
+            first += 1
+        if first:
+            self.pieces = self.pieces[first:]
 
     def cut(self, place: float) -> list[Leg]:
         """Let the path end at `place`; returns the legs that are lost."""
@@ -160,7 +160,7 @@ class Path:
         duration = reach / REGAIN_SPEED
         rates = tuple([(b - a) / duration for a, b in zip(here, there, strict=True)])
         start = place - duration
-        back = JointLine(start, place, start, here, rates, limits, 0.0)
+        back = joint_line(start, place, (start, here, rates), limits, 0.0)
         self._back = back.until(place, stop=True)
         self.pieces = (self._back, self.pieces[0].since(place), *self.pieces[1:])
         return start

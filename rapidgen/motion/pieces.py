@@ -7,7 +7,7 @@ from math import inf, sqrt
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
-from rapidgen.motion.moves import Posture
+from rapidgen.axes.kinematics import Posture
 
 _SAMPLES = 8
 """Parts of a piece over which the TCP's curve is measured."""
@@ -19,23 +19,25 @@ class Piece:
     `speed` and `acceleration` are ceilings of the path's own speed (1 = as programmed).
     """
 
-    __slots__ = ("acceleration", "end", "speed", "start", "stop", "tcp")
+    __slots__ = ("acceleration", "at", "end", "speed", "start", "stop", "tcp")
 
     def __init__(
-        self, start: float, end: float, speed: float, acceleration: float, tcp: float
+        self,
+        start: float,
+        end: float,
+        at: Callable[[float], Posture],
+        limits: tuple[float, float],
+        tcp: float,
     ) -> None:
         self.start = start
         self.end = end
-        self.speed = speed
-        self.acceleration = acceleration
+        self.at = at
+        """Axis values at a place."""
+        self.speed, self.acceleration = limits
         self.tcp = tcp
         """m that the TCP goes in a nominal s."""
         self.stop = False
         """Whether the robot stands at the end."""
-
-    def at(self, place: float) -> Posture:
-        """Axis values at a place."""
-        raise NotImplementedError
 
     def until(self, end: float, *, stop: bool = False) -> "Piece":
         """The part of this piece before `end`."""
@@ -49,122 +51,6 @@ class Piece:
         part = copy(self)
         part.start = start
         return part
-
-
-class JointLine(Piece):
-    """All axes linear in nominal time: from `origin` at `zero` with `rates` per s."""
-
-    __slots__ = ("origin", "rates", "zero")
-
-    def __init__(
-        self,
-        start: float,
-        end: float,
-        zero: float,
-        origin: Posture,
-        rates: Posture,
-        limits: "AxisLimits",
-        tcp: float,
-    ) -> None:
-        speed, acceleration = limits.of_line(rates)
-        super().__init__(start, end, speed, acceleration, tcp)
-        self.zero = zero
-        self.origin = origin
-        self.rates = rates
-
-    def at(self, place: float) -> Posture:
-        """Axis values at a place."""
-        t = place - self.zero
-        return tuple([q + r * t for q, r in zip(self.origin, self.rates, strict=True)])
-
-
-class Parabola(Piece):
-    """Half of a joint corner: the parabola over entry, programmed point and exit.
-
-    Its parameter w runs from 0 to 1 over both halves with a slope that changes linearly within
-    each half, from the speed of the incoming move to that of the outgoing one, and passes both
-    halves in the time that the two programmed speeds need for them. So the place of the corner
-    is that of the zone, while \\T stays exact.
-    """
-
-    __slots__ = ("_begin", "_bend", "_origin", "_slope", "_tangent", "_turn", "_w")
-
-    def __init__(
-        self,
-        start: float,
-        end: float,
-        curve: tuple[Posture, Posture, Posture],
-        slopes: tuple[float, float],
-        w: float,
-        limits: "AxisLimits",
-        tcp: float,
-    ) -> None:
-        self._begin = start
-        self._origin, self._tangent, self._bend = curve
-        self._w = w
-        self._slope = slopes[0]
-        self._turn = (slopes[1] - slopes[0]) / (end - start)
-        last = w + (slopes[0] + slopes[1]) / 2 * (end - start)
-        rates, curving = self._extremes(w, last)
-        speed, acceleration = limits.of_curve(rates, curving)
-        super().__init__(start, end, speed, acceleration, tcp)
-
-    def at(self, place: float) -> Posture:
-        """Axis values at a place."""
-        t = place - self._begin
-        w = self._w + (self._slope + self._turn * t / 2) * t
-        return tuple(
-            [
-                o + (d + b * w) * w
-                for o, d, b in zip(self._origin, self._tangent, self._bend, strict=True)
-            ]
-        )
-
-    def _extremes(self, first: float, last: float) -> tuple[Posture, Posture]:
-        """Largest first and second derivatives by nominal time, per axis.
-
-        With slope(w)^2 = s + 2 turn (w - first): rate = (d + 2 b w) slope, whose square is a
-        cubic in w; curving = 2 b slope^2 + (d + 2 b w) turn, which is linear in w.
-        """
-        turn, square = self._turn, self._slope * self._slope
-        rates, curvings = [], []
-        for d, b in zip(self._tangent, self._bend, strict=True):
-            places = [first, last]
-            if b and turn:
-                # d/dw of the squared rate is zero here
-                w = -(4 * b * (square - 2 * turn * first) + 2 * turn * d) / (12 * b * turn)
-                if first < w < last:
-                    places.append(w)
-            rate = curving = 0.0
-            for w in places:
-                slope = max(0.0, square + 2 * turn * (w - first))
-                tangent = d + 2 * b * w
-                rate = max(rate, abs(tangent) * sqrt(slope))
-                curving = max(curving, abs(2 * b * slope + tangent * turn))
-            rates.append(rate)
-            curvings.append(curving)
-        return tuple(rates), tuple(curvings)
-
-
-class Curve(Piece):
-    """A stretch of a way that is known point by point, between two nodes of its sampling."""
-
-    __slots__ = ("_at",)
-
-    def __init__(
-        self,
-        start: float,
-        end: float,
-        at: Callable[[float], Posture],
-        limits: tuple[float, float],
-        tcp: float,
-    ) -> None:
-        super().__init__(start, end, *limits, tcp)
-        self._at = at
-
-    def at(self, place: float) -> Posture:
-        """Axis values at a place."""
-        return self._at(place)
 
 
 class AxisLimits:
@@ -242,6 +128,24 @@ class AxisLimits:
         return speed, acceleration
 
 
+def joint_line(
+    start: float,
+    end: float,
+    line: tuple[float, Posture, Posture],
+    limits: AxisLimits,
+    tcp: float,
+) -> Piece:
+    """All axes linear in nominal time: a line is the place where it begins, where the axes are
+    there, and their rates per s."""
+    zero, origin, rates = line
+
+    def at(place: float) -> Posture:
+        t = place - zero
+        return tuple([q + r * t for q, r in zip(origin, rates, strict=True)])
+
+    return Piece(start, end, at, limits.of_line(rates), tcp)
+
+
 def joint_corner(
     start: float,
     point: Posture,
@@ -265,6 +169,65 @@ def joint_corner(
     half = 0.25 + before * middle / 2
     centre = start + before
     return [
-        Parabola(start, centre, curve, (first, middle), 0.0, limits, tcp),
-        Parabola(centre, centre + after, curve, (middle, last), half, limits, tcp),
+        _half(start, centre, curve, (first, middle), 0.0, limits, tcp),
+        _half(centre, centre + after, curve, (middle, last), half, limits, tcp),
     ]
+
+
+def _half(
+    start: float,
+    end: float,
+    curve: tuple[Posture, Posture, Posture],
+    slopes: tuple[float, float],
+    first: float,
+    limits: AxisLimits,
+    tcp: float,
+) -> Piece:
+    """Half of a joint corner: the parabola over entry, programmed point and exit.
+
+    Its parameter w runs from 0 to 1 over both halves with a slope that changes linearly within
+    each half, from the speed of the incoming move to that of the outgoing one, and passes both
+    halves in the time that the two programmed speeds need for them. So the place of the corner
+    is that of the zone, while \\T stays exact.
+    """
+    origin, tangent, bend = curve
+    slope = slopes[0]
+    turn = (slopes[1] - slopes[0]) / (end - start)
+    last = first + (slopes[0] + slopes[1]) / 2 * (end - start)
+
+    def at(place: float) -> Posture:
+        t = place - start
+        w = first + (slope + turn * t / 2) * t
+        return tuple([o + (d + b * w) * w for o, d, b in zip(origin, tangent, bend, strict=True)])
+
+    extremes = _extremes(tangent, bend, (slope, turn), (first, last))
+    return Piece(start, end, at, limits.of_curve(*extremes), tcp)
+
+
+def _extremes(
+    tangents: Posture, bends: Posture, slopes: tuple[float, float], ends: tuple[float, float]
+) -> tuple[Posture, Posture]:
+    """Largest first and second derivatives by nominal time, per axis.
+
+    With slope(w)^2 = s + 2 turn (w - first): rate = (d + 2 b w) slope, whose square is a
+    cubic in w; curving = 2 b slope^2 + (d + 2 b w) turn, which is linear in w.
+    """
+    (slope, turn), (first, last) = slopes, ends
+    square = slope * slope
+    rates, curvings = [], []
+    for d, b in zip(tangents, bends, strict=True):
+        places = [first, last]
+        if b and turn:
+            # d/dw of the squared rate is zero here
+            w = -(4 * b * (square - 2 * turn * first) + 2 * turn * d) / (12 * b * turn)
+            if first < w < last:
+                places.append(w)
+        rate = curving = 0.0
+        for w in places:
+            own = max(0.0, square + 2 * turn * (w - first))
+            tangent = d + 2 * b * w
+            rate = max(rate, abs(tangent) * sqrt(own))
+            curving = max(curving, abs(2 * b * own + tangent * turn))
+        rates.append(rate)
+        curvings.append(curving)
+    return tuple(rates), tuple(curvings)

@@ -7,14 +7,14 @@ from math import inf
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose, Vector, compose
-from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.kinematics import Kinematics, Posture
 from rapidgen.axes.limits import outside
 from rapidgen.config.model import GroupConfig
 from rapidgen.motion.cartesian import CartesianWay
 from rapidgen.motion.faults import MotionFault, Refusal
 from rapidgen.motion.legs import Geometry, joint_measure, joint_way, lever_measure
 from rapidgen.motion.modal import ModalSettings
-from rapidgen.motion.moves import NO_WAY, CartesianMove, JointMove, Move, Posture
+from rapidgen.motion.moves import NO_WAY, CartesianMove, JointMove, Move
 from rapidgen.motion.path import NOTHING_M, WayMaker
 from rapidgen.motion.pieces import AxisLimits
 from rapidgen.motion.settings import MotionSettings

@@ -9,7 +9,7 @@ nodes, and 1/12 of it at them.
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
-from rapidgen.motion.moves import Posture
+from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.pieces import AxisLimits
 
 _MARGIN = 1 / 3

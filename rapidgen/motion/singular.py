@@ -7,9 +7,9 @@ from math import pi
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Vector
-from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics
+from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.motion.faults import MotionFault, Refusal
-from rapidgen.motion.moves import Carrier, CartesianMove, Posture, Singularities
+from rapidgen.motion.moves import Carrier, CartesianMove, Singularities
 
 _ROUNDS = 25
 _CLOSE = 1e-9

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from rapidgen.motion.timelaw import Span, TimeLaw
+from rapidgen.motion.timelaw import Stretch, TimeLaw
 
 _ROUNDS = 60
 _EXACT = 1e-11
@@ -76,7 +76,7 @@ def time_at(law: TimeLaw, place: float, width: float) -> float:
 
 
 @dataclass(slots=True)
-class _Stretch:
+class _Widened:
     """A span whose limits hold for all that the mean mixes into it."""
 
     end: float
@@ -86,14 +86,14 @@ class _Stretch:
     stop: bool
 
 
-def widened(spans: Sequence[Span], start: float, radius: float) -> list[Span]:
+def widened(spans: Sequence[Stretch], start: float, radius: float) -> list[Stretch]:
     """Spans in which every limit holds `radius` further on both sides.
 
     The mean of a law at a place mixes what was planned up to half its width before and behind
     (path speed is at most 1). At a stop the planned law waits, so nothing is mixed across it.
     `start` is where the first span begins.
     """
-    found: list[Span] = []
+    found: list[Stretch] = []
     first = 0
     for i, span in enumerate(spans):
         if span.stop or i == len(spans) - 1:
@@ -102,7 +102,7 @@ def widened(spans: Sequence[Span], start: float, radius: float) -> list[Span]:
     return found
 
 
-def _between_stops(spans: Sequence[Span], start: float, radius: float) -> Sequence[Span]:
+def _between_stops(spans: Sequence[Stretch], start: float, radius: float) -> Sequence[Stretch]:
     if len(spans) == 1:
         return spans
     # A slower neighbour reaches into a span; only there it has to be cut.
@@ -117,7 +117,7 @@ def _between_stops(spans: Sequence[Span], start: float, radius: float) -> Sequen
     end = spans[-1].end
     cuts = sorted(cut for cut in cuts if start < cut < end)
     cuts.append(end)
-    found: list[Span] = []
+    found: list[Stretch] = []
     low, left = 0, start
     for right in cuts:
         if right - left < _EXACT and right < end:
@@ -136,9 +136,9 @@ def _between_stops(spans: Sequence[Span], start: float, radius: float) -> Sequen
                 acceleration = span.acceleration
             if span.tcp > tcp:
                 tcp = span.tcp
-        found.append(_Stretch(right, speed, acceleration, tcp, False))
+        found.append(_Widened(right, speed, acceleration, tcp, False))
         left = right
     last = found[-1]
-    assert isinstance(last, _Stretch)
+    assert isinstance(last, _Widened)
     last.end, last.stop = end, spans[-1].stop
     return found

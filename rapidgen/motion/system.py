@@ -69,6 +69,10 @@ class MotionSystem:
             return next(iter(self.groups.values()))
         return found
 
+    def moved_by(self, task: str) -> MotionGroup | None:
+        """The group that a motion task moves; None for any other task."""
+        return self.of_task(task) if self.is_motion_task(task) else None
+
     def is_motion_task(self, task: str) -> bool:
         """Whether a task may execute move instructions."""
         return task.lower() in self._moving

@@ -14,7 +14,7 @@ from typing import Protocol
 _TOLERANCE = 1e-7
 
 
-class Span(Protocol):
+class Stretch(Protocol):
     """A stretch of path with constant limits; `stop` asks for standstill at its end.
 
     `tcp` is the TCP's way in m per nominal s (0 where it is not known)."""
@@ -126,7 +126,7 @@ class TimeLaw:
 
 
 def plan(
-    spans: Sequence[Span],
+    spans: Sequence[Stretch],
     place: float,
     speed: float,
     cap: float = 1.0,
@@ -182,7 +182,7 @@ def plan(
     return law
 
 
-def brake(spans: Sequence[Span], place: float, speed: float, factor: float = 1.0) -> TimeLaw:
+def brake(spans: Sequence[Stretch], place: float, speed: float, factor: float = 1.0) -> TimeLaw:
     """Down to standstill on the path, with `factor` times the spans' accelerations."""
     law = TimeLaw(place)
     for span in spans:
@@ -202,7 +202,7 @@ def brake(spans: Sequence[Span], place: float, speed: float, factor: float = 1.0
     return law
 
 
-def _ahead(spans: Sequence[Span], place: float) -> Sequence[Span]:
+def _ahead(spans: Sequence[Stretch], place: float) -> Sequence[Stretch]:
     """From the span that contains a place on."""
     first = 0
     while first < len(spans) - 1 and spans[first].end <= place:
@@ -210,7 +210,7 @@ def _ahead(spans: Sequence[Span], place: float) -> Sequence[Span]:
     return spans[first:] if first else spans
 
 
-def _entry_bounds(spans: Sequence[Span], place: float) -> list[float]:
+def _entry_bounds(spans: Sequence[Stretch], place: float) -> list[float]:
     """Largest speed at the start of each span (the first: at `place`) that can be kept."""
     bounds = [0.0] * (len(spans) + 1)
     for i in range(len(spans) - 1, -1, -1):

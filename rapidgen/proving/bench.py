@@ -32,9 +32,8 @@ from rapidgen.proving.messages import (
 from rapidgen.proving.model import Broken
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.track import SETTLED, Point, Position, distance, on_path, still
-from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System
 
 Lines: TypeAlias = dict[str, dict[int, int]]
@@ -238,7 +237,7 @@ class Bench:
                 return task.name
         raise KeyError(module)
 
-    def rapid_task(self, module: str) -> RapidTask:
+    def rapid_task(self, module: str) -> Task:
         """The running task of this group that has a module."""
         return self.controller.rapid_tasks[self.task(module)]
 
@@ -246,11 +245,10 @@ class Bench:
         """Compile all RAPID now, not on first call: copies of this bench then need not."""
         for task in self.controller.rapid_tasks.values():
             for module in task.program.modules.values():
-                for symbol in module.symbols.values():
-                    if isinstance(symbol, Routine) and symbol.node is not None:
-                        # What cannot be linked ends its task when it is called, not here.
-                        with suppress(FatalError):
-                            task.program.function(symbol)
+                for routine in module.routines.values():
+                    # What cannot be linked ends its task when it is called, not here.
+                    with suppress(FatalError):
+                        task.program.function(routine)
 
     def waits_in(self, module: str, instruction: str) -> bool:
         """Whether a module's task is at that instruction now."""

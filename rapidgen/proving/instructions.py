@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 from rapidgen.proving.bench import Bench
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 
 Instruction: TypeAlias = Callable[..., Any]
 """It takes and returns whatever the instruction does."""
@@ -24,7 +24,7 @@ class Order:
     free: bool
 
 
-def wrapped(task: RapidTask, name: str, wrap: Callable[[Instruction], Instruction]) -> None:
+def wrapped(task: Task, name: str, wrap: Callable[[Instruction], Instruction]) -> None:
     """Put something around an instruction, for one task; `wrap` gets what it was before."""
     routine = task.program.find_routine(None, name.casefold())
     assert routine is not None

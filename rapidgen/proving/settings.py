@@ -7,7 +7,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.machine.costs import Costs
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.runtime.switches import NOT_THE_DRIVERS, Dialect, parse_dialect
+from rapidgen.runtime.switches import NOT_THE_DRIVERS, Switches, parse_switches
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +18,7 @@ class Setting:
     group: int = 0
     random_schedule: bool = False
     switch_at_pers: bool = False
-    dialect: Dialect = field(default_factory=Dialect)
+    dialect: Switches = field(default_factory=Switches)
     motion: MotionSettings = field(default_factory=MotionSettings)
     costs: Costs = field(default_factory=Costs)
     faults: FaultPlan = field(default_factory=FaultPlan)
@@ -41,7 +41,7 @@ def settings(config: RobotConfig) -> dict[str, Setting]:
     }
     for number, group in enumerate(config.groups[1:], 1):
         found[group.name] = Setting(group=number, coverage=True)
-    found.update({said: Setting(dialect=parse_dialect(said.lower())) for said in _inverted()})
+    found.update({said: Setting(dialect=parse_switches(said.lower())) for said in _inverted()})
     found.update({said: Setting(motion=motion) for said, motion in _MOTION.items()})
     return found
 
@@ -66,7 +66,7 @@ NEEDED = frozenset({"unpack_ulint", "alias_by_name"})
 
 
 def _inverted() -> Iterable[str]:
-    for switch in fields(Dialect):
+    for switch in fields(Switches):
         if switch.name in NEEDED | NOT_THE_DRIVERS:
             continue
         if isinstance(switch.default, bool):

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rapidgen.machine.files import Directory, DiskFault, DiskReason, FileSystem, IODevice
+from rapidgen.machine.files import Directory, DiskFault, DiskReason, IODevice
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import register_type
 
@@ -29,25 +29,19 @@ def _in_rapid() -> Iterator[None]:
         raise RapidError(_ERRORS[fault.reason], str(fault)) from fault
 
 
-def disks_of(task: "Task") -> FileSystem:
-    """The disks of the task's controller."""
-    disks: FileSystem = task.controller.files
-    return disks
-
-
 def file_path(task: "Task", path: str, file: str = "") -> Path:
     """Where a path (with \\File behind it) lies. ERR_FILEACC: on no disk, or outside of it."""
     with _in_rapid():
-        return disks_of(task).path(path, file)
+        return task.controller.files.path(path, file)
 
 
 def hold(task: "Task", device: IODevice | Directory) -> None:
     """A file or folder is open for the task; ERR_FILEOPEN when too many are."""
     with _in_rapid():
-        disks_of(task).hold(device, task.name)
+        task.controller.files.hold(device, task.name)
 
 
 def spend(task: "Task", count: int) -> None:
     """Account for bytes that are written; ERR_FILEACC when the disk is full."""
     with _in_rapid():
-        disks_of(task).spend(count)
+        task.controller.files.spend(count)

@@ -4,8 +4,9 @@
 the task. Numbers of the ERR_ constants are in no public source; they are opaque and distinct.
 """
 
+from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from types import FrameType
 
 from rapidgen.diagnostics import Span
 from rapidgen.rapid.builtins import signatures
@@ -40,6 +41,21 @@ def error_name(number: float) -> str:
     return _names().get(int(number), f"error {number:g}")
 
 
+@dataclass(frozen=True, slots=True)
+class Location:
+    """Where a routine of the call stack is."""
+
+    module: str
+    routine: str
+    span: Span
+    origin: tuple[str, int] | None = None
+    """Template and line of a generated module."""
+
+    def __str__(self) -> str:
+        made = f" (from {self.origin[0]}:{self.origin[1]})" if self.origin else ""
+        return f"{self.module}/{self.routine}/{self.span.line}{made}"
+
+
 class RapidError(Exception):
     """A recoverable error of execution. `text` says more for the event log."""
 
@@ -53,7 +69,7 @@ class RapidError(Exception):
         """Whether the task's budget was put right for it."""
         self.raised = False
         """Whether RAISE with a number made it."""
-        self.target: Any = None
+        self.target: FrameType | None = None
         """Python frame of the routine whose handler it jumps to [K §7.2, 7.3]."""
         self.way: int | None = None
         """How that handler has ended, when it has run already."""
@@ -88,7 +104,7 @@ class FatalError(Exception):
         """The error that nobody handled."""
         self.restartable = restartable
         """Whether a start may try the statement again."""
-        self.stack: tuple[Any, ...] = ()
+        self.stack: tuple[Location, ...] = ()
         """Call stack at the error, outermost first."""
 
 

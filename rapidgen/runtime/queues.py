@@ -7,12 +7,11 @@ has an interrupt ordered in the receiving task goes to its trap, any other one w
 from collections import deque
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import Any
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import literal_text
-from rapidgen.runtime.values import Type, register_type
+from rapidgen.runtime.values import Type, Value, register_type
 from rapidgen.system.model import QueueSpec, TaskSpec
 
 
@@ -22,7 +21,7 @@ class Message:
 
     type: Type
     dims: tuple[int, ...]
-    value: Any
+    value: Value
     sender: str
     user: float
 
@@ -32,7 +31,7 @@ class Message:
 
 
 class MessageBox:
-    """An `rmqmessage` datum."""
+    """An `rmqmessage`."""
 
     __slots__ = ("message",)
 
@@ -41,7 +40,7 @@ class MessageBox:
 
 
 class Slot:
-    """An `rmqslot` datum: the name of a queue, or nothing."""
+    """An `rmqslot`: the name of a queue, or nothing."""
 
     __slots__ = ("name",)
 

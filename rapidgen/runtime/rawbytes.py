@@ -1,4 +1,4 @@
-"""Containers of raw bytes: 0 to 1024 valid bytes, little endian unless told [manual 3HAC16581-1].
+"""Containers of raw bytes: 0 to 1024 valid bytes, little endian by default [manual 3HAC16581-1].
 
 `data` holds the valid bytes only; everything behind counts as 0. Indexes are RAPID's, from 1.
 Which error a value out of range raises is in no public source (switch `argument_error`): a number
@@ -18,7 +18,7 @@ _INTEGERS = {1: "B", 2: "H", 4: "I", 8: "Q", -1: "b", -2: "h", -4: "i", -8: "q"}
 
 
 class RawBytes:
-    """A `rawbytes` datum."""
+    """A `rawbytes`."""
 
     __slots__ = ("data",)
 

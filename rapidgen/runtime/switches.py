@@ -6,11 +6,11 @@ docs/rapid/virtual-controller.md lists them.
 """
 
 from dataclasses import dataclass, fields
-from typing import Literal
+from typing import Literal, get_args
 
 
 @dataclass(frozen=True, slots=True)
-class Dialect:
+class Switches:
     """How the virtual controller decides what is not settled."""
 
     num_rounding: Literal["store", "operation"] = "store"
@@ -167,10 +167,10 @@ NOT_THE_DRIVERS = frozenset(
 """Switches that no generated driver can notice: it does nothing that they are about."""
 
 
-def parse_dialect(text: str) -> Dialect:
-    """A dialect from `name=value,...`. ValueError: unknown switch or value."""
+def parse_switches(text: str) -> Switches:
+    """Switches from `name=value,...`. ValueError: unknown switch or value."""
     chosen: dict[str, object] = {}
-    known = {f.name: f for f in fields(Dialect)}
+    known = {f.name: f for f in fields(Switches)}
     for part in filter(None, (p.strip() for p in text.split(","))):
         name, _, value = part.partition("=")
         if name not in known:
@@ -181,8 +181,8 @@ def parse_dialect(text: str) -> Dialect:
                 raise ValueError(f"{name} is true or false")
             chosen[name] = value == "true"
         else:
-            allowed = known[name].type.__args__  # type: ignore[union-attr]
+            allowed = get_args(known[name].type)
             if value not in allowed:
                 raise ValueError(f"{name} is one of {', '.join(allowed)}")
             chosen[name] = value
-    return Dialect(**chosen)  # type: ignore[arg-type]
+    return Switches(**chosen)  # type: ignore[arg-type]

@@ -8,10 +8,10 @@ below 0.000005 or above 0.999995 counts as whole. Exponents look like 1E+10 [mem
 import math
 import re
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Context, Decimal
-from typing import Any
 
+from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import DNUM, STRING_LIMIT, Record, Type, single
+from rapidgen.runtime.values import DNUM, Record, Type, Value
 
 NUM_DIGITS = 6
 DNUM_DIGITS = 15
@@ -28,7 +28,7 @@ _BLANK = re.compile(r"\s*")
 
 def limited(text: str) -> str:
     """`text` itself; ERR_STRTOOLNG when it is no RAPID string any more."""
-    if len(text) > STRING_LIMIT:
+    if len(text) > MAX_STRING:
         raise RapidError("ERR_STRTOOLNG", f"{len(text)} characters")
     return text
 
@@ -46,7 +46,7 @@ def number_text(value: float, digits: int = NUM_DIGITS, *, whole: bool = False) 
 
 
 def value_text(
-    value: Any,  # noqa: ANN401 - any RAPID value
+    value: Value,
     type_: Type | None = None,
     *,
     whole: bool = False,
@@ -65,7 +65,7 @@ def value_text(
     return number_text(value, DNUM_DIGITS if type_ is DNUM else NUM_DIGITS, whole=whole)
 
 
-def literal_text(value: Any, type_: Type) -> str:  # noqa: ANN401 - any RAPID value
+def literal_text(value: Value, type_: Type) -> str:
     """A value as a literal that reads back as exactly the same value."""
     if value.__class__ is dict:
         return "[" + ",".join(literal_text(v, type_) for v in value.values()) + "]"
@@ -113,7 +113,7 @@ class NotALiteral(Exception):
     """The text is no literal of the wanted type."""
 
 
-def parse_value(text: str, type_: Type, dims: tuple[int, ...] = ()) -> Any:  # noqa: ANN401
+def parse_value(text: str, type_: Type, dims: tuple[int, ...] = ()) -> Value:
     """The value of a literal or literal aggregate of a type.
 
     NotALiteral: the text is something else, or does not fit the type.
@@ -142,7 +142,7 @@ def _end_of_blank(text: str, place: int) -> int:
     return blank.end() if blank is not None else place
 
 
-def _parse(tokens: list[str], place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Any, int]:
+def _parse(tokens: list[str], place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Value, int]:
     if place >= len(tokens):
         raise NotALiteral
     if dims:
@@ -157,7 +157,7 @@ def _parse(tokens: list[str], place: int, type_: Type, dims: tuple[int, ...]) ->
 
 def _aggregate(
     tokens: list[str], place: int, parts: list[tuple[Type, tuple[int, ...]]]
-) -> tuple[list[Any], int]:
+) -> tuple[list[Value], int]:
     values = []
     for i, (kind, dims) in enumerate(parts):
         if place >= len(tokens) or tokens[place] != ("[" if i == 0 else ","):
@@ -169,7 +169,7 @@ def _aggregate(
     return values, place + 1
 
 
-def _atom(token: str, type_: Type) -> Any:  # noqa: ANN401
+def _atom(token: str, type_: Type) -> Value:
     if type_.kind == "bool" and token.upper() in ("TRUE", "FALSE"):  # any case [K §2.4, 2.6]
         return token.upper() == "TRUE"
     if type_.kind == "string" and token[0] == '"':

@@ -6,7 +6,6 @@ record and array type keep one object for life: assignment writes into it, so pa
 object is passing by reference.
 """
 
-import struct
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from keyword import iskeyword
@@ -14,6 +13,7 @@ from typing import Any, Literal, TypeAlias
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
 
 Value: TypeAlias = Any
@@ -21,25 +21,6 @@ Value: TypeAlias = Any
 Kind: TypeAlias = Literal["num", "dnum", "bool", "string", "record", "nonvalue", "semivalue"]
 ATOMIC = frozenset({"num", "dnum", "bool", "string"})
 """Kinds of values without parts."""
-STRING_LIMIT = 80
-"""Characters of a string [K §2.13]."""
-_EXACT = 1 << 24
-_single = struct.Struct("<f")
-
-
-def single(value: float) -> float:
-    """`value` as a num: rounded to IEEE single, ties to even. Whole numbers become int.
-
-    OverflowError when it does not fit (ERR_NUM_LIMIT in RAPID).
-    """
-    if value.__class__ is int and -_EXACT <= value <= _EXACT:
-        return value
-    rounded: float = _single.unpack(_single.pack(value))[0]
-    if -_EXACT <= rounded <= _EXACT:
-        whole = int(rounded)
-        if whole == rounded:
-            return whole
-    return rounded
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -379,7 +360,7 @@ def store(target: "Ref | PersistentCell", value: Value) -> None:
     elif kind == "num":
         target.v = single(value)
     elif kind == "string":
-        if len(value) > STRING_LIMIT:
+        if len(value) > MAX_STRING:
             raise RapidError("ERR_STRTOOLNG")
         target.v = value
     elif kind == "record":

@@ -9,8 +9,8 @@ from rapidgen.diagnostics import Diagnostic
 if TYPE_CHECKING:
     from rapidgen.system.backup import is_backup, read_backup
     from rapidgen.system.cfg import Attribute, CfgText, Instance, Section, parse_cfg, write_cfg
+    from rapidgen.system.compose import eio_cfg, sys_cfg
     from rapidgen.system.folder import expand_lines, is_generated, read_folder, read_manifest
-    from rapidgen.system.interpret import eio_cfg, sys_cfg
     from rapidgen.system.loose import read_files
     from rapidgen.system.model import (
         CrossConnection,
@@ -31,7 +31,7 @@ _FILES = {
         "backup": "is_backup read_backup",
         "cfg": "Attribute CfgText Instance Section parse_cfg write_cfg",
         "folder": "expand_lines is_generated read_folder read_manifest",
-        "interpret": "eio_cfg sys_cfg",
+        "compose": "eio_cfg sys_cfg",
         "loose": "read_files",
         "model": "CrossConnection EventRoutine MechanicalUnitGroup ModuleFile SignalSpec System "
         "SystemInput SystemOutput TaskSpec",
@@ -79,10 +79,10 @@ def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "
 
     Raises DiagnosticError RG701..RG712.
     """
+    from rapidgen.diagnostics import refusal
     from rapidgen.system.backup import is_backup, read_backup
     from rapidgen.system.folder import is_generated, read_folder
     from rapidgen.system.loose import read_files
-    from rapidgen.system.paths import refusal
 
     path = Path(path)
     if path.is_dir():
@@ -91,5 +91,5 @@ def read_system(path: Path | str, *, notes: list[Diagnostic] | None = None) -> "
         if is_backup(path):
             return read_backup(path, notes=notes)
     elif not path.exists():
-        raise refusal("RG704", f"there is no {path}", help="check the path for a slip")
+        raise refusal("RG704", None, f"there is no {path}", "check the path for a slip")
     return read_files([path], name=path.resolve().stem)

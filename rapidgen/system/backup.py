@@ -9,7 +9,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.interpret import (
     ModuleEntry,
@@ -24,7 +24,7 @@ from rapidgen.system.interpret import (
 )
 from rapidgen.system.loading import load_entries, load_module
 from rapidgen.system.model import ModuleFile, System, TaskSpec
-from rapidgen.system.paths import inside, module_files, read_limited, refusal
+from rapidgen.system.paths import inside, module_files, read_limited
 
 _TASK_LINE = re.compile(rb">>TASK(\d+):\s*\(\s*([^,()\s]+)")
 _VERSIONS = (
@@ -45,8 +45,9 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
     if not is_backup(folder):
         raise refusal(
             "RG712",
+            None,
             f"{folder} is not an ABB backup: it has no SYSPAR/SYS.cfg",
-            help="give the folder that holds BACKINFO, HOME, RAPID and SYSPAR",
+            "give the folder that holds BACKINFO, HOME, RAPID and SYSPAR",
         )
     sys_cfg = _cfg(folder, "SYS.cfg")
     eio_path = inside(folder, "SYSPAR/EIO.cfg")
@@ -118,11 +119,12 @@ def _robotware(info: bytes, cfg: CfgText, notes: list[Diagnostic]) -> tuple[int,
         if match and 5 <= int(match[1]) <= 9:
             return int(match[1]), int(match[2])
     notes.append(
-        Diagnostic(
+        error(
             "RG713",
-            Severity.WARNING,
+            None,
             f"the backup does not say its RobotWare; {cfg.version[0]}.0 is taken from SYS.cfg",
-            help="name it with --robotware",
+            "name it with --robotware",
+            severity=Severity.WARNING,
         )
     )
     return cfg.version[0], 0

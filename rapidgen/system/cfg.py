@@ -10,7 +10,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.diagnostics import DiagnosticError, Span, refusal
 
 Scalar = str | int | float
 
@@ -92,14 +92,11 @@ def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
     start = next((i for i, line in enumerate(lines) if line.strip()), 0)
     header = _HEADER.match(lines[start].strip("\ufeff"))
     if header is None:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG701",
-                Severity.ERROR,
-                "not a cfg file: the header line is missing",
-                Span(path, start + 1, 1),
-                help="the first line of a cfg file reads like 'SYS:CFG_1.0:6:0::'",
-            )
+        raise refusal(
+            "RG701",
+            Span(path, start + 1, 1),
+            "not a cfg file: the header line is missing",
+            "the first line of a cfg file reads like 'SYS:CFG_1.0:6:0::'",
         )
     sections: list[tuple[str, list[Instance]]] = []
     for number, line in _logical_lines(lines, start + 1):
@@ -190,20 +187,14 @@ def _written(value: Scalar) -> str:
     if not isinstance(value, str):
         return repr(value)
     if '"' in value or "\n" in value or "\r" in value:
-        raise DiagnosticError(
-            Diagnostic(
-                "RG703",
-                Severity.ERROR,
-                f"a cfg file cannot hold the text {value!r}",
-                help="leave out quotes and line ends",
-            )
+        raise refusal(
+            "RG703",
+            None,
+            f"a cfg file cannot hold the text {value!r}",
+            "leave out quotes and line ends",
         )
     return f'"{value}"'
 
 
 def _unreadable(path: str, number: int, label: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG702", Severity.ERROR, "unreadable line in a cfg file", Span(path, number, 1), label
-        )
-    )
+    return refusal("RG702", Span(path, number, 1), "unreadable line in a cfg file", label=label)

@@ -5,9 +5,9 @@ import json
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen._json import Json, Members, items, members, text, whole
+from rapidgen.diagnostics import DiagnosticError, Span, refusal
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.interpret import (
     crosses_of,
@@ -27,16 +27,16 @@ MANIFEST = "manifest.json"
 FORMAT = 1
 
 
-def read_manifest(folder: Path) -> dict[str, Any]:
+def read_manifest(folder: Path) -> Members:
     """manifest.json of a generated folder.
 
     Raises DiagnosticError: RG704 (no such file), RG711 (not a manifest, or of a later format).
     """
     path = inside(folder, MANIFEST)
     try:
-        manifest = json.loads(read_limited(path))
-    except (ValueError, RecursionError) as error:
-        raise _bad(path, f"it is not JSON: {error}") from error
+        manifest: Json = json.loads(read_limited(path))
+    except (ValueError, RecursionError) as fault:
+        raise _bad(path, f"it is not JSON: {fault}") from fault
     if not isinstance(manifest, dict) or not isinstance(manifest.get("format"), int):
         raise _bad(path, "it has no format number")
     if manifest["format"] != FORMAT:
@@ -66,9 +66,9 @@ def read_folder(folder: Path | str) -> System:
         replace(task, modules=load_entries(task, entries, home, (), sys_cfg.path, None, origins))
         for task in tasks_of(sys_cfg)
     )
-    major, minor = manifest["robotware"]
+    major, minor = map(whole, items(manifest["robotware"]))
     return System(
-        name=manifest["name"],
+        name=text(manifest["name"]),
         tasks=tasks,
         signals=signals_of(eio_cfg),
         outputs=outputs_of(eio_cfg),
@@ -78,7 +78,7 @@ def read_folder(folder: Path | str) -> System:
         groups=groups_of(sys_cfg),
         robotware=(major, minor),
         home=home,
-        build_id=manifest["build_id"],
+        build_id=text(manifest["build_id"]),
     )
 
 
@@ -87,15 +87,15 @@ def _cfg(folder: Path, name: str) -> CfgText:
     return parse_cfg(read_limited(path), path=str(path))
 
 
-def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
+def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
     """Line maps by file name; a file that was edited since has none that could be trusted."""
     digests = {
         entry.get("path"): entry.get("sha256")
-        for entry in manifest["files"]
+        for entry in items(manifest["files"])
         if isinstance(entry, dict)
     }
     origins: dict[str, Origin] = {}
-    for relative, lines in manifest["lines"].items():
+    for relative, lines in members(manifest["lines"]).items():
         path = inside(folder, relative)
         if not path.is_file() or not isinstance(lines, list):
             continue
@@ -103,11 +103,10 @@ def _origins(folder: Path, manifest: dict[str, Any]) -> dict[str, Origin]:
         if hashlib.sha256(data).hexdigest() != digests.get(relative):
             continue
         try:
-            origins[relative] = expand_lines(
-                [(int(a), str(b), int(c)) for a, b, c in lines], data.count(b"\n")
-            )
-        except (TypeError, ValueError) as error:
-            raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from error
+            runs = [(whole(a), text(b), whole(c)) for a, b, c in map(items, lines)]
+            origins[relative] = expand_lines(runs, data.count(b"\n"))
+        except (TypeError, ValueError) as fault:
+            raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from fault
     return origins
 
 
@@ -122,15 +121,12 @@ def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
 
 
 def _bad(path: Path, label: str) -> DiagnosticError:
-    return DiagnosticError(
-        Diagnostic(
-            "RG711",
-            Severity.ERROR,
-            "manifest.json is not one that rapidgen wrote",
-            Span(str(path), 1, 1),
-            label,
-            "build the folder again with 'rapidgen build'",
-        )
+    return refusal(
+        "RG711",
+        Span(str(path), 1, 1),
+        "manifest.json is not one that rapidgen wrote",
+        "build the folder again with 'rapidgen build'",
+        label=label,
     )
 
 

@@ -3,10 +3,10 @@
 import re
 from pathlib import Path
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, refusal
 from rapidgen.system.interpret import ModuleEntry
 from rapidgen.system.model import ModuleFile, TaskSpec
-from rapidgen.system.paths import home_file, module_files, read_limited, refusal
+from rapidgen.system.paths import home_file, module_files, read_limited
 
 # The head of a module; text before it (a %%% header, comments) is skipped.
 _MODULE = re.compile(rb"^[ \t]*MODULE\s+([A-Za-z\xc0-\xff][\w\xc0-\xff]*)", re.I | re.M)
@@ -50,7 +50,7 @@ def expand(path: Path) -> list[Path]:
     else:
         return [path]
     if not found:
-        raise refusal("RG709", f"no RAPID module in {path}", help="modules end in .mod or .sys")
+        raise refusal("RG709", None, f"no RAPID module in {path}", "modules end in .mod or .sys")
     return found
 
 
@@ -80,12 +80,12 @@ def load_entries(
             stem = entry.file.replace("\\", "/").rpartition("/")[2].rpartition(".")[0]
             if stem.casefold() in known:
                 continue
-            missing = Diagnostic(
+            missing = error(
                 "RG710",
-                Severity.ERROR if notes is None else Severity.WARNING,
-                f"module file '{entry.file}' of task {task.name} is missing",
                 place,
-                help="put the file into HOME, or take its CAB_TASK_MODULES instance out",
+                f"module file '{entry.file}' of task {task.name} is missing",
+                "put the file into HOME, or take its CAB_TASK_MODULES instance out",
+                severity=Severity.ERROR if notes is None else Severity.WARNING,
             )
             if notes is None:
                 raise DiagnosticError(missing)

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from rapidgen.diagnostics import refusal
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.interpret import (
     crosses_of,
@@ -17,7 +18,7 @@ from rapidgen.system.interpret import (
 )
 from rapidgen.system.loading import expand, load_module
 from rapidgen.system.model import System, TaskSpec
-from rapidgen.system.paths import read_limited, refusal
+from rapidgen.system.paths import read_limited
 
 _MOTION_TASK = re.compile(r"T_ROB(\d|_)", re.I)
 
@@ -48,7 +49,7 @@ def read_files(
             else:
                 sources.setdefault(task, []).extend(expand(path))
     if not sources:
-        raise refusal("RG709", "no RAPID module was given", help="name a .mod or .sys file")
+        raise refusal("RG709", None, "no RAPID module was given", "name a .mod or .sys file")
     texts = [parse_cfg(read_limited(path), path=str(path)) for path in cfg_files]
     sys_cfg = _merged(texts, "SYS", robotware)
     eio_cfg = _merged(texts, "EIO", robotware)

@@ -5,18 +5,11 @@ import stat
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
+from rapidgen.diagnostics import refusal
 
 MAX_FILE = 8 * 1024 * 1024
 MAX_FILES = 20_000
 MODULE_SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
-
-
-def refusal(
-    code: str, message: str, *, help: str = "", notes: tuple[str, ...] = ()
-) -> DiagnosticError:
-    """One error without a place in a text."""
-    return DiagnosticError(Diagnostic(code, Severity.ERROR, message, help=help, notes=notes))
 
 
 def read_limited(path: Path) -> bytes:
@@ -26,22 +19,23 @@ def read_limited(path: Path) -> bytes:
     """
     try:
         descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
-    except OSError as error:
+    except OSError as fault:
         mend = "give the path of a file or folder that exists and may be read"
-        raise refusal("RG704", f"cannot read {path}: {error.strerror}", help=mend) from error
+        raise refusal("RG704", None, f"cannot read {path}: {fault.strerror}", mend) from fault
     with open(descriptor, "rb") as file:
         status = os.fstat(descriptor)
         if not stat.S_ISREG(status.st_mode) or status.st_size > MAX_FILE:
             raise refusal(
                 "RG705",
+                None,
                 f"{path} is not a regular file of at most {MAX_FILE // 2**20} MB",
-                help="a RAPID module or cfg file is far smaller: is it the right file?",
+                "a RAPID module or cfg file is far smaller: is it the right file?",
             )
         try:
             return file.read()
-        except OSError as error:
+        except OSError as fault:
             mend = "look at the disk that it lies on"
-            raise refusal("RG704", f"cannot read {path}: {error.strerror}", help=mend) from error
+            raise refusal("RG704", None, f"cannot read {path}: {fault.strerror}", mend) from fault
 
 
 def inside(root: Path, relative: str) -> Path:
@@ -54,8 +48,9 @@ def inside(root: Path, relative: str) -> Path:
     if any(part in ("..", "/") or ":" in part or "\0" in part for part in parts):
         raise refusal(
             "RG706",
+            None,
             f"the path '{relative}' leaves {root}",
-            help="files of a system lie inside its own folder",
+            "files of a system lie inside its own folder",
         )
     path = root
     for part in parts:
@@ -64,8 +59,9 @@ def inside(root: Path, relative: str) -> Path:
     if not Path(os.path.realpath(path)).is_relative_to(os.path.realpath(root)):
         raise refusal(
             "RG706",
+            None,
             f"'{relative}' is a link that leaves {root}",
-            help="files of a system lie inside its own folder",
+            "files of a system lie inside its own folder",
         )
     return path
 
@@ -76,8 +72,9 @@ def home_file(home: Path, target: str) -> Path:
     if head.strip().upper() != "HOME" or not rest:
         raise refusal(
             "RG707",
+            None,
             f"'{target}' does not lie on HOME:",
-            help="only files of HOME: can be read from a folder",
+            "only files of HOME: can be read from a folder",
         )
     return inside(home, rest.lstrip("/\\"))
 
@@ -91,7 +88,7 @@ def module_files(folder: Path) -> Iterator[Path]:
         return
     names = sorted(os.listdir(folder), key=str.casefold)
     if len(names) > MAX_FILES:
-        raise refusal("RG705", f"{folder} holds more than {MAX_FILES} files")
+        raise refusal("RG705", None, f"{folder} holds more than {MAX_FILES} files")
     for name in names:
         if name.casefold().endswith(MODULE_SUFFIXES):
             yield inside(folder, name)

@@ -14,8 +14,9 @@ The few private names of asyncio that this needs are pinned by a test.
 import asyncio
 import math
 import selectors
-from collections.abc import Callable, Coroutine
-from typing import Any, TypeVar
+from collections.abc import Awaitable, Callable, Mapping
+from io import UnsupportedOperation
+from typing import TYPE_CHECKING, NoReturn, TypeVar
 
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.machine.network.interface import (
@@ -25,6 +26,9 @@ from rapidgen.machine.network.interface import (
     NetworkFault,
     NetworkReason,
 )
+
+if TYPE_CHECKING:
+    from _typeshed import FileDescriptorLike
 
 _T = TypeVar("_T")
 HIGH_WATER = BUFFER
@@ -37,7 +41,7 @@ _ERRORS: dict[NetworkReason, type[OSError]] = {
 }
 
 
-def run(controller: VirtualController, main: Coroutine[Any, Any, _T]) -> _T:
+def run(controller: VirtualController, main: Awaitable[_T]) -> _T:
     """Run a coroutine on the controller's clock and return its result."""
     loop = VirtualLoop(controller)
     try:
@@ -47,24 +51,26 @@ def run(controller: VirtualController, main: Coroutine[Any, Any, _T]) -> _T:
         loop.close()
 
 
-class _KernelSelector(selectors.BaseSelector):
+class _SchedulerSelector(selectors.BaseSelector):
     """What BaseEventLoop waits in: lets simulated time pass. It watches no files."""
 
     def __init__(self, loop: "VirtualLoop") -> None:
         self._loop = loop
 
-    def select(self, timeout: float | None = None) -> list[Any]:
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
         """Let time pass until asyncio has something to do, or `timeout` s."""
         self._loop.pass_time(timeout)
         return []
 
-    def register(self, fileobj: Any, events: int, data: Any = None) -> selectors.SelectorKey:  # noqa: ANN401
-        raise NotImplementedError("files are not watched on the virtual clock")
+    def register(self, fileobj: "FileDescriptorLike", events: int, data: object = None) -> NoReturn:
+        """UnsupportedOperation: files are not watched on the virtual clock."""
+        raise UnsupportedOperation("files are not watched on the virtual clock")
 
-    def unregister(self, fileobj: Any) -> selectors.SelectorKey:  # noqa: ANN401
-        raise NotImplementedError("files are not watched on the virtual clock")
+    def unregister(self, fileobj: "FileDescriptorLike") -> NoReturn:
+        """UnsupportedOperation: there is nothing to be taken back."""
+        raise UnsupportedOperation("files are not watched on the virtual clock")
 
-    def get_map(self) -> Any:  # noqa: ANN401
+    def get_map(self) -> "Mapping[FileDescriptorLike, selectors.SelectorKey]":
         """Nothing is registered."""
         return {}
 
@@ -79,7 +85,7 @@ class VirtualLoop(asyncio.BaseEventLoop):
         super().__init__()
         self.controller = controller
         self._scheduler = controller.scheduler
-        self._selector = _KernelSelector(self)
+        self._selector = _SchedulerSelector(self)
         self._clock_resolution = 1e-9
 
     def time(self) -> float:
@@ -97,7 +103,7 @@ class VirtualLoop(asyncio.BaseEventLoop):
             where = "\n".join(self.controller.where())
             raise Deadlock(f"asyncio waits for something that cannot happen\n{where}")
 
-    def _process_events(self, event_list: list[Any]) -> None:
+    def _process_events(self, event_list: list[tuple[selectors.SelectorKey, int]]) -> None:
         """There are none: transports are woken by the scheduler's events."""
 
     def _write_to_self(self) -> None:
@@ -223,7 +229,7 @@ class MemoryTransport(asyncio.Transport):
 
     # -- asyncio.Transport ----------------------------------------------------------------------
 
-    def write(self, data: Any) -> None:  # noqa: ANN401 - any bytes-like object
+    def write(self, data: bytes | bytearray | memoryview) -> None:
         """Send now what there is room for, keep the rest."""
         if self._lost or not data:
             return

@@ -14,15 +14,15 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias, Unpack
 
 import pytest
 
 if TYPE_CHECKING:
-    from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.controller import Choices, VirtualController
     from rapidgen.system.model import System
 
-Target: TypeAlias = (
+Bootable: TypeAlias = (
     "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]"
 )
 MARK = "virtual_seeds"
@@ -80,7 +80,7 @@ def virtual_controller(
 
     made: list[VirtualController] = []
 
-    def make(target: Target, **options: Any) -> VirtualController:  # noqa: ANN401
+    def make(target: Bootable, **options: "Unpack[Choices]") -> VirtualController:
         options.setdefault("seed", virtual_seed)
         if isinstance(target, System):
             controller = VirtualController(target, **options)

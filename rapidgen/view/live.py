@@ -1,9 +1,13 @@
-"""What a monitor shows of a robot: rate, jitter, and what happened last. No terminal here."""
+"""What a robot says about itself, live: a line, a JSON object, or a table for each state."""
 
+import json
+import math
 from collections import deque
 
 import numpy as np
+from rich.table import Table
 
+from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Event, State, Status
 from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
 
@@ -17,7 +21,7 @@ _WORDS: dict[TrajectoryState | None, str] = {
 
 
 class Watcher:
-    """Takes states one by one."""
+    """Takes states one by one, and remembers rate, jitter and what happened last."""
 
     def __init__(self) -> None:
         self._intervals: deque[float] = deque(maxlen=_WINDOW)
@@ -26,8 +30,8 @@ class Watcher:
         """What changed last, empty before anything did."""
         self._told: Event | None = None
 
-    def take(self, state: State) -> None:
-        """The next state."""
+    def take(self, state: State, told: Event | None = None) -> None:
+        """The next state, and the newest entry of the controller's log."""
         if self._last is not None:
             if state.number == self._last.number + 1:
                 self._intervals.append(state.time - self._last.time)
@@ -37,12 +41,9 @@ class Watcher:
             if changed:
                 self.event = "; ".join(changed)
         self._last = state
-
-    def tell(self, event: Event | None) -> None:
-        """The newest entry of the controller's log."""
-        if event is not None and event != self._told:
-            self._told = event
-            self.event = str(event)
+        if told is not None and told != self._told:
+            self._told = told
+            self.event = str(told)
 
     def jitter(self) -> tuple[float, float]:
         """Median and 99th percentile of how far intervals are from their median, s."""
@@ -91,3 +92,86 @@ def error_text(status: Status) -> str:
         joint = f" (joint {status.error_joint})" if status.error_joint else ""
         return f"error: {status.error.text}{joint}"
     return f"error {status.error_code}" if status.error_code else "error"
+
+
+def as_line(state: State, watcher: Watcher) -> str:
+    """Time s, joints rad or m, rate, mode, what it is at, what happened."""
+    words = [
+        f"{state.time:.3f}",
+        " ".join(f"{value:.4f}" for value in state.joints),
+        f"{state.rate:.1f}/s",
+        state.status.mode.name.lower(),
+        activity(state),
+        error_text(state.status),
+        watcher.event,
+    ]
+    return "  ".join(word for word in words if word)
+
+
+def as_json(state: State, watcher: Watcher) -> str:
+    """One object: s, rad or m and their rates by joint, and every status in a word."""
+    status = state.status
+    p50, p99 = watcher.jitter()
+    return json.dumps(
+        {
+            "time": state.time,
+            "joints": state.by_name,
+            "velocity": dict(zip(state.names, state.velocity, strict=True)),
+            "rate": state.rate,
+            "jitter_p50": p50,
+            "jitter_p99": p99,
+            "mode": status.mode.name.lower(),
+            "drives": status.drives.name.lower(),
+            "e_stopped": status.e_stopped.name.lower(),
+            "in_motion": status.in_motion.name.lower(),
+            "motion_possible": status.motion_possible.name.lower(),
+            "in_error": status.in_error.name.lower(),
+            "error_code": status.error_code,
+            "trajectory": state.trajectory.name.lower() if state.trajectory is not None else None,
+            "event": watcher.event,
+        }
+    )
+
+
+def rows(state: State, group: Group) -> list[tuple[str, str, str, str]]:
+    """Joint, value and speed in degrees or mm, and where it is between its limits."""
+    found = []
+    for joint, value, speed, wire in zip(
+        group.joints,
+        state.joints,
+        state.velocity,
+        group.map.to_controller(state.joints),
+        strict=True,
+    ):
+        unit, factor = ("deg", 180 / math.pi) if joint.kind == "revolute" else ("mm", 1000.0)
+        here, moving = f"{value * factor:9.2f} {unit}", f"{speed * factor:8.2f} {unit}/s"
+        found.append((joint.name, here, moving, _bar(wire, joint.lower, joint.upper)))
+    return found
+
+
+def as_table(state: State, watcher: Watcher, group: Group, place: str) -> Table:
+    """The rows under where the robot is (`place`), above what happened last."""
+    status = state.status
+    p50, p99 = watcher.jitter()
+    table = Table(
+        "joint",
+        "value",
+        "speed",
+        "limits",
+        title=f"{place}  {status.mode.name.lower()}  {activity(state)}",
+        caption=f"{state.rate:.1f} states/s, jitter p50 {p50 * 1000:.1f} ms, p99 "
+        f"{p99 * 1000:.1f} ms, age {state.age * 1000:.0f} ms\n"
+        f"{error_text(status) or watcher.event or 'nothing happened yet'}",
+    )
+    for row in rows(state, group):
+        table.add_row(*row)
+    return table
+
+
+def _bar(value: float, lower: float, upper: float, width: int = 31) -> str:
+    if not upper > lower or upper - lower == float("inf"):
+        return "not known"
+    place = round((value - lower) / (upper - lower) * (width - 1))
+    if not 0 <= place < width:
+        return "outside"
+    return "-" * place + "|" + "-" * (width - 1 - place)

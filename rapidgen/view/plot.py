@@ -28,7 +28,7 @@ _GREY, _TEXT, _GRID = "#666666", "#222222", "#dddddd"
 
 
 @dataclass(frozen=True, slots=True)
-class Curve:
+class PlottedCurve:
     """One line style of the picture: what it is called, and the joints over time."""
 
     label: str
@@ -85,7 +85,7 @@ class _Scene:
 def write_plot(
     png: Path | None,
     html: Path | None,
-    curves: Sequence[Curve],
+    curves: Sequence[PlottedCurve],
     *,
     title: str,
     prismatic: Sequence[str] = (),
@@ -104,7 +104,7 @@ def write_plot(
         write_whole(html, _html(scene, curves, title, units).encode())
 
 
-def _joints(curves: Sequence[Curve]) -> tuple[str, ...]:
+def _joints(curves: Sequence[PlottedCurve]) -> tuple[str, ...]:
     for curve in curves:
         if curve.trajectory.names:
             return curve.trajectory.names
@@ -112,7 +112,7 @@ def _joints(curves: Sequence[Curve]) -> tuple[str, ...]:
     return tuple(f"joint_{i + 1}" for i in range(count))
 
 
-def _column(curve: Curve, name: str, index: int) -> Array | None:
+def _column(curve: PlottedCurve, name: str, index: int) -> Array | None:
     """The values of a joint in a curve; None when it does not have it."""
     trajectory = curve.trajectory
     if trajectory.names:
@@ -133,7 +133,7 @@ def _unit(name: str, units: _Units) -> tuple[str, float]:
     return units.get(name, ("deg", 180.0 / math.pi))
 
 
-def _layout(curves: Sequence[Curve], title: str, units: _Units) -> _Scene:
+def _layout(curves: Sequence[PlottedCurve], title: str, units: _Units) -> _Scene:
     names = _joints(curves)
     columns = 1 if len(names) <= 1 else 2
     rows = max(1, -(-len(names) // columns))
@@ -306,7 +306,7 @@ svg.addEventListener("pointermove", event => {
 """
 
 
-def _html(scene: _Scene, curves: Sequence[Curve], title: str, units: _Units) -> str:
+def _html(scene: _Scene, curves: Sequence[PlottedCurve], title: str, units: _Units) -> str:
     panels: list[dict[str, Any]] = []
     for index, panel in enumerate(scene.panels):
         drawn = []

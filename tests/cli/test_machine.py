@@ -54,6 +54,21 @@ def test_a_closed_stdout_is_no_fault(folder, words):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.parametrize("words", ["explain all", "run good.mod", "robots", "schema"])
+def test_a_reader_that_has_gone_is_no_fault(folder, words):
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "wb") as gone:
+        done = subprocess.run(
+            [sys.executable, "-m", "rapidgen.cli", *words.split()],
+            cwd=folder,
+            stdout=gone,
+            stderr=subprocess.PIPE,
+        )
+    # 128 + SIGPIPE: what a shell shows of a program that the signal ends.
+    assert (done.returncode, done.stderr) == (141, b"")
+
+
 def test_a_closed_stderr_is_no_fault(folder):
     assert shell("$RG check nowhere.mod 2>&-", folder).returncode == 2
 

@@ -1,42 +1,106 @@
-"""Both clients under the same calls: one test text for `Robot` and `AsyncRobot`."""
+"""One test text for both clients: an AsyncRobot under the calls of a Robot."""
 
 import asyncio
 import functools
+import inspect
 import threading
 
-from rapidgen.client import AsyncRobot, Robot
+from rapidgen.client import AsyncRobot
+from rapidgen.client.surface import JobSurface
 
 
-class Sync:
-    """`Robot` under the same calls as `Blocking`."""
+class Handle:
+    """What an asynchronous client gave; `run` waits for a coroutine's outcome."""
 
-    def __new__(cls, *arguments, **options):
-        return Robot(*arguments, **options)
+    def __init__(self, target, run):
+        self._target, self._run = target, run
+
+    def __enter__(self):
+        self._run(self._target.__aenter__())
+        return self
+
+    def __exit__(self, *error):
+        self._run(self._target.__aexit__(*error))
+
+    def __getattr__(self, name):
+        value = getattr(self._target, name)
+        if not callable(value):
+            return value
+
+        @functools.wraps(value)
+        def call(*arguments, **options):
+            result = value(*arguments, **options)
+            result = self._run(result) if inspect.isawaitable(result) else result
+            return Handle(result, self._run) if isinstance(result, JobSurface) else result
+
+        return call
+
+    @property
+    def later(self):
+        """The same calls, which go on while others are made: `.result()`, `.cancel()`."""
+        return Handle(self._target, functools.partial(_Later, self._run))
 
 
-class Blocking:
-    """`AsyncRobot` whose loop runs in a thread: one test text for both clients."""
+class _Later:
+    def __init__(self, run, coroutine):
+        async def begin():
+            task = asyncio.ensure_future(coroutine)
+            await asyncio.sleep(0)
+            return task
+
+        self._run, self._task = run, run(begin())
+        self.cancel, self.done = self._task.cancel, self._task.done
+
+    def result(self):
+        async def outcome():
+            return await self._task
+
+        return self._run(outcome())
+
+
+class Simulated(Handle):
+    """An AsyncRobot on a loop of simulated time, which passes only while a call waits."""
+
+    def __init__(self, target, loop):
+        super().__init__(target, loop.run_until_complete)
+        self._loop = loop
+        self.time = loop.time
+
+    def __exit__(self, *error):
+        super().__exit__(*error)
+        self._run(self._loop.shutdown_asyncgens())
+        self._loop.close()
+
+    def beside(self, target):
+        """Another one on the same loop."""
+        return Handle(target, self._run)
+
+    def sleep(self, seconds):
+        self._run(asyncio.sleep(seconds))
+
+
+class Blocking(Handle):
+    """An AsyncRobot whose loop runs in a thread."""
 
     def __init__(self, *arguments, **options):
         self._loop = asyncio.new_event_loop()
         self._thread = threading.Thread(target=self._loop.run_forever, daemon=True)
         self._thread.start()
-        self._target = AsyncRobot(*arguments, **options)
+        super().__init__(AsyncRobot(*arguments, **options), self._call)
 
     def _call(self, coroutine):
-        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(20)
+        return asyncio.run_coroutine_threadsafe(coroutine, self._loop).result(60)
 
     def __enter__(self):
         try:
-            self._call(self._target.__aenter__())
+            return super().__enter__()
         except BaseException:
             self.end()
             raise
-        return self
 
     def __exit__(self, *error):
         try:
-            self._call(self._target.__aexit__(*error))
+            super().__exit__(*error)
         finally:
             self.end()
 
@@ -45,38 +109,6 @@ class Blocking:
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(5)
         self._loop.close()
-
-    def stream(self, *arguments, **options):
-        return _Handle(self, self._target.stream(*arguments, **options))
-
-    def __getattr__(self, name):
-        value = getattr(self._target, name)
-        if not asyncio.iscoroutinefunction(value):
-            return value
-
-        @functools.wraps(value)
-        def call(*arguments, **options):
-            result = self._call(value(*arguments, **options))
-            return _Handle(self, result) if hasattr(result, "cancel") else result
-
-        return call
-
-
-class _Handle:
-    def __init__(self, owner, target):
-        self._owner, self._target = owner, target
-
-    __getattr__ = Blocking.__getattr__
-
-    def _call(self, coroutine):
-        return self._owner._call(coroutine)
-
-    def __enter__(self):
-        self._call(self._target.__aenter__())
-        return self
-
-    def __exit__(self, *error):
-        self._call(self._target.__aexit__(*error))
 
 
 async def _cancel_all():

@@ -21,16 +21,9 @@ def joint_frame(joints):
 
 
 def status_frame(**values):
-    fields = {
-        "drives": 1,
-        "e_stopped": 0,
-        "error_code": 0,
-        "in_error": 0,
-        "in_motion": 0,
-        "mode": 2,
-        "possible": 1,
-    }
-    return frame(13, 1, 0, struct.pack("<7i", *{**fields, **values}.values()))
+    still = {"drives": 1, "e_stopped": 0, "error_code": 0, "in_error": 0, "in_motion": 0}
+    fields = {**still, "mode": 2, "possible": 1, **values}
+    return frame(13, 1, 0, struct.pack("<7i", *fields.values()))
 
 
 @dataclass
@@ -77,6 +70,32 @@ class Script:
     """Tells it with each state, from a clock of 0.02 s a state."""
     raw_control: bytes = b""
     """Sent on the control port before anything else."""
+
+
+def hello_reply(script, control_port, *, foreign=False):
+    """Who is there; `foreign`: another driver than on the other ports."""
+    if script.protocol != 2:
+        return frame(1300, 3, 2, struct.pack("<i", script.protocol))
+    stream = script.stream
+    features = 1 | 16 | 32 | (2 if script.control else 0) | (4 if stream else 0)
+    limits = [3.0] * script.joints + [0.0] * (10 - script.joints)
+    build_id = b"ba9876543210" if foreign else b"0123456789ab"
+    data = struct.pack("<4i12s12s", 2, 0, 1, 0, build_id, script.mapping.encode())
+    data += struct.pack("<4i", features, script.capacity, script.joints, 0)
+    data += struct.pack("<4f", script.state_period, 0.1, 0.00873, 0.005)
+    data += struct.pack("<30f", *[-v for v in limits], *limits, *[4.0] * 10)
+    told = (stream.ring, stream.preload, stream.batch, len(stream.signals)) if stream else (0,) * 4
+    data += struct.pack("<iifii", control_port if script.control else 0, *told)
+    return frame(1300, 3, 1, data)
+
+
+def pieces(buffer):
+    """The whole frames at the beginning of a buffer, and what is left of it."""
+    found = []
+    while len(buffer) >= 4 and len(buffer) >= 4 + (n := struct.unpack("<i", buffer[:4])[0]):
+        found.append(buffer[: 4 + n])
+        buffer = buffer[4 + n :]
+    return found, buffer
 
 
 class FakeController:
@@ -177,8 +196,8 @@ class FakeController:
             buffer += data
             if self.script.read_pause:
                 self._ended.wait(self.script.read_pause)
-            while len(buffer) >= 4 and len(buffer) >= 4 + (n := struct.unpack("<i", buffer[:4])[0]):
-                piece, buffer = buffer[: 4 + n], buffer[4 + n :]
+            found, buffer = pieces(buffer)
+            for piece in found:
                 self._take(client, piece)
 
     def _take(self, client, piece):
@@ -272,8 +291,8 @@ class FakeController:
         buffer = b""
         while data := client.recv(4096):
             buffer += data
-            while len(buffer) >= 4 and len(buffer) >= 4 + (n := struct.unpack("<i", buffer[:4])[0]):
-                piece, buffer = buffer[: 4 + n], buffer[4 + n :]
+            found, buffer = pieces(buffer)
+            for piece in found:
                 number = HEAD.unpack_from(piece)[1]
                 if number == 1300:
                     client.sendall(self._hello(self.script.foreign_control))
@@ -360,35 +379,4 @@ class FakeController:
         client.setblocking(False)
 
     def _hello(self, foreign=False):
-        script = self.script
-        stream = script.stream
-        features = 1 | 16 | 32 | (2 if script.control else 0) | (4 if stream else 0)
-        if script.protocol != 2:
-            return frame(1300, 3, 2, struct.pack("<i", script.protocol))
-        limits = [3.0] * script.joints + [0.0] * (10 - script.joints)
-        data = struct.pack(
-            "<4i12s12s4i4f10f10f10fiifii",
-            2,
-            0,
-            1,
-            0,
-            b"ba9876543210" if foreign else b"0123456789ab",
-            script.mapping.encode(),
-            features,
-            script.capacity,
-            script.joints,
-            0,
-            script.state_period,
-            0.1,
-            0.00873,
-            0.005,
-            *[-v for v in limits],
-            *limits,
-            *[4.0] * 10,
-            self.ports["control"] if script.control else 0,
-            stream.ring if stream else 0,
-            stream.preload if stream else 0.0,
-            stream.batch if stream else 0,
-            len(stream.signals) if stream else 0,
-        )
-        return frame(1300, 3, 1, data)
+        return hello_reply(self.script, self.ports["control"], foreign=foreign)

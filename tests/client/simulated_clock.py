@@ -5,10 +5,17 @@ For long streams: hours of them pass in seconds.
 
 import asyncio
 import selectors
-import struct
 from collections import deque
 
-from fake_controller import HEAD, frame, joint_frame, status_frame
+from fake_controller import (
+    HEAD,
+    Script,
+    frame,
+    hello_reply,
+    joint_frame,
+    pieces,
+    status_frame,
+)
 
 
 class _Jump(selectors.BaseSelector):
@@ -110,7 +117,8 @@ class SimulatedDriver:
 
     def __init__(self, model, *, state_period=0.1, control=True, pace=1):
         """`pace`: how much faster its clock runs than it says."""
-        self.model, self.period, self.control, self.pace = model, state_period, control, pace
+        self.model, self.period = model, state_period
+        self.script = Script(stream=model, control=control, state_period=state_period * pace)
         self.loop = None
         self.latencies = {}
         """s that bytes to a port need, where that is not the usual."""
@@ -127,13 +135,11 @@ class SimulatedDriver:
 
     def received(self, pipe, data):
         self.model.advance(self.loop.time())
-        while data:
-            (length,) = struct.unpack_from("<i", data)
-            piece, data = data[: 4 + length], data[4 + length :]
+        for piece in pieces(data)[0]:
             number = HEAD.unpack_from(piece)[1]
             self.log.append((self.loop.time(), pipe.port, number))
             if number == 1300:
-                pipe.tell(self._hello())
+                pipe.tell(hello_reply(self.script, self.CONTROL))
             elif number == 1302:
                 pipe.tell(self.model.points(piece))
             elif pipe.port == self.CONTROL:
@@ -150,24 +156,3 @@ class SimulatedDriver:
         told = joint_frame(model.position) + status_frame(in_motion=int(model.is_moving))
         pipe.tell(told + (model.progress() if model.trajectory else b""))
         self.loop.call_later(self.period, self._tell_state, pipe)
-
-    def _hello(self):
-        model = self.model
-        limits = [3.0] * model.joints + [0.0] * (10 - model.joints)
-        features = 1 | 4 | (2 if self.control else 0)
-        head = (2, 0, 1, 0, b"0123456789ab", b"", features, 1000, model.joints, 0)
-        data = struct.pack("<4i12s12s4i4f", *head, self.period * self.pace, 0.1, 0.00873, 0.005)
-        data += struct.pack("<30f", *[-v for v in limits], *limits, *[4.0] * 10)
-        port = self.CONTROL if self.control else 0
-        data += struct.pack("<iifii", port, model.ring, model.preload, model.batch, 2)
-        return frame(1300, 3, 1, data)
-
-
-def run_simulated(driver, main):
-    """Run a coroutine on a loop of simulated time."""
-    loop = SimulatedLoop(driver)
-    try:
-        return loop.run_until_complete(main)
-    finally:
-        loop.run_until_complete(loop.shutdown_asyncgens())
-        loop.close()

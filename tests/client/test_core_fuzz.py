@@ -13,7 +13,7 @@ from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
 
-from rapidgen.client.core.checks import piece
+from rapidgen.client.core.checks import check_points
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.motion import Phase
 from rapidgen.client.core.robot import Core, Timeouts
@@ -38,7 +38,7 @@ HELLO = messages.HelloReply(
     (-3.0,) * 10, (3.0,) * 10, (4.0,) * 10, 11001, RING, 0.5, 30, 2,
 )  # fmt: skip
 STATE = encode(messages.JointPosition(0, (0.0,) * 10)) + encode(
-    messages.Status(1, 0, 0, 0, 0, 2, 1)
+    messages.StatusReport(1, 0, 0, 0, 0, 2, 1)
 )
 NUMBER = st.one_of(st.integers(-2, 200), st.integers(-(2**31), 2**31 - 1))
 WORDS = st.lists(NUMBER, max_size=20)
@@ -119,14 +119,15 @@ class CoreMachine(RuleBasedStateMachine):
             self.core.motion = None
             times = 0.1 * np.arange(count)
             points = Trajectory(times, np.zeros((count, 6)))
-            checked = piece(points, self.core.known_group, before=None, start=(0.0,) * 10)
-            self.core.begin_stream()
+            checked = check_points(points, self.core.known_group, before=None, start=(0.0,) * 10)
+            self.core.begin_stream(checked)
             self.sent, self.room, self.ended, self.cut = 0, RING, False, False
         elif self.run.is_ended:
             return
         else:
-            checked = piece(points, self.core.known_group, before=self.run.last, start=None)
-        self.run.put(checked)
+            checked = check_points(points, self.core.known_group, before=self.last, start=None)
+            self.run.put(checked)
+        self.last = checked.last
         self.time = float(times[-1]) + 0.1
         self.owner()
 
@@ -160,7 +161,7 @@ class CoreMachine(RuleBasedStateMachine):
         fault=st.tuples(NUMBER, NUMBER, NUMBER),
     )
     def progress(self, counts, state, fault):
-        told = messages.Progress(1, int(state), *counts, *fault)
+        told = messages.ProgressReport(1, int(state), *counts, *fault)
         # who tells that points were given to the planner makes room for others
         self.room = max(self.room, self.sent + RING)
         self.take(Port.STATE, encode(told) * 2)

@@ -114,7 +114,7 @@ class ClientAndController(RuleBasedStateMachine):
 
     @property
     def is_streaming(self):
-        feed = getattr(self.execution, "_feed", None)
+        feed = getattr(self.execution, "_job", None)
         return feed is not None and self.under_way and not feed.is_ended
 
     @precondition(lambda self: self.under_way and self.has_control)
@@ -184,7 +184,7 @@ class ClientAndController(RuleBasedStateMachine):
         if ports == "control" and not self.has_control:
             return
         was = self.under_way
-        for port, link in list(self.robot._links.items()):
+        for port, link in list(self.robot._carrier._links.items()):
             if ports in ("all", port.name.lower()):
                 link.transport.abort()
         self.do(asyncio.sleep(1.5))

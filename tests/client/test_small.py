@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+import re
 
 import pytest
 
@@ -14,6 +15,7 @@ from rapidgen.client import (
     Cell,
     ConnectionFailed,
     ConnectionLost,
+    Event,
     Execution,
     InvalidTrajectory,
     MotionFailed,
@@ -127,72 +129,91 @@ def test_exported_members():
                                    (Stream, AsyncStream), (Cell, AsyncCell)]
 )  # fmt: skip
 def test_both_clients_have_the_same_surface(blocking, asynchronous):
+    """Names, signatures and docstrings; what iterates or gives a handle of its own but for that."""
+
     def surface(kind):
         found = {}
         for name in dir(kind):
             member = getattr(kind, name)
             if name.startswith("_"):
                 continue
-            is_call = callable(member)
-            found[name] = list(inspect.signature(member).parameters) if is_call else "property"
+            signature = inspect.signature(member) if callable(member) else None
+            found[name] = (
+                str(signature).replace("AsyncIterator", "Iterator"),
+                inspect.getdoc(member),
+            )
+            if name == "extend" or (name == "execute" and "Cell" in kind.__name__):
+                found[name] = list(signature.parameters)
         return found
 
     assert surface(blocking) == surface(asynchronous)
     assert surface(blocking)
 
 
+def test_a_method_shows_its_parameters_its_outcome_and_its_docstring():
+    for kind in (Robot, AsyncRobot):
+        signature = inspect.signature(kind.next_event)
+        assert str(signature.replace(return_annotation=int)) == (
+            "(self, timeout: float | None = None, *, "
+            "after: rapidgen.client.core.state.Event | None = None) -> int"
+        )
+        assert signature.return_annotation is Event
+        assert "Raises RobotTimeout, ConnectionLost" in kind.next_event.__doc__
+
+
 def test_the_tree_of_exceptions_is_the_one_that_is_drawn():
     from rapidgen.client import errors
 
-    drawn = set()
-    for line in errors.__doc__.splitlines():
-        word = line.replace("├──", " ").replace("└──", " ").replace("│", " ").split()
-        drawn |= {word[0]} if word and word[0][0].isupper() and "Error" in line[:40] else set()
+    drawn = set(re.findall(r"[\u2500 ] (\w+)  +\w", errors.__doc__))
     kinds = {
-        kind.__name__
-        for kind in vars(errors).values()
-        if isinstance(kind, type) and issubclass(kind, RobotError)
+        name
+        for name, kind in vars(errors).items()
+        if isinstance(kind, type) and issubclass(kind, RobotError) and not name.startswith("_")
     }
-    for name in kinds:
-        assert name in errors.__doc__
-    assert "RobotError" in drawn
+    assert drawn == kinds
+
+
+@pytest.fixture
+def cell_of(fake, patient):
+    """Makes a cell of scripted controllers, and tells them."""
+
+    def make(*scripts):
+        controllers = [fake(**script) for script in scripts]
+        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
+        return Cell(robots), controllers
+
+    return make
 
 
 class TestCells:
-    def test_start_together_and_arrive(self, fake, quick):
-        controllers = [fake(), fake(rapidgen=False)]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
-        with Cell(robots) as cell:
+    def test_start_together_and_arrive(self, cell_of):
+        with cell_of({}, {"rapidgen": False})[0] as cell:
             results = cell.execute({"0": PATH, "1": PATH}).result()
         assert all(result.deviation < 1e-5 for result in results.values())
 
-    def test_the_faults_of_all_before_a_byte_is_sent(self, fake, quick):
-        controllers = [fake(), fake()]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
+    def test_the_faults_of_all_before_a_byte_is_sent(self, cell_of):
+        cell, controllers = cell_of({}, {})
         far = Trajectory.from_points([[0.0] * 6, [9.0] * 6], seconds=99)
-        with Cell(robots) as cell:
+        with cell:
             with pytest.raises(InvalidTrajectory) as error:
                 cell.execute({"0": far, "1": far})
             assert len(error.value.diagnostics) == 12
-            with pytest.raises(KeyError):
+            with pytest.raises(KeyError, match="no robot of this cell is called '2'"):
                 cell.execute({"2": PATH})
         assert [c.frames for c in controllers] == [[], []]
 
-    def test_one_refuses_and_nobody_moves_on(self, fake, quick):
-        controllers = [fake(), fake(refuse=(5, 0, 1))]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
-        with Cell(robots) as cell:
+    def test_one_refuses_and_nobody_moves_on(self, cell_of):
+        cell, controllers = cell_of({}, {"refuse": (5, 0, 1)})
+        with cell:
             with pytest.raises(TrajectoryRefused):
                 cell.execute({"0": LONG, "1": LONG})
             assert controllers[0].stops
             assert not controllers[0]._moving
 
     @pytest.mark.parametrize("failing", ["fails", "lost"])
-    def test_one_fails_and_all_are_stopped(self, fake, quick, failing):
-        options = {"ends_at": 0.02} if failing == "fails" else {}
-        controllers = [fake(), fake(**options)]
-        robots = {str(i): Robot(c.address, timeouts=quick) for i, c in enumerate(controllers)}
-        with Cell(robots) as cell:
+    def test_one_fails_and_all_are_stopped(self, cell_of, failing):
+        cell, controllers = cell_of({}, {"ends_at": 0.02} if failing == "fails" else {})
+        with cell:
             execution = cell.execute({"0": LONG, "1": LONG})
             if failing == "lost":
                 controllers[1].drop("state")
@@ -201,12 +222,12 @@ class TestCells:
             assert execution.is_over
             assert controllers[0].stops
 
-    def test_async(self, fake, quick):
+    def test_async(self, fake, patient):
         controllers = [fake(), fake(ends_at=0.02)]
 
         async def main():
             robots = {
-                str(i): AsyncRobot(c.address, timeouts=quick) for i, c in enumerate(controllers)
+                str(i): AsyncRobot(c.address, timeouts=patient()) for i, c in enumerate(controllers)
             }
             async with AsyncCell(robots) as cell:
                 await (await cell.execute({"0": PATH})).result()

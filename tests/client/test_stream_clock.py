@@ -4,11 +4,14 @@ import asyncio
 import itertools
 import tracemalloc
 from collections import deque
+from contextlib import contextmanager, suppress
 
 import numpy as np
 import pytest
+from both_clients import Simulated
+from driven import wave
 from fake_stream import DONE, StreamModel
-from simulated_clock import SimulatedDriver, run_simulated
+from simulated_clock import SimulatedDriver, SimulatedLoop
 
 from rapidgen.client import (
     AsyncRobot,
@@ -20,42 +23,31 @@ from rapidgen.client import (
     RobotTimeout,
     Timeouts,
     Trajectory,
+    TrajectoryRefused,
 )
+from rapidgen.client.core import checks as checks_module
 from rapidgen.wire.simple_message import spec
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 
-def wave(step=0.1):
-    """Points without end, from where the robot stands."""
-    for n in itertools.count():
-        yield n * step, [0.3 * np.sin(n * 0.02)] * 6
-
-
-def streamed(main, **options):
-    """What `main(robot, driver)` gives, and the driver."""
-    control = options.pop("control", True)
-    timeouts = options.pop("timeouts", Timeouts())
-    period = options.pop("state_period", 0.1)
-    pace = options.pop("pace", 1)
-    model = StreamModel(**options)
-    driver = SimulatedDriver(model, control=control, state_period=period, pace=pace)
-
-    async def with_robot():
-        async with AsyncRobot("127.0.0.1", timeouts=timeouts) as robot:
-            return await main(robot, driver)
-
-    return run_simulated(driver, with_robot()), driver
+@contextmanager
+def streamed(*, control=True, timeouts=None, state_period=0.1, pace=1, **options):
+    """A connected robot, under the calls of a Robot, and its driver."""
+    driver = SimulatedDriver(
+        StreamModel(**options), control=control, state_period=state_period, pace=pace
+    )
+    target = AsyncRobot("127.0.0.1", timeouts=timeouts)
+    with Simulated(target, SimulatedLoop(driver)) as robot:
+        yield robot, driver
 
 
 def test_a_hundred_thousand_points():
     count = 100_000
 
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.extend(itertools.islice(wave(), count))
-        return await stream.result()
-
-    result, driver = streamed(main, state_period=0.5)
+    with streamed(state_period=0.5) as (robot, driver):
+        with robot.stream() as stream:
+            stream.extend(itertools.islice(wave(), count))
+        result = stream.result()
     model = driver.model
     assert model.reached == result.points == count
     assert model.state == DONE
@@ -75,26 +67,23 @@ def test_a_hundred_thousand_points():
 
 
 def test_a_stream_without_end_needs_no_more_memory_the_longer_it_is():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         driver.model.keep = False
         driver.log = deque(maxlen=10)
         points, marks = wave(), []
         tracemalloc.start()
         stream = robot.stream()
         for _ in range(4):
-            await stream.extend(itertools.islice(points, 1500))
+            stream.extend(itertools.islice(points, 1500))
             marks.append(tracemalloc.get_traced_memory()[0])
         tracemalloc.stop()
-        await stream.cancel()
-        return marks
-
-    marks, _ = streamed(main)
+        stream.cancel()
     # 3,000 points kept would be more than 500,000 bytes
     assert abs(marks[-1] - marks[1]) < 100_000
 
 
 def test_motion_begins_before_the_last_point_was_made():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         seen = []
 
         def points():
@@ -102,12 +91,10 @@ def test_motion_begins_before_the_last_point_was_made():
                 seen.append((n, driver.model.reached))
                 yield t, q
 
-        async with robot.stream() as stream:
-            await stream.extend(points())
+        with robot.stream() as stream:
+            stream.extend(points())
         first = next(n for n, reached in seen if reached)
-        return first, max(n - reached for n, reached in seen)
-
-    (first, ahead), driver = streamed(main)
+        first, ahead = first, max(n - reached for n, reached in seen)
     # what the client makes ahead is bounded by the ring and a few batches
     assert first <= driver.model.ring + 4 * 30
     assert ahead <= driver.model.ring + 4 * 30
@@ -124,13 +111,11 @@ def test_indices_wrap(monkeypatch):
         monkeypatch.setattr(place, "INDEX_WRAP", 512)
     monkeypatch.setattr(fake_stream, "WRAP", 512)
 
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.extend(itertools.islice(wave(), 3000))
+    with streamed() as (robot, driver):
+        with robot.stream() as stream:
+            stream.extend(itertools.islice(wave(), 3000))
             progress = stream.progress
-        return progress, await stream.result()
-
-    (progress, result), driver = streamed(main)
+        progress, result = progress, stream.result()
     assert result.points == 3000
     assert 2700 < progress.reached <= progress.planned <= progress.received <= 3000
     assert driver.model.reached == 3000
@@ -147,39 +132,35 @@ def test_unwrapping():
 
 
 def test_it_starves_stands_and_goes_on():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         points = list(itertools.islice(wave(), 40))
         stream = robot.stream()
-        await stream.append(*zip(*points[:20], strict=True))
-        state = await robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
+        stream.append(*zip(*points[:20], strict=True))
+        state = robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
         assert stream.progress.state is TrajectoryState.STARVED
         assert stream.progress.reached == 20
         assert state.joints == pytest.approx(points[19][1], abs=1e-6)
         assert stream.starved == 1
         assert any("ran out of points at point 20" in text for _, text in robot.messages)
         # less than the driver likes to have: it waits for more, until it is told
-        await stream.append(*zip(*points[20:22], strict=True))
-        await asyncio.sleep(3)
+        stream.append(*zip(*points[20:22], strict=True))
+        robot.sleep(3)
         assert stream.progress.state is TrajectoryState.STARVED
-        await stream.flush()
-        await robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
-        await robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
-        await stream.append(*zip(*points[22:], strict=True))
-        await robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
-        return await stream.result()
-
-    result, driver = streamed(main)
+        stream.flush()
+        robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
+        robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
+        stream.append(*zip(*points[22:], strict=True))
+        robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
+        result = stream.result()
     assert (result.points, result.starved) == (40, 2)
     assert len(driver.model.executed) == 40
 
 
 def test_a_ring_that_holds_less_than_the_driver_likes_to_have():
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.extend(itertools.islice(wave(), 1000))
-        return await stream.result()
-
-    result, driver = streamed(main, preload=60.0, ring=100)
+    with streamed(preload=60.0, ring=100) as (robot, driver):
+        with robot.stream() as stream:
+            stream.extend(itertools.islice(wave(), 1000))
+        result = stream.result()
     assert (result.points, result.starved) == (1000, 0)
     # the end and the order to start, and no other question
     assert driver.model.sizes.count(0) <= 2
@@ -188,11 +169,8 @@ def test_a_ring_that_holds_less_than_the_driver_likes_to_have():
 def test_times_are_put_on_the_grid_and_not_durations():
     step = 0.1000004
 
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.extend(itertools.islice(wave(step), 1000))
-
-    _, driver = streamed(main)
+    with streamed() as (robot, driver), robot.stream() as stream:
+        stream.extend(itertools.islice(wave(step=step), 1000))
     durations = [d for d, _ in driver.model.executed]
     # the first is that of the way to where the robot stands
     assert sum(round(d * 1e6) for d in durations[1:]) == round(999 * step * 1e6)
@@ -200,101 +178,76 @@ def test_times_are_put_on_the_grid_and_not_durations():
 
 
 def test_no_segment_gets_shorter_than_the_driver_takes_by_rounding():
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.append([0.0, 0.1000006, 0.2000004], [[0.0] * 6] * 3)
-
-    _, driver = streamed(main)
+    with streamed() as (robot, driver), robot.stream() as stream:
+        stream.append([0.0, 0.1000006, 0.2000004], [[0.0] * 6] * 3)
     assert [round(d * 1e6) for d, _ in driver.model.executed] == [100_000, 100_001, 100_000]
 
 
 def test_points_that_are_read_after_the_stop_do_not_move_it():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         # The control server is quick, the motion server has not read the first points yet.
         driver.latencies[driver.MOTION] = 0.3
         stream = robot.stream()
-        first = asyncio.ensure_future(stream.append([0, 1], [[0.0] * 6, [0.1] * 6]))
-        await asyncio.sleep(0.01)
-        await robot.stop()
-        await asyncio.gather(first, return_exceptions=True)
-        await asyncio.sleep(5)
+        first = stream.later.append([0, 1], [[0.0] * 6, [0.1] * 6])
+        robot.sleep(0.01)
+        robot.stop()
+        with suppress(MotionStopped, TrajectoryRefused):
+            first.result()
+        robot.sleep(5)
         ports = [port for _, port, number in driver.log if number == 11]
         assert ports == [driver.CONTROL, driver.MOTION]
-
-    _, driver = streamed(main)
     assert driver.model.state == TrajectoryState.STOPPED
     assert driver.model.executed == []
 
 
 def test_a_lost_control_connection_is_missed_by_the_controller():
-    async def main(robot, driver):
-        filling = asyncio.ensure_future(robot.stream().extend(wave()))
-        await asyncio.sleep(5)
-        control = next(link for port, link in robot._links.items() if port.name == "CONTROL")
+    with streamed() as (robot, _):
+        filling = robot.stream().later.extend(wave())
+        robot.sleep(5)
+        control = next(
+            link for port, link in robot._carrier._links.items() if port.name == "CONTROL"
+        )
         control.transport.close()
         with pytest.raises(MotionFailed, match="client") as error:
-            await filling
+            filling.result()
         assert error.value.reason is Reason.CLIENT_LOST
-
-    streamed(main)
 
 
 def test_a_controller_that_takes_no_heartbeat():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         driver.model.refuse_control = int(Reason.NOT_ALLOWED)
-        async with robot.stream() as stream:
-            await stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
-        return [number for _, port, number in driver.log if number == 1306]
-
-    asked, _ = streamed(main)
+        with robot.stream() as stream:
+            stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
+        asked = [number for _, port, number in driver.log if number == 1306]
     assert len(asked) == 1
 
 
 def test_who_sees_nothing_sends_no_heartbeat_either():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         stream = robot.stream()
-        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
-        await asyncio.sleep(2)
+        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        robot.sleep(2)
         # No STOP gets through, and no state comes.
         driver.model.control, hear = (
             lambda number, data: b"" if number == 11 else hear(number, data),
             driver.model.control,
         )
         driver.model.halt, halt = lambda *_: None, driver.model.halt
-        state = next(link for port, link in robot._links.items() if port.name == "STATE")
+        state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
         state.transport.close()
-        await asyncio.sleep(0.2)
+        robot.sleep(0.2)
         assert driver.model.state == TrajectoryState.MOVING
         driver.model.halt = halt
-        await asyncio.sleep(2.5)
+        robot.sleep(2.5)
         driver.model.advance(driver.loop.time())
         assert driver.model.reason == Reason.CLIENT_LOST
         driver.model.control = hear
 
-    streamed(main)
-
-
-def test_a_fault_in_a_point_ends_it_in_order_and_says_which():
-    async def main(robot, driver):
-        stream = robot.stream()
-        with pytest.raises(MotionFailed, match=r"at point 5000, joint_3: .* outside its") as error:
-            await stream.extend(wave())
-        assert (error.value.point, error.value.joint) == (5000, 3)
-        assert error.value.reason is Reason.JOINT_LIMIT
-        assert error.value.reached == 5000
-        assert stream.is_over
-        assert stream.progress.state is TrajectoryState.FAILED
-        return error.value.states[-1]
-
-    state, driver = streamed(main, point_fault=(5000, Reason.JOINT_LIMIT, 3))
-    assert len(driver.model.executed) == 5000
-    assert state.joints == pytest.approx(driver.model.executed[-1][1])
-
 
 def test_a_fault_of_the_caller_is_told_before_it_is_sent_and_the_stream_goes_on():
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.append([0.0, 0.2], [[0.0] * 6, [0.01] * 6])
+    with streamed() as (robot, driver):
+        with robot.stream() as stream:
+            stream.append([0.0, 0.2], [[0.0] * 6, [0.01] * 6])
             for times, joint, code in (
                 ([0.3, 0.4], [9.0] * 6, "RG614"),
                 ([0.2, 0.4], [0.0] * 6, "RG612"),
@@ -304,34 +257,31 @@ def test_a_fault_of_the_caller_is_told_before_it_is_sent_and_the_stream_goes_on(
                 ([0.3, 50.0], [0.01] * 6, "RG623"),
             ):
                 with pytest.raises(InvalidTrajectory) as error:
-                    await stream.append(times, [[0.01] * 6, joint])
+                    stream.append(times, [[0.01] * 6, joint])
                 assert {d.code for d in error.value.diagnostics} >= {code}
                 if code in ("RG614", "RG615"):
                     # points have their numbers in the stream
                     assert "point 3" in str(error.value)
-            await stream.append([0.4], [[0.02] * 6])
-        return await stream.result()
-
-    result, driver = streamed(main)
+            stream.append([0.4], [[0.02] * 6])
+        result = stream.result()
     assert result.points == 3
     assert [d for d, _ in driver.model.executed] == [0.1, 0.2, 0.2]
 
 
 @pytest.mark.parametrize("far", [True, False])
 def test_the_first_point_is_where_the_robot_stands(far):
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         with pytest.raises(InvalidTrajectory, match="does not start"):
-            await robot.stream().append([0.0], [[0.5 if far else 0.02] * 6])
+            robot.stream().append([0.0], [[0.5 if far else 0.02] * 6])
         # nothing was begun
-        async with robot.stream() as stream:
-            await stream.append([0.0, 1.0], [[0.0] * 6, [0.1] * 6])
-
-    _, driver = streamed(main)
+        with robot.stream() as stream:
+            stream.append([0.0, 1.0], [[0.0] * 6, [0.1] * 6])
     assert driver.model.trajectory == 1
 
 
 def test_one_message_with_the_state_of_before_is_not_believed():
-    async def main(robot, driver):
+    # it does not move before the end has come
+    with streamed(preload=60.0) as (robot, driver):
         stream = robot.stream()
         progress, told = driver.model.progress, []
 
@@ -344,65 +294,57 @@ def test_one_message_with_the_state_of_before_is_not_believed():
             return data
 
         driver.model.progress = stale
-        await stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
-        await asyncio.sleep(0.5)
+        stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
+        robot.sleep(0.5)
         assert told
         assert not stream.is_over
-        return await stream.result()
-
-    # it does not move before the end has come
-    result, _ = streamed(main, preload=60.0)
-    assert result.seconds > 9
+        assert stream.result().seconds > 9
 
 
 def test_pause_resume_and_speed():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         stream = robot.stream()
-        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
-        await asyncio.sleep(2)
-        await robot.pause()
-        await asyncio.sleep(0.3)
+        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        robot.sleep(2)
+        robot.pause()
+        robot.sleep(0.3)
         state = robot.state
         assert state.trajectory is TrajectoryState.PAUSED
         # however long it is held: nobody gives up
-        waiting = asyncio.ensure_future(stream.result())
-        await asyncio.sleep(600)
+        waiting = stream.later.result()
+        robot.sleep(600)
         assert robot.state.joints == state.joints
         assert not waiting.done()
         began = driver.loop.time()
-        await robot.resume()
-        await robot.set_speed(50)
-        result = await waiting
+        robot.resume()
+        robot.set_speed(50)
+        result = waiting.result()
         with pytest.raises(ValueError, match="1 to 100"):
-            await robot.set_speed(0)
-        return result, driver.loop.time() - began
-
-    (result, took), _ = streamed(main)
+            robot.set_speed(0)
+        result, took = result, driver.loop.time() - began
     assert result.points == 100
     assert took == pytest.approx(2 * 8, abs=1)
 
 
 @pytest.mark.parametrize("control", [True, False])
 def test_stop_and_what_stands(control):
-    async def main(robot, driver):
+    with streamed(control=control) as (robot, driver):
         stream = robot.stream()
-        filling = asyncio.ensure_future(stream.extend(wave()))
-        await asyncio.sleep(30)
+        filling = stream.later.extend(wave())
+        robot.sleep(30)
         asked = driver.loop.time()
-        state = await robot.stop()
+        state = robot.stop()
         with pytest.raises(MotionStopped) as error:
-            await filling
+            filling.result()
         assert error.value.reason is Reason.STOPPED
         with pytest.raises(MotionStopped):
-            await stream.append([1e6], [[0.0] * 6])
+            stream.append([1e6], [[0.0] * 6])
         assert stream.stopped_position == pytest.approx(state.joints)
         stops = [(t, port) for t, port, number in driver.log if number == 11]
         assert stops[0] == (pytest.approx(asked + 0.001), driver.CONTROL if control else 11000)
         # and the next one
-        async with robot.stream() as stream:
-            await stream.append([0, 1], [state.joints, state.joints])
-
-    _, driver = streamed(main, control=control)
+        with robot.stream() as stream:
+            stream.append([0, 1], [state.joints, state.joints])
     assert driver.model.trajectory == 2
     # nothing of the stopped stream behind the STOP
     first = next(n for n, (_, _, number) in enumerate(driver.log) if number == 11)
@@ -411,178 +353,162 @@ def test_stop_and_what_stands(control):
 
 
 def test_an_exception_in_the_block_stops_the_robot():
-    async def main(robot, driver):
-        async def fail(stream):
-            async with stream:
-                await stream.append([0, 5], [[0.0] * 6, [0.1] * 6])
-                await stream.flush()
-                await asyncio.sleep(1)
+    with streamed() as (robot, driver):
+
+        def fail(stream):
+            with stream:
+                stream.append([0, 5], [[0.0] * 6, [0.1] * 6])
+                stream.flush()
+                robot.sleep(1)
                 raise ZeroDivisionError
 
         stream = robot.stream()
         with pytest.raises(ZeroDivisionError):
-            await fail(stream)
+            fail(stream)
         assert stream.is_over
-
-    _, driver = streamed(main)
     assert driver.model.state == TrajectoryState.STOPPED
 
 
 def test_heartbeats_come_while_it_moves_and_end_with_it():
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
-        await asyncio.sleep(5)
-        return driver.model.heartbeats
-
-    beats, _ = streamed(main, timeouts=Timeouts(heartbeat=2))
+    with streamed(timeouts=Timeouts(heartbeat=2)) as (robot, driver):
+        with robot.stream() as stream:
+            stream.append([0, 10], [[0.0] * 6, [0.1] * 6])
+        robot.sleep(5)
+        beats = driver.model.heartbeats
     assert beats[-1] == 0
     assert set(beats[:-1]) == {2}
     # every half second, on a clock of 0.1 s
     assert 15 <= len(beats) <= 25
 
 
-def test_no_heartbeat_is_asked_for_before_the_pace_of_a_simulation_is_known():
+@pytest.mark.parametrize(("pace", "slack"), [(1, 1), (10, 3)])
+def test_a_simulation_that_runs_faster_misses_nobody_sooner(pace, slack):
     """As long as a controller would wait is a moment on a clock that runs ten times as fast."""
 
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.append([0, 2], [[0.0] * 6, [0.1] * 6])
-        await stream.result()
+    with streamed(timeouts=Timeouts(heartbeat=2), pace=pace) as (robot, driver):
+        with robot.stream() as stream:
+            stream.append([0, 2], [[0.0] * 6, [0.1] * 6])
+        stream.result()
+        # no heartbeat is asked for before the pace is known
         first = next(time for time, _, number in driver.log if number == 1306)
-        return first, driver.model.heartbeats
-
-    (first, beats), _ = streamed(main, timeouts=Timeouts(heartbeat=2), pace=10)
+        first, beats = first, [beat for beat in driver.model.heartbeats if beat]
     assert first > 0.4
-    assert min(beats) >= 2 * 10
+    assert beats == pytest.approx([2 * pace * slack] * len(beats), rel=0.01)
 
 
 def test_heartbeats_come_with_a_download_too_and_not_without_a_motion():
-    async def main(robot, driver):
-        await asyncio.sleep(10)
+    with streamed() as (robot, driver):
+        robot.sleep(10)
         assert not driver.model.heartbeats
         stream = robot.stream()
-        await stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
+        stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
         driver.model.control(1306, b"\0\0\0\0")
-        await stream.result()
-
-    streamed(main)
+        stream.result()
 
 
 def test_a_client_that_dies_is_missed():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         stream = robot.stream()
-        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
-        await asyncio.sleep(2)
+        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        robot.sleep(2)
         # as a process that was frozen: its timers do not run, its kernel keeps the connections
-        robot._timer.cancel()
-        robot._pump = lambda: None
-        await asyncio.sleep(2.5)
+        robot._carrier._timer.cancel()
+        robot._carrier._pump = lambda: None
+        robot.sleep(2.5)
         assert driver.model.state == TrajectoryState.FAILED
         assert driver.model.reason == Reason.CLIENT_LOST
-        del robot._pump
+        del robot._carrier._pump
         with pytest.raises(MotionFailed, match="client") as error:
-            await stream.result()
+            stream.result()
         assert error.value.reason is Reason.CLIENT_LOST
-
-    streamed(main)
 
 
 def test_no_heartbeats_where_nobody_wants_them():
-    async def main(robot, driver):
-        async with robot.stream() as stream:
-            await stream.append([0, 3], [[0.0] * 6, [0.1] * 6])
-        return driver.model.heartbeats
-
-    assert streamed(main, timeouts=Timeouts(heartbeat=0))[0] == []
+    with streamed(timeouts=Timeouts(heartbeat=0)) as (robot, driver):
+        with robot.stream() as stream:
+            stream.append([0, 3], [[0.0] * 6, [0.1] * 6])
+        assert driver.model.heartbeats == []
 
 
 def test_a_control_port_that_falls_silent_stops_the_motion():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         stream = robot.stream()
-        filling = asyncio.ensure_future(stream.extend(wave()))
-        await asyncio.sleep(5)
+        filling = stream.later.extend(wave())
+        robot.sleep(5)
         driver.model.control = lambda *_: b""
         driver.model.heartbeat_until = None
         with pytest.raises(RobotTimeout, match="control port"):
-            await filling
-        await asyncio.sleep(0.5)
-
-    _, driver = streamed(main)
+            filling.result()
+        robot.sleep(0.5)
     # the motion port is there
     assert driver.model.state == TrajectoryState.STOPPED
     assert any(port == 11000 for _, port, number in driver.log if number == 11)
 
 
-def test_a_batch_that_nobody_answers_stops_the_motion():
-    async def main(robot, driver):
-        with pytest.raises(RobotTimeout, match="did not answer a batch"):
-            await robot.stream().extend(wave())
-        await asyncio.sleep(0.5)
-
-    _, driver = streamed(main, lose_replies_from=20)
-    assert driver.model.state == TrajectoryState.STOPPED
-
-
 def test_a_lost_connection_stops_the_motion_though_nobody_waits():
-    async def main(robot, driver):
+    with streamed() as (robot, driver):
         stream = robot.stream()
-        await stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
-        await asyncio.sleep(2)
-        state = next(link for port, link in robot._links.items() if port.name == "STATE")
+        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        robot.sleep(2)
+        state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
         state.transport.close()
-        await asyncio.sleep(0.5)
+        robot.sleep(0.5)
         assert driver.model.state == TrajectoryState.STOPPED
         with pytest.raises(ConnectionLost):
-            await stream.result()
-
-    streamed(main)
+            stream.result()
 
 
 def test_a_long_trajectory_is_streamed_and_a_short_one_is_not():
-    async def main(robot, driver):
-        assert robot._core.way_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == (
-            "download"
-        )
+    with streamed() as (robot, driver):
+        assert robot.way_for(Trajectory.from_points([[0.0] * 6] * 128, seconds=0.1)) == ("download")
         long = Trajectory.from_points([[0.0] * 6] * 5000, seconds=0.1)
         robot.check(long)
-        execution = await robot.execute(long)
+        execution = robot.execute(long)
         assert execution.way == "stream"
         # 1,000 are the most that the driver holds as a whole
         with pytest.raises(NotReady):
-            await robot.execute(long, way="download")
+            robot.execute(long, way="download")
         began = driver.model.reached
-        result = await execution.result()
+        result = execution.result()
         assert execution.trajectory.positions.shape == (5000, 6)
         with pytest.raises(InvalidTrajectory, match="holds 1000"):
-            await robot.execute(long, way="download")
-        return began, result
-
-    (began, result), _ = streamed(main)
+            robot.execute(long, way="download")
     assert began < 128
     assert result.points == 5000
     assert result.way == "stream"
 
 
+@pytest.mark.parametrize(
+    ("points", "way"),
+    [(100, None), (5000, None), (100, "download"), (100, "stream"), (0, "append")],
+)
+def test_a_trajectory_is_checked_once(monkeypatch, points, way):
+    checks, content = [], checks_module._content
+    monkeypatch.setattr(checks_module, "_content", lambda *a: checks.append(a) or content(*a))
+
+    with streamed() as (robot, _):
+        if way == "append":
+            robot.stream().append([0, 1], [[0.0] * 6] * 2)
+        else:
+            robot.execute(Trajectory.from_points([[0.0] * 6] * points, seconds=0.1), way=way)
+    assert len(checks) == 1
+
+
 def test_somebody_else_stops_it():
-    async def main(robot, driver):
-        filling = asyncio.ensure_future(robot.stream().extend(wave()))
-        await asyncio.sleep(5)
+    with streamed() as (robot, driver):
+        filling = robot.stream().later.extend(wave())
+        robot.sleep(5)
         driver.model.halt(TrajectoryState.STOPPED, Reason.STOPPED)
         with pytest.raises(MotionStopped, match="another request"):
-            await filling
-
-    streamed(main)
+            filling.result()
 
 
 def test_cancelling_an_append_stops_the_robot():
-    async def main(robot, driver):
-        filling = asyncio.ensure_future(robot.stream().extend(wave()))
-        await asyncio.sleep(5)
+    with streamed() as (robot, driver):
+        filling = robot.stream().later.extend(wave())
+        robot.sleep(5)
         filling.cancel()
         with pytest.raises(asyncio.CancelledError):
-            await filling
-        await asyncio.sleep(0.5)
-
-    _, driver = streamed(main)
+            filling.result()
+        robot.sleep(0.5)
     assert driver.model.state == TrajectoryState.STOPPED

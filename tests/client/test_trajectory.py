@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rapidgen.client import InvalidTrajectory, Trajectory
-from rapidgen.client.core.checks import plan
+from rapidgen.client.core.checks import check_trajectory
 from rapidgen.client.core.group import Group
 from rapidgen.config import load_config
 
@@ -159,7 +159,7 @@ def test_json_files(tmp_path):
 
 def test_good_trajectory_becomes_axis_values_and_durations(irb120):
     trajectory = Trajectory.from_points([HOME, [0.1] * 6, [0.2] * 6], seconds=[0.5, 0.25])
-    made = plan(trajectory, irb120, start=[0.0] * 10)
+    made = check_trajectory(trajectory, irb120, start=[0.0] * 10)
     assert made.durations.tolist() == [irb120.policy.min_segment, 0.5, 0.25]
     assert np.allclose(made.wire, trajectory.positions)
     assert made.warnings == ()
@@ -167,7 +167,7 @@ def test_good_trajectory_becomes_axis_values_and_durations(irb120):
 
 def test_columns_go_by_name_not_by_place(irb120):
     names = irb120.names[::-1]
-    made = plan(Trajectory([0, 1], [[0] * 6, [0.1, 0, 0, 0, 0, 0.3]], names), irb120)
+    made = check_trajectory(Trajectory([0, 1], [[0] * 6, [0.1, 0, 0, 0, 0, 0.3]], names), irb120)
     assert np.allclose(made.wire[1], [0.3, 0, 0, 0, 0, 0.1])
 
 
@@ -178,10 +178,10 @@ def test_all_findings_at_once(irb120):
     positions[3, 2] = 9.0  # outside, and too fast
     trajectory = Trajectory([0, 1, 1, 2, 2.01], positions)
     with pytest.raises(InvalidTrajectory) as error:
-        plan(trajectory, irb120, start=[0.0] * 10, capacity=4)
+        check_trajectory(trajectory, irb120, start=[0.0] * 10, capacity=4)
     assert codes(error) == ["RG617"]
     with pytest.raises(InvalidTrajectory) as error:
-        plan(trajectory, irb120, start=[0.0] * 10)
+        check_trajectory(trajectory, irb120, start=[0.0] * 10)
     assert sorted(set(codes(error))) == [
         "RG612",
         "RG613",
@@ -197,7 +197,7 @@ def test_finding_has_the_line_of_its_file(irb120, tmp_path):
     rows = ["time," + ",".join(irb120.names), "0,0,0,0,0,0,0", "# far out", "9,0,0,4,0,0,0"]
     path.write_text("\n".join(rows))
     with pytest.raises(InvalidTrajectory) as error:
-        plan(Trajectory.from_csv(path), irb120, start=[0.0] * 10)
+        check_trajectory(Trajectory.from_csv(path), irb120, start=[0.0] * 10)
     (found,) = error.value.diagnostics
     assert (found.code, found.span.line) == ("RG614", 4)
     assert irb120.names[2] in found.message
@@ -206,21 +206,21 @@ def test_finding_has_the_line_of_its_file(irb120, tmp_path):
 def test_names_that_do_not_fit(irb120):
     names = ("joint_7", *irb120.names[1:5], irb120.names[1])
     with pytest.raises(InvalidTrajectory) as error:
-        plan(Trajectory([0], [HOME], names), irb120)
+        check_trajectory(Trajectory([0], [HOME], names), irb120)
     assert codes(error) == ["RG611"] * 3
     with pytest.raises(InvalidTrajectory):
-        plan(Trajectory([0], [[0.0] * 5]), irb120)
+        check_trajectory(Trajectory([0], [[0.0] * 5]), irb120)
     with pytest.raises(InvalidTrajectory) as error:
-        plan(Trajectory([], np.zeros((0, 6))), irb120)
+        check_trajectory(Trajectory([], np.zeros((0, 6))), irb120)
     assert codes(error) == ["RG619"]
 
 
 def test_limits_are_inclusive_up_to_float32(irb120):
     upper = [joint.upper for joint in irb120.joints]
     point = [float(np.float32(value)) for value in upper]
-    plan(Trajectory([30], [point]), irb120)
+    check_trajectory(Trajectory([30], [point]), irb120)
     with pytest.raises(InvalidTrajectory):
-        plan(Trajectory([30], [[value + 1e-4 for value in upper]]), irb120)
+        check_trajectory(Trajectory([30], [[value + 1e-4 for value in upper]]), irb120)
 
 
 def test_coupled_limits_are_those_of_the_axes(irb2400):
@@ -233,7 +233,7 @@ def test_coupled_limits_are_those_of_the_axes(irb2400):
     urdf[1] = second
     urdf[2] = third.upper - coupling * second + 0.05
     with pytest.raises(InvalidTrajectory) as error:
-        plan(Trajectory([60], [urdf]), irb2400)
+        check_trajectory(Trajectory([60], [urdf]), irb2400)
     assert codes(error) == ["RG614"]
     assert "coupled" in error.value.diagnostics[0].notes[0]
 
@@ -251,13 +251,13 @@ def test_single_point(irb120):
     point = [0.3] * 6
     far = Trajectory([0], [point])
     with pytest.raises(InvalidTrajectory) as error:
-        plan(far, irb120, start=[0.0] * 10)
+        check_trajectory(far, irb120, start=[0.0] * 10)
     assert set(codes(error)) == {"RG616"}
-    assert len(plan(far, irb120, start=[0.0] * 10, goes_to_single=True).wire) == 2
-    timed = plan(Trajectory([2.0], [point]), irb120, start=[0.0] * 10)
+    assert len(check_trajectory(far, irb120, start=[0.0] * 10, goes_to_single=True).wire) == 2
+    timed = check_trajectory(Trajectory([2.0], [point]), irb120, start=[0.0] * 10)
     assert timed.durations.tolist() == [2.0, irb120.policy.min_segment]
     with pytest.raises(InvalidTrajectory) as error:
-        plan(Trajectory([0.05], [point]), irb120, start=[0.0] * 10)
+        check_trajectory(Trajectory([0.05], [point]), irb120, start=[0.0] * 10)
     assert "RG615" in codes(error)
 
 
@@ -282,7 +282,7 @@ def test_timed_stays_within_speed_limits(irb120):
     points[0] = 0
     rough = Trajectory.from_points(points, seconds=0.001)
     with pytest.raises(InvalidTrajectory):
-        plan(rough, irb120, start=[0.0] * 10)
+        check_trajectory(rough, irb120, start=[0.0] * 10)
     good = rough.timed(irb120)
-    plan(good, irb120, start=[0.0] * 10)
+    check_trajectory(good, irb120, start=[0.0] * 10)
     assert rough.timed(irb120, 0.5).duration > good.duration

@@ -147,9 +147,8 @@ def test_monitor(controller, capsys):
 def test_the_live_table(controller):
     from rich.console import Console
 
-    from rapidgen.cli.monitor import _table
     from rapidgen.client import Robot
-    from rapidgen.view.live import Watcher
+    from rapidgen.view.live import Watcher, as_table
 
     with Robot("irb120", address=controller.address, watch=True) as robot:
         watcher = Watcher()
@@ -158,7 +157,7 @@ def test_the_live_table(controller):
             if state.number > 5:
                 break
         console = Console(width=100, record=True, file=io.StringIO())
-        console.print(_table(robot, state, watcher))
+        console.print(as_table(state, watcher, robot.group, "here"))
     text = console.export_text()
     assert "joint_6" in text
     assert "states/s" in text
@@ -198,23 +197,27 @@ def test_plot_of_names_that_want_out(tmp_path):
 
 
 def test_plot_thins_long_recordings(tmp_path):
-    from rapidgen.view.plot import Curve, write_plot
+    from rapidgen.view.plot import PlottedCurve, write_plot
 
     times = np.arange(200_000) * 0.01
     values = np.sin(times)[:, None]
     values[123_456] = 9.0
     html = tmp_path / "long.html"
-    write_plot(None, html, [Curve("executed", Trajectory(times, values, ("a",)))], title="long")
+    write_plot(
+        None, html, [PlottedCurve("executed", Trajectory(times, values, ("a",)))], title="long"
+    )
     assert html.stat().st_size < 200_000
     # the one outlier is still there: 9 rad in degrees
     assert "515.662" in html.read_text()
 
 
 def test_plot_without_points(tmp_path):
-    from rapidgen.view.plot import Curve, write_plot
+    from rapidgen.view.plot import PlottedCurve, write_plot
 
     empty = Trajectory(np.zeros(0), np.zeros((0, 2)), ("a", "b"))
-    write_plot(tmp_path / "e.png", tmp_path / "e.html", [Curve("nothing", empty)], title="empty")
+    write_plot(
+        tmp_path / "e.png", tmp_path / "e.html", [PlottedCurve("nothing", empty)], title="empty"
+    )
     assert (tmp_path / "e.png").stat().st_size > 500
 
 
@@ -306,11 +309,11 @@ def test_monitor_tells_what_a_stream_is_at(streaming, capsys):
     with Robot(streaming.address) as robot:
         feed = robot.stream()
         feed.append([0, 0.6], [[0.0] * 6, [0.01] * 6])
-        robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 2)
+        robot.wait_until(lambda s: s.trajectory is not None and s.trajectory.name == "STARVED", 60)
         data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
         words = ["monitor", streaming.address, "--plain", "--count", "3"]
         streaming.extra = frame(1308, 1, 0, data)
-        assert robot.next_event(1).code == 50024
+        assert robot.next_event(60).code == 50024
         assert main(words) == 0
         assert "starved" in capsys.readouterr().out
         robot.pause()
@@ -334,8 +337,8 @@ def test_words_of_a_monitor():
         )
     assert watcher.event == "the stream ran out of points"
     event = Event(0.0, 50024, EventType.ERROR, "Corner path failure", 1)
-    watcher.tell(event)
-    watcher.tell(None)
+    for told in (event, None):
+        watcher.take(SimpleNamespace(number=2, time=2, status=Status(), trajectory=None), told)
     assert watcher.event == "50024 Corner path failure"
 
 

@@ -37,6 +37,33 @@ def test_first_deployment_and_nothing_to_do_after_it(kit, home):
     assert tree(home) == before
 
 
+def test_a_manifest_that_says_otherwise_is_written_anew(kit, home):
+    transport, wanted = FolderTransport(home), kit.driver(OLD)
+    kit.deploy(transport, wanted)
+    path = home / "rapidgen_deploy/manifest.json"
+    said = json.loads(path.read_text())
+    said["files"][0]["sha256"] = "0" * 64
+    path.write_text(json.dumps(said))
+    plan = make_plan(transport, wanted)
+    assert {c.action for c in plan.changes} == {"same"}
+    assert not plan.is_empty
+    kit.deploy(transport, wanted)
+    assert make_plan(transport, wanted).is_empty
+    assert "0" * 64 not in path.read_text()
+
+
+def test_a_manifest_without_files_is_uninstalled(kit, home):
+    transport, wanted = FolderTransport(home), kit.driver(OLD)
+    kit.deploy(transport, wanted)
+    for file in wanted.files:
+        (home / file.path).unlink()
+    plan = make_plan(transport, None, verb="uninstall")
+    assert not plan.changes
+    assert not plan.is_empty
+    kit.deploy(transport, None, verb="uninstall")
+    assert not (home / "rapidgen_deploy").exists()
+
+
 def test_update_keeps_a_backup_and_rollback_restores_it_with_fresh_stamps(kit, home):
     transport = FolderTransport(home)
     old, new = kit.driver(OLD), kit.driver(NEW, drop=("rapidgen/ROS_stateServer.mod",))

@@ -1,9 +1,12 @@
 """Diagnostics: what is shown, in every format."""
 
+import ast
 import json
+from pathlib import Path
 
 import pytest
 
+import rapidgen
 from rapidgen.diagnostics import (
     Diagnostic,
     DiagnosticError,
@@ -11,6 +14,8 @@ from rapidgen.diagnostics import (
     Label,
     Severity,
     Span,
+    error,
+    refusal,
     render,
     suggest,
 )
@@ -133,3 +138,24 @@ def test_the_error_carries_its_diagnostics_and_exit_code():
     assert error.diagnostics == (UNKNOWN,)
     assert error.exit_code == 1
     assert "RG001" in str(error)
+
+
+def test_error_is_the_one_way_to_make_a_diagnostic():
+    root = Path(rapidgen.__file__).parent
+    made = [
+        f"{path.relative_to(root)}:{node.lineno}"
+        for path in sorted(root.rglob("*.py"))
+        if path.parent.name != "diagnostics"
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call)
+        and getattr(node.func, "id", getattr(node.func, "attr", "")) == "Diagnostic"
+    ]
+    assert not made
+
+
+def test_a_refusal_is_one_error_with_an_exit_code():
+    span = Span("a.mod", 3, 1)
+    raised = refusal("RG001", span, "no", "yes", label="here", notes=("so",), exit_code=1)
+    assert raised.diagnostics == (error("RG001", span, "no", "yes", label="here", notes=("so",)),)
+    assert raised.exit_code == 1
+    assert refusal("RG001", None, "no").exit_code == 2

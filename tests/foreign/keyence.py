@@ -17,7 +17,7 @@ from pathlib import Path
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 from tests.foreign.cell import furnish
 
@@ -71,7 +71,7 @@ def running(*modules: ModuleFile):
         server.settimeout(30)
         robots = groups_for(system, load_config("irb1200"))
         # Its check sums have seven digits.
-        dialect = Dialect(whole_text="all")
+        dialect = Switches(whole_text="all")
         with VirtualController(
             system, robots, clock="real", speed=20, dialect=dialect
         ) as controller:

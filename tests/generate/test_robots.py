@@ -3,10 +3,10 @@
 from dataclasses import replace
 
 import pytest
+from rapidgen.machine.configuration import arm_name
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
-from rapidgen.machine.configuration import arm_name
 from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import MAX_JOINTS, JointPosition

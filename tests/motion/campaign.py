@@ -21,7 +21,7 @@ from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
 from rapidgen.motion.faults import MotionFault
-from rapidgen.motion.moves import CartesianMove, JointMove, Speed
+from rapidgen.motion.moves import CartesianMove, JointMove, MoveSpeed
 from rapidgen.runtime.task.task import Task
 from tests.motion.cell import Cell, zone
 
@@ -89,7 +89,7 @@ def joint_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
                 task,
                 JointMove(
                     target=tuple(values),
-                    speed=Speed(rng.choice([0.3, 1, 5])),
+                    speed=MoveSpeed(rng.choice([0.3, 1, 5])),
                     zone=zone(rng.choice(RADII)),
                     time=rng.choice([None, None, 0.02, 0.1, 0.5]),
                     concurrent=k < 3 and rng.random() < 0.1,
@@ -120,7 +120,7 @@ def cartesian_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
             turned = frames.multiply(start[1], turn)
             kind = rng.choice(["line", "line", "circle", "joint"])
             common = {
-                "speed": Speed(rng.choice([0.05, 0.2, 1])),
+                "speed": MoveSpeed(rng.choice([0.05, 0.2, 1])),
                 "zone": zone(rng.choice(RADII)),
                 "time": rng.choice([None, None, 0.3, 1.0]),
             }

@@ -11,9 +11,11 @@ from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionSettings, MotionSystem
 from rapidgen.motion.moves import Zone
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
-from rapidgen.system.model import System
+from rapidgen.system.model import System, TaskSpec
 
 
 def zone(millimetres: float) -> Zone:
@@ -40,7 +42,8 @@ class Cell:
 
     def start(self, program: Callable[[Task], None]) -> Task:
         """Launch a program."""
-        task = Task(self.scheduler, "T_ROB1", SimpleNamespace(dialect=Dialect()))
+        controller = SimpleNamespace(dialect=Switches(), options=Options())
+        task = Task(self.scheduler, TaskSpec("T_ROB1"), controller, Shared())
         task.launch(lambda: program(task))
         return task
 

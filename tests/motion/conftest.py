@@ -8,7 +8,7 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
-from rapidgen.motion.moves import JointMove, Speed, Zone
+from rapidgen.motion.moves import JointMove, MoveSpeed, Zone
 from tests.motion.cell import Cell, zone
 
 
@@ -30,7 +30,7 @@ def joint() -> Callable[..., JointMove]:
 
     def make(*degrees: float, z: float = 0, time: float | None = None, **more: Any) -> JointMove:
         values = tuple(np.radians([*degrees, *[0.0] * (6 - len(degrees))]).tolist())
-        speed = Speed(more.pop("tcp", 1.0))
+        speed = MoveSpeed(more.pop("tcp", 1.0))
         return JointMove(target=values, speed=speed, zone=zone(z), time=time, **more)
 
     return make

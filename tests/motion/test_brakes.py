@@ -5,6 +5,7 @@ import pytest
 
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings
+from rapidgen.motion.coasting import coast
 
 P = "[[364.354,0,594],[0.5,0,0.866025,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]"
 DATA = f"CONST robtarget p := {P};\n"
@@ -96,6 +97,52 @@ def test_every_move_is_made_after_a_stop_by_the_brakes_at_any_time(make_cell, jo
         cell.run(program)
         assert group.positions() == pytest.approx(np.radians([60, 30, 0, 0, 0, 0]))
         assert np.abs(np.diff(cell.path, axis=0)).max() < 0.02
+
+
+@pytest.mark.parametrize("tenths", [4, 6, 7, 8])
+def test_an_axis_that_coasts_is_held_at_the_end_of_its_range(make_cell, joint, tenths):
+    # Weak brakes: at a fifth of its acceleration the axis would pass the end of its range.
+    cell = make_cell(settings=MotionSettings(quick_factor=0.2))
+    group, limit = cell.group, cell.config.joints[0].upper
+    cell.at(tenths / 10, lambda: group.stop("x", brakes=True))
+    cell.at(5.0, lambda: group.start("x"))
+    cell.run(lambda task: group.move(task, joint(164.9, tcp=10)))
+    assert cell.path[:, 0].max() <= limit + 1e-9
+    held = cell.path[np.array(cell.times) < 5.0 * S, 0].max()
+    assert held == pytest.approx(limit if tenths > 4 else held, abs=1e-6)
+    assert np.degrees(group.positions()[0]) == pytest.approx(164.9)
+
+
+def test_an_axis_at_the_end_of_its_range_does_not_coast_at_all(cell):
+    joints = cell.config.joints
+    here = tuple(j.upper for j in joints)
+    before = tuple(q - 1e-6 for q in here)  # 1 rad/s towards the end
+    stop = coast(0, here, before, joints, 2.0)
+    assert stop.posture(stop.end) == here
+    back = coast(0, here, tuple(q + 1e-6 for q in here), joints, 2.0)
+    assert all(q < end for q, end in zip(back.posture(back.end), here, strict=True))
+
+
+def test_after_a_quick_stop_whose_path_is_cleared_it_stands_before_it_goes_on(cell, joint):
+    # The hard stop cannot be taken back for the new path: the robot comes to rest, and the ramp
+    # of its acceleration with it.
+    group = cell.group
+
+    def abort():
+        group.stop("x", quick=True)
+        group.clear_path()
+        group.start("x")
+
+    cell.at(0.3, abort)
+
+    def program(task):
+        group.move(task, joint(60, tcp=10))
+        group.move(task, joint(60, 30, tcp=10))
+
+    cell.run(program, period=0.001)
+    steps = np.abs(np.diff(cell.path, axis=0)).max(axis=1)
+    assert (steps[310:500] == 0.0).any()
+    assert cell.shares(0.001)[1] <= 2 + 1e-6  # quick_factor
 
 
 @pytest.mark.parametrize("choice", ["brakes", "path"])

@@ -8,7 +8,7 @@ import pytest
 from rapidgen.axes import frames
 from rapidgen.machine.scheduler import S
 from rapidgen.motion.faults import MotionFault, Refusal
-from rapidgen.motion.moves import Carrier, CartesianMove, Singularities, Speed
+from rapidgen.motion.moves import Carrier, CartesianMove, MoveSpeed, Singularities
 
 HOME = (0.0, 0.2, 0.1, 0.0, 0.6, 0.0)
 TOOL = ((0.02, 0.0, 0.15), (1.0, 0.0, 0.0, 0.0))
@@ -34,7 +34,7 @@ def linear(robot, zones):
         )
         if via is not None:
             via = (frames.add(base[0], via), base[1])
-        speed = Speed(tcp, **{k: more.pop(k) for k in ("orientation",) if k in more})
+        speed = MoveSpeed(tcp, **{k: more.pop(k) for k in ("orientation",) if k in more})
         return CartesianMove(
             target=target, external=HOME, via=via, speed=speed, zone=zones(zone),
             carrier=carrier, **more,
@@ -122,7 +122,7 @@ def test_an_orientation_that_turns_with_the_path(robot, zones):
 
     move = CartesianMove(
         target=on_circle(math.pi / 2), via=on_circle(math.pi / 4), external=HOME,
-        speed=Speed(0.1), zone=zones(0),
+        speed=MoveSpeed(0.1), zone=zones(0),
     )  # fmt: skip
     robot.run(lambda task: robot.group.move(task, move))
     for posture in robot.path[::50]:
@@ -255,7 +255,7 @@ def test_a_stationary_tool_moves_the_object(robot, zones):
     start = carrier.pose(own.forward(HOME))
     target = (frames.add(start[0], (0.02, 0.03, 0.0)), start[1])
     move = CartesianMove(
-        target=target, external=HOME, speed=Speed(0.1), zone=zones(0), carrier=carrier
+        target=target, external=HOME, speed=MoveSpeed(0.1), zone=zones(0), carrier=carrier
     )
     robot.run(lambda task: group.move(task, move))
     poses = [carrier.pose(own.forward(tuple(q))) for q in robot.path]
@@ -285,7 +285,7 @@ def test_a_line_through_the_wrist_singularity(make_cell, zones):
     own = group.kinematics
     opposite = own.forward((0.3, 0.0, 0.0, 0.4, -0.4, 0.0))
     move = CartesianMove(
-        target=opposite, external=group.positions(), speed=Speed(0.1), zone=zones(0)
+        target=opposite, external=group.positions(), speed=MoveSpeed(0.1), zone=zones(0)
     )
 
     def program(task):
@@ -306,7 +306,7 @@ def test_with_sing_area_wrist_the_line_goes_through_the_singularity(make_cell, z
     move = CartesianMove(
         target=end,
         external=group.positions(),
-        speed=Speed(0.1),
+        speed=MoveSpeed(0.1),
         zone=zones(0),
         singularities=Singularities.WRIST,
     )
@@ -341,7 +341,7 @@ def test_robots_without_a_closed_form_go_straight_too(make_cell, zones):
     start = own.forward(home)
     move = CartesianMove(
         target=(frames.add(start[0], (0.0, 0.05, 0.05)), start[1]),
-        external=home, speed=Speed(0.2), zone=zones(0),
+        external=home, speed=MoveSpeed(0.2), zone=zones(0),
     )  # fmt: skip
     cell.run(lambda task: group.move(task, move), period=0.01)
     places = np.array([own.forward(tuple(q))[0] for q in cell.path]) - np.array(start[0])
@@ -360,7 +360,7 @@ def test_a_track_moves_with_the_tcp_on_its_line(make_cell, zones):
     external = tuple(0.3 if i == track else v for i, v in enumerate(home))
     move = CartesianMove(
         target=(frames.add(start[0], (0.3, 0.05, 0.0)), start[1]),
-        external=external, speed=Speed(0.2), zone=zones(0),
+        external=external, speed=MoveSpeed(0.2), zone=zones(0),
     )  # fmt: skip
     cell.run(lambda task: group.move(task, move), period=0.01)
     places = np.array([group.kinematics.forward(tuple(q))[0] for q in cell.path])

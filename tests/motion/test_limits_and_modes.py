@@ -166,7 +166,7 @@ def test_circles_by_wrist_axes_are_refused(rapid):
 def test_limit_speed_is_a_system_input(rapid):
     program = rapid("WaitTime 1;", DATA)
     controller, group = program.controller, program.group
-    controller.system_input("LimitSpeed", "")
+    controller.io.on_action("LimitSpeed", "")
     assert group.speed_limited
-    controller.system_input_ended("LimitSpeed")
+    controller.io.on_end("LimitSpeed")
     assert not group.speed_limited

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from rapidgen.machine.scheduler import S
 from rapidgen.motion import MotionSettings, smoothing
-from rapidgen.motion.moves import JointMove, Speed
+from rapidgen.motion.moves import JointMove, MoveSpeed
 from rapidgen.motion.timelaw import brake, plan
 from tests.motion.campaign import disturb
 from tests.motion.test_timelaw import Stretch, paths
@@ -130,7 +130,9 @@ def test_acceleration_has_no_jump_on_straight_ways_whatever_happens(make_cell, z
                 min(max(v, j.lower), j.upper)
                 for v, j in zip(values, cell.config.joints, strict=True)
             ]
-            cell.group.move(task, JointMove(target=tuple(values), speed=Speed(1.0), zone=zones(0)))
+            cell.group.move(
+                task, JointMove(target=tuple(values), speed=MoveSpeed(1.0), zone=zones(0))
+            )
 
     task = cell.start(program)
     cell.sample(lambda: not task.alive and cell.scheduler.now > 4.1 * S, limit=90)

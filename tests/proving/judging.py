@@ -20,7 +20,6 @@ from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.workers import each, in_a_fork
 from rapidgen.rapid import parse
-from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError
 
 PATIENCE = (2.0, 12.0)
@@ -209,8 +208,7 @@ def _exchange(program, module, tree):
         new_tokens = tree.source.tokens[node.first : node.last + 1]
         if new_tokens == before.source.tokens[old.first : old.last + 1]:
             continue
-        routine = module.symbols[node.name.casefold()]
-        assert isinstance(routine, Routine)
+        routine = module.routines[node.name.casefold()]
         routine.node = node
         program.codes.pop(program.code_name(routine), None)
         program._linked.discard(routine)

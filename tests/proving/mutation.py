@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 
 from rapidgen.controller.tracing import STATEMENTS
 from rapidgen.rapid import parse
+from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax.nodes import (
     Assignment,
     Branch,
@@ -23,7 +24,6 @@ from rapidgen.rapid.syntax.nodes import (
     TryNext,
     While,
 )
-from rapidgen.runtime.values import single
 
 _SWAPS = {
     "<": "<=",

@@ -9,7 +9,7 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.rapid import check, parse
-from rapidgen.runtime.switches import Dialect, parse_dialect
+from rapidgen.runtime.switches import Switches, parse_switches
 
 PROBE = data_folder("templates") / "ROS_probe.mod"
 ASKED = {
@@ -48,8 +48,8 @@ def answers(dialect):
     ("name", "value"), [(name, value) for name, values in ASKED.items() for value in values]
 )
 def test_an_answer_is_the_switch(name, value):
-    set_so = replace(Dialect(), **{name: value})
-    told = parse_dialect(answers(set_so))
+    set_so = replace(Switches(), **{name: value})
+    told = parse_switches(answers(set_so))
     assert {n: getattr(told, n) for n in ASKED} == {n: getattr(set_so, n) for n in ASKED}
 
 

@@ -18,6 +18,7 @@ from pathlib import Path
 from types import CodeType
 
 import rapidgen.rapid.checks
+from rapidgen.rapid.binding import builtin
 from rapidgen.rapid.builtins import signatures
 
 ROOT = Path(rapidgen.rapid.checks.__file__).parents[1]
@@ -249,6 +250,7 @@ def _forget(module):
         for cached in (
             signatures._headers, signatures.routine, signatures.routines,
             signatures._types, signatures.predefined, signatures.option_names,
+            signatures.marked, builtin,
         ):  # fmt: skip
             cached.cache_clear()
 
@@ -292,7 +294,7 @@ class _Changed(importlib.abc.MetaPathFinder, importlib.abc.Loader):
 
 def _import():
     try:
-        importlib.import_module(f"{PACKAGE}.checker")
+        importlib.import_module(f"{PACKAGE}.checks")
     except Exception as error:  # whatever a changed table makes of the module
         raise NoProgram from error
 

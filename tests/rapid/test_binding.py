@@ -314,7 +314,7 @@ TEXT = """MODULE places
   PROC work(num count \\twin often)
     VAR num i := 0;
     FOR i FROM i TO count DO
-      both.a := i + far;
+      both.a := i + far; GOTO again;
     ENDFOR
     GOTO again;
     again:
@@ -407,6 +407,8 @@ def test_all_uses_of_a_name(places):
     far = here.at(*place(11, "far"))
     assert [s.line for s in here.uses(far)] == [11, 18]
     assert other.uses(far) == []
+    again = here.at(*place(14, "again"))
+    assert [(s.line, s.column) for s in here.uses(again)] == [(11, 31), (13, 10)]
     i = here.at(*place(9, "i "))
     assert [(s.line, s.column) for s in here.uses(i)] == [(10, 16), (15, 17)]
 

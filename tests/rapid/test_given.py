@@ -198,3 +198,17 @@ def test_the_entry_routine_is_the_one_that_the_configuration_names():
 def test_no_entry_is_missed_where_modules_are_missing():
     loads = module("a", 'Load "HOME:/b.mod";', entry="other")
     assert found(system(loads)) == []
+
+
+@pytest.mark.parametrize("flag", ["installed", "shared"])
+def test_the_program_hides_names_of_installed_modules_and_is_not_seen_by_them(flag):
+    tools = "MODULE tools\nVAR num count;\nPROC Grip()\ncount := ours;\nENDPROC\nENDMODULE\n"
+    program = module("p", "Grip;\ncount := TRUE;", "VAR bool count;\nVAR num ours;")
+    files = (
+        ModuleFile("tools", "tools.sys", tools.encode(), **{flag: True}),
+        ModuleFile("p", "p.mod", program.encode()),
+    )
+    diagnostics = check(System("s", (TaskSpec("T_ROB1", modules=files),)))
+    assert [(d.code, d.span.path) for d in diagnostics] == [("RG302", "tools.sys")]
+    alike = tuple(ModuleFile(f.name, f.path, f.data) for f in files)
+    assert ("error", "RG305") in found(System("s", (TaskSpec("T_ROB1", modules=alike),)))

@@ -74,3 +74,28 @@ def test_type_classes(name, kind):
 )
 def test_values(name, value):
     assert signatures.constant(name).value == value
+
+
+def test_marks_behind_headers():
+    assert signatures.marked("steps") == {"incr", "decr", "add", "clear"}
+    assert signatures.marked("ends") == {"exitcycle"}
+    assert signatures.marked("whole") == {"dim", "strfind", "strlen", "strmatch"}
+    assert signatures.marked("inplace") == {"dim", "ispers", "isvar", "present"}
+    assert signatures.marked("inplace") < signatures.marked("inline")
+    assert signatures.routine("WaitUntil").marks == {"lazy": ("cond",)}
+    assert signatures.routine("CopyRawBytes").marks == {"index": ("fromindex", "toindex")}
+    since = signatures.routine("DnumToStr")
+    assert (since.since, since.until, since.marks, since.checked) == ((5, 12), None, {}, True)
+    assert not signatures.routine("CamGetResult").checked
+
+
+def test_names_behind_marks_are_parameters():
+    for signature in signatures.routines().values():
+        names = {p.name.lower() for p in signature.parameters}
+        assert {n for words in signature.marks.values() for n in words} <= names
+
+
+def test_what_no_program_can_write():
+    data = signatures.predefined().values()
+    assert {d.name for d in data if d.readonly and d.kind != "CONST"} == {"ERRNO", "INTNO"}
+    assert all(d.readonly for d in data if d.kind == "CONST")

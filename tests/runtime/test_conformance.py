@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from rapidgen.controller.controller import VirtualController
-from rapidgen.runtime.switches import parse_dialect
+from rapidgen.runtime.switches import parse_switches
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 
 HERE = Path(__file__).parent / "conformance"
@@ -44,7 +44,7 @@ def _execute(path: Path, accounting: str) -> tuple[list[str], str, int]:
     printed: list[str] = []
     with VirtualController(
         System(path.stem, tuple(tasks), signals),
-        dialect=parse_dialect(",".join(_marks(text, "dialect"))),
+        dialect=parse_switches(",".join(_marks(text, "dialect"))),
         cycle="forever" if cycles else "once",
         accounting=accounting,
         autostart=False,

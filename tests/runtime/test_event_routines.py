@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.system.model import EventRoutine, System
 from tests.runtime.booting import system
 
@@ -72,7 +72,7 @@ def test_what_power_on_stored_is_there_at_start() -> None:
 @pytest.mark.parametrize("run", [True, False])
 def test_emergency_stop_is_a_quick_stop(run: bool) -> None:
     """[mem], switch e_stop_routines"""
-    controller, printed = boot(ROUTINES + MAIN, dialect=Dialect(e_stop_routines=run))
+    controller, printed = boot(ROUTINES + MAIN, dialect=Switches(e_stop_routines=run))
     with controller:
         controller.start_program()
         controller.run_for(0.5)
@@ -108,7 +108,7 @@ def test_stop_in_an_event_routine_leaves_it(stops: bool) -> None:
         'PROC on_START()\n TPWrite "begun";\n Stop;\n TPWrite "never";\nENDPROC\n'
         'PROC on_STOP()\n TPWrite "stop";\nENDPROC\nPROC main()\n TPWrite "main";\nENDPROC'
     )
-    dialect = Dialect(event_stops=stops)
+    dialect = Switches(event_stops=stops)
     controller, printed = boot(text, events=("START", "STOP"), cycle="once", dialect=dialect)
     with controller:
         controller.start_program()
@@ -225,7 +225,7 @@ def test_a_fault_stops_the_other_normal_tasks(run: bool) -> None:
     faulty = ROUTINES + "PROC main()\n WaitTime 1;\n RAISE 7;\nENDPROC"
     other = ROUTINES.replace('TPWrite "', 'TPWrite "other ') + "PROC main()\n WaitTime 9;\nENDPROC"
     controller, printed = boot(
-        faulty, other, events=("STOP", "QSTOP"), dialect=Dialect(fault_routines=run)
+        faulty, other, events=("STOP", "QSTOP"), dialect=Switches(fault_routines=run)
     )
     with controller:
         controller.start_program()

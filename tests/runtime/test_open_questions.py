@@ -5,7 +5,7 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from tests.runtime.booting import boot, system
 
 SENDER = """
@@ -42,7 +42,7 @@ SENDER = """
 
 @pytest.mark.parametrize(("attends", "seconds"), [(True, "1"), (False, "60")])
 def test_a_trap_while_socket_send_waits(attends, seconds):
-    controller, printed = boot(SENDER, dialect=Dialect(send_attends=attends))
+    controller, printed = boot(SENDER, dialect=Switches(send_attends=attends))
     controller.start_program()
     controller.run_for(0.1)
     controller.network.connect("10.0.0.1", 5000)
@@ -84,7 +84,7 @@ OTHER = """
 @pytest.mark.parametrize(("reach", "found"), [("all", ["mine", "theirs"]), ("own", ["mine"])])
 def test_whose_events_reach_ierror(reach, found):
     """Public loggers watch other tasks from one of their own [code: motion_program_exec]."""
-    controller, printed = boot(LISTENER, OTHER, dialect=Dialect(error_reach=reach))
+    controller, printed = boot(LISTENER, OTHER, dialect=Switches(error_reach=reach))
     controller.start_program()
     controller.run_for(1.5)
     assert [line for line in printed if line in ("mine", "theirs")] == found
@@ -121,7 +121,7 @@ def test_the_limits_of_the_axes(robot, arm, bound):
     groups = load_config(robot).groups
     for told in (True, False):
         controller, printed = boot(
-            ASKS.replace("{arm}", arm), robots=groups, dialect=Dialect(axis_limits_told=told)
+            ASKS.replace("{arm}", arm), robots=groups, dialect=Switches(axis_limits_told=told)
         )
         controller.start_program()
         controller.run_for(1)

@@ -7,7 +7,7 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.motion.modal import ModalSettings
-from rapidgen.runtime.task.stepping import CannotStep
+from rapidgen.runtime.task.pointer import CannotStep
 from tests.runtime.booting import boot
 
 PROGRAM = """

@@ -2,7 +2,7 @@
 
 import pytest
 
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from tests.runtime.booting import boot
 from tests.runtime.test_nesting import nested
 
@@ -280,7 +280,7 @@ def test_where_it_cannot_go_on_it_starts_from_main_only(text: str) -> None:
 def test_main_only() -> None:
     """switch after_error"""
     controller, _ = boot(
-        "PROC main()\n RAISE 7;\nENDPROC", dialect=Dialect(after_error="main"), cycle="once"
+        "PROC main()\n RAISE 7;\nENDPROC", dialect=Switches(after_error="main"), cycle="once"
     )
     with controller:
         controller.start_program()

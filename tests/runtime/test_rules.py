@@ -4,7 +4,7 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
-from rapidgen.runtime.switches import NOT_THE_DRIVERS, Dialect
+from rapidgen.runtime.switches import NOT_THE_DRIVERS, Switches
 
 TESTS = Path(__file__).parents[1]
 TEXT = (TESTS.parent / "docs" / "rapid" / "runtime-rules.md").read_text("utf-8")
@@ -48,7 +48,7 @@ def test_every_number_is_there_once() -> None:
 def test_every_switch_is_documented_with_its_values() -> None:
     page = (TESTS.parent / "docs" / "rapid" / "virtual-controller.md").read_text("utf-8")
     rows = dict(re.findall(r"^\| `(\w+)` \| (`[^|]+) \| [^|]+ \|$", page, re.MULTILINE))
-    for field in fields(Dialect):
+    for field in fields(Switches):
         default = field.default
         values = (
             [str(default).lower(), str(not default).lower()]
@@ -56,4 +56,4 @@ def test_every_switch_is_documented_with_its_values() -> None:
             else [default, *(v for v in field.type.__args__ if v != default)]
         )
         assert rows[field.name].replace("`", "").split(", ") == values, field.name
-    assert {f.name for f in fields(Dialect)} >= NOT_THE_DRIVERS
+    assert {f.name for f in fields(Switches)} >= NOT_THE_DRIVERS

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from rapidgen.controller import VirtualController
-from rapidgen.runtime.switches import Dialect
-from rapidgen.runtime.task.stepping import CannotStep
+from rapidgen.runtime.switches import Switches
+from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.system.model import EventRoutine, ModuleFile, System, TaskSpec
 from tests.runtime.booting import boot, system
 
@@ -504,7 +504,7 @@ def test_a_move_is_not_driven_back_from_elsewhere() -> None:
 
 
 def test_moves_are_not_driven_back_by_the_other_dialect() -> None:
-    with moving(WAY, dialect=Dialect(moves_back=False)) as s:
+    with moving(WAY, dialect=Switches(moves_back=False)) as s:
         for _ in range(2):
             s.step()
         before = tcp(s)

@@ -1,7 +1,5 @@
 """cfg text: layout of facts from files of real controllers, and the way back."""
 
-import re
-
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -38,6 +36,32 @@ def test_layout_of_a_controllers_file():
     assert (robot.line, server.line) == (6, 9)
     (module,) = cfg.instances("CAB_TASK_MODULES")
     assert module.text("File") == "HOME:\\ros\\a.sys"
+
+
+@pytest.mark.parametrize(
+    ("written", "is_set"),
+    [
+        ("-MotionTask", True),
+        ("-motiontask", True),
+        ("-MotionTask 1", True),
+        ('-MotionTask "TRUE"', True),
+        ("-MotionTask true", True),
+        ("-MotionTask 0", False),
+        ('-MotionTask "FALSE"', False),
+        ("-Other", False),
+    ],
+)
+def test_a_flag_is_bare_or_says_so(written, is_set):
+    (task,) = parse_cfg(f"SYS:CFG_1.0:6:0::\nCAB_TASKS:\n  {written}\n").instances("CAB_TASKS")
+    assert task.flag("MotionTask") is is_set
+
+
+def test_a_flag_is_written_bare():
+    task = Instance(
+        (Attribute("Name", ("T_ROB1",)), Attribute("MotionTask"), Attribute("Slot", (1,)))
+    )
+    written = write_cfg(CfgText("SYS", (6, 0), (Section("CAB_TASKS", (task,)),)))
+    assert written.splitlines()[-1].strip() == '-Name "T_ROB1" -MotionTask -Slot 1'
 
 
 @pytest.mark.parametrize(
@@ -82,9 +106,11 @@ def test_what_is_written_is_read_back(sections):
     read = parse_cfg(written)
     plain = [(s.name, [i.attributes for i in s.instances]) for s in read.sections]
     assert plain == [(s.name, [i.attributes for i in s.instances]) for s in sections]
-    # What is longer than 80 columns and the backslash is one attribute that cannot be broken.
-    long = [line for line in written.splitlines() if len(line) > 81 and '"' not in line]
-    assert all(len(re.findall(r" -[A-Za-z]", line)) == 1 for line in long)
+    # A line breaks before an attribute that does not fit; a longer one stands alone.
+    for line in written.splitlines():
+        if len(line) > 81:
+            (alone,) = parse_cfg(f"SYS:CFG_1.0:7:0::\nX:\n{line}").instances("X")
+            assert len(alone.attributes) == 1
 
 
 def test_an_attribute_longer_than_a_line_stands_alone():

@@ -49,7 +49,7 @@ BY_HAND = {
     ),
     "stop": (STOP, messages.TrajectoryPoint(-4, (0.0,) * 10, 0.0, 0.0), Comm.REQUEST),
     "joint": (JOINT, messages.JointPosition(0, (0.5, *(0.0,) * 8, -1.0)), Comm.TOPIC),
-    "status": (STATUS, messages.Status(1, 0, 203, 1, -1, 2, 0), Comm.TOPIC),
+    "status": (STATUS, messages.StatusReport(1, 0, 203, 1, -1, 2, 0), Comm.TOPIC),
 }
 
 
@@ -203,7 +203,7 @@ def test_random_bytes_bring_nothing_but_wire_errors(data):
 
 def test_values_that_do_not_fit():
     with pytest.raises(ContentError):
-        encode(messages.Progress(2**31, 0, 0, 0, 0, 0, 0, 0))
+        encode(messages.ProgressReport(2**31, 0, 0, 0, 0, 0, 0, 0))
     with pytest.raises(ContentError, match="joints"):
         encode(messages.JointPosition(0, (0.0,) * 9))
     with pytest.raises(ContentError):

@@ -6,6 +6,7 @@ comes in pieces: the axis values and durations that go onto the wire.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar, Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -14,9 +15,11 @@ from rapidgen.axes.limits import ROUNDING
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.trajectory import Array, Trajectory
-from rapidgen.diagnostics import Diagnostic, Severity, Span, suggest
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
 from rapidgen.wire.simple_message.spec import PAIR_LIMIT, PAIR_SCALE
 
+Way = Literal["download", "stream"]
+"""download: sent whole before anything moves; stream: sent while the robot moves."""
 _SPEED_ROUNDING = 1 + 1e-4
 """float32 positions and durations may ask for this much more than was meant."""
 _TIME_ROUNDING = 1e-6
@@ -33,6 +36,7 @@ class CheckedTrajectory:
     wire: Array
     durations: Array
     warnings: tuple[Diagnostic, ...]
+    way: ClassVar[Way] = "download"
 
     @property
     def total(self) -> float:
@@ -42,7 +46,7 @@ class CheckedTrajectory:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LastPoint:
-    """What a piece goes on from: points there were, time s and axis values (k,) of the last."""
+    """What the next points go on from: how many there were; time s and axis values (k,)."""
 
     points: int
     time: float
@@ -54,13 +58,15 @@ class CheckedPoints:
     """Points of a stream: `wire` (n, k) axis values and `durations` (n,) s, on the steps of 1e-6
     that the wire has, inside the limits."""
 
+    trajectory: Trajectory
     wire: Array
     durations: Array
     last: LastPoint
     warnings: tuple[Diagnostic, ...]
+    way: ClassVar[Way] = "stream"
 
 
-def plan(
+def check_trajectory(
     trajectory: Trajectory,
     group: Group,
     *,
@@ -92,7 +98,7 @@ def plan(
     return CheckedTrajectory(ordered, wire, durations, tuple(found))
 
 
-def piece(
+def check_points(
     trajectory: Trajectory, group: Group, *, before: LastPoint | None, start: Sequence[float] | None
 ) -> CheckedPoints:
     """Check points that go on from `before`; without one they are the first of a stream, and
@@ -112,19 +118,41 @@ def piece(
             found += _start(ordered, group, wire, start)
         found += _fits(ordered, wire, durations, before)
     _raise_errors(found)
+    points = len(ordered) + (before.points if before else 0)
+    return _points(ordered, group, wire, durations, since, points, tuple(found))
+
+
+def to_stream(
+    checked: CheckedTrajectory, group: Group, capacity: int
+) -> CheckedTrajectory | CheckedPoints:
+    """The same as points of a stream, where the wire's pairs can hold every value of it.
+
+    Raises InvalidTrajectory where they cannot and a driver holds no more than `capacity` points.
+    """
+    ordered, durations = checked.trajectory, checked.durations
+    if max(np.abs(checked.wire).max(), durations.max()) > PAIR_LIMIT:
+        _raise_errors(_capacity(ordered, capacity))
+        return checked
+    since = ordered.times[0] - durations[0]
+    return _points(ordered, group, checked.wire, durations, since, len(ordered), checked.warnings)
+
+
+def _points(
+    ordered: Trajectory,
+    group: Group,
+    wire: Array,
+    durations: Array,
+    since: float,
+    points: int,
+    warnings: tuple[Diagnostic, ...],
+) -> CheckedPoints:
+    times = ordered.times
     # Times are put on the grid, not durations: nothing adds up over a long stream.
     steps = np.diff(np.rint(times * PAIR_SCALE), prepend=np.rint(since * PAIR_SCALE))
     least = np.rint(np.minimum(durations, group.policy.min_segment) * PAIR_SCALE)
     wire = on_the_grid(wire, group)
-    points = len(ordered) + (before.points if before else 0)
     last = LastPoint(points, float(times[-1]), wire[-1])
-    return CheckedPoints(wire, np.maximum(steps, least) / PAIR_SCALE, last, tuple(found))
-
-
-def fits_a_stream(plan: CheckedTrajectory) -> bool:
-    """Whether the wire's pairs can hold every value of it."""
-    largest: float = max(np.abs(plan.wire).max(), plan.durations.max())
-    return bool(largest <= PAIR_LIMIT)
+    return CheckedPoints(ordered, wire, np.maximum(steps, least) / PAIR_SCALE, last, warnings)
 
 
 def on_the_grid(wire: Array, group: Group) -> Array:
@@ -182,7 +210,7 @@ def _finding(
     span = None
     if at is not None and at[0].path and at[0].lines:
         span = Span(at[0].path, at[0].lines[at[1]], 1)
-    return Diagnostic(code, severity, message, span, help=help, notes=notes)
+    return error(code, span, message, help, notes=notes, severity=severity)
 
 
 def _capacity(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
@@ -241,7 +269,7 @@ def _finite(trajectory: Trajectory, group: Group, origin: int) -> list[Diagnosti
         found.append(
             _finding(
                 "RG613",
-                f"{group.names[column]} is {value} at {_points(points, origin)}",
+                f"{group.names[column]} is {value} at {_named(points, origin)}",
                 at=(trajectory, int(points[0])),
             )
         )
@@ -256,7 +284,7 @@ def _times(trajectory: Trajectory, before: LastPoint | None) -> list[Diagnostic]
         return [
             _finding(
                 "RG613",
-                f"the time is {times[points[0]]} at {_points(points, origin)}",
+                f"the time is {times[points[0]]} at {_named(points, origin)}",
                 at=(trajectory, int(points[0])),
             )
         ]
@@ -272,7 +300,7 @@ def _times(trajectory: Trajectory, before: LastPoint | None) -> list[Diagnostic]
         found.append(
             _finding(
                 "RG612",
-                f"the time does not increase at {_points(late, origin)}",
+                f"the time does not increase at {_named(late, origin)}",
                 "each point needs a later time than the one before",
                 at=(trajectory, int(late[0])),
             )
@@ -301,7 +329,7 @@ def _limits(
         found.append(
             _finding(
                 "RG614",
-                f"{joint.name} is outside its limits at {_points(points, origin)}",
+                f"{joint.name} is outside its limits at {_named(points, origin)}",
                 f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
                 f"point {worst + origin} has {values[worst]:.4f} {unit}",
                 *(notes if coupled else ()),
@@ -341,7 +369,7 @@ def _speeds(
         found.append(
             _finding(
                 "RG615",
-                f"{joint.name} is too fast on the way to {_points(points, origin)}",
+                f"{joint.name} is too fast on the way to {_named(points, origin)}",
                 f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
                 f"`scaled({joint.speed / worst:.2f})` would fit",
                 at=(trajectory, int(points[0])),
@@ -387,7 +415,7 @@ def _short(trajectory: Trajectory, group: Group, durations: Array, origin: int) 
     return [
         _finding(
             "RG618",
-            f"shorter than the path planner follows: the segment to {_points(points, origin)}",
+            f"shorter than the path planner follows: the segment to {_named(points, origin)}",
             f"{durations[points].min():.4f} s, at least {least:g} s: "
             f"`Trajectory.resampled({least:g})`, or `rapidgen move --resample {least:g}`",
             at=(trajectory, int(points[0])),
@@ -407,7 +435,7 @@ def _fits(
     return [
         _finding(
             "RG623",
-            f"a value is too large for a stream at {_points(points, origin)}",
+            f"a value is too large for a stream at {_named(points, origin)}",
             f"{PAIR_LIMIT:.2f} s, rad or m are the most: "
             "`Trajectory.resampled(10)` divides a long segment",
             at=(trajectory, int(points[0])),
@@ -415,6 +443,6 @@ def _fits(
     ]
 
 
-def _points(points: npt.NDArray[np.intp], origin: int = 0) -> str:
+def _named(points: npt.NDArray[np.intp], origin: int = 0) -> str:
     first = points[0] + origin
     return f"point {first}" if len(points) == 1 else f"point {first} and {len(points) - 1} more"

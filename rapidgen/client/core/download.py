@@ -13,7 +13,6 @@ from rapidgen.client.core.motion import CommandedMotion, Phase
 from rapidgen.client.core.state import Progress, State, trajectory_state
 from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, fault
-from rapidgen.client.trajectory import Array
 from rapidgen.wire.simple_message.spec import TrajectoryState, TriState
 
 GOAL_TOLERANCE = 0.01
@@ -29,39 +28,25 @@ _EARLY = 0.25
 class Download(CommandedMotion):
     """A trajectory from its first byte to its end."""
 
+    way = "download"
+
     def __init__(
         self, plan: CheckedTrajectory, group: Group, state_port: StatePort, *, silence: float
     ) -> None:
         super().__init__(group, state_port, silence)
-        self.plan = plan
         self.trajectory = plan.trajectory
         self.warnings = plan.warnings
+        self.total = len(plan.trajectory)
+        self.frames = len(plan.wire)
+        # A plain driver gives no sign of getting on at all.
+        self.planned_seconds = self.longest = plan.total
+        self.goal = plan.wire[-1].tolist()
+        self._first_duration = float(plan.durations[0])
         self._was_in_error = state_port.status.in_error is TriState.TRUE
         self._start = state_port.state
         self._seen_moving = False
         self._stood_since: float | None = None
         self._is_still = bool(np.ptp(plan.trajectory.positions, axis=0).max() < _MOVED)
-
-    @property
-    def total(self) -> int:
-        """Points that were asked for."""
-        return len(self.plan.trajectory)
-
-    @property
-    def planned_seconds(self) -> float:
-        """Seconds that the controller is asked to take."""
-        return self.plan.total
-
-    @property
-    def goal(self) -> Array:
-        """The last point, rad or m in URDF order."""
-        last: Array = self.plan.trajectory.positions[-1]
-        return last
-
-    @property
-    def longest(self) -> float:
-        """Seconds that may pass without a sign of getting on: a plain driver gives none."""
-        return self.plan.total
 
     def step(self) -> None:
         """Look at the newest state; without PROGRESS at where the robot is."""
@@ -100,11 +85,11 @@ class Download(CommandedMotion):
         if self._stood_since is None:
             self._stood_since = now
         elapsed = now - self._began
-        if elapsed < self.plan.total - self.plan.durations[0] - _EARLY:
+        if elapsed < self.planned_seconds - self._first_duration - _EARLY:
             return
         if self._deviation(state) <= GOAL_TOLERANCE and (self._seen_moving or self._is_still):
             self._succeed()
-        elif elapsed > self.plan.total + _GRACE and now - self._stood_since > _GRACE:
+        elif elapsed > self.planned_seconds + _GRACE and now - self._stood_since > _GRACE:
             what = "stands elsewhere" if self._seen_moving else "never moved"
             found = fault(
                 "RG633",
@@ -134,7 +119,7 @@ class Download(CommandedMotion):
     @property
     def progress(self) -> Progress:
         """How far it is, now."""
-        total = len(self.plan.trajectory)
+        total = self.total
         told = self._told() if self.phase is not Phase.SENDING else None
         state = trajectory_state(told.state) if told is not None else None
         if told is not None and state is not None:
@@ -144,7 +129,7 @@ class Download(CommandedMotion):
                 told.received,
                 told.planned,
                 told.reached,
-                min(1.0, told.reached / len(self.plan.wire)),
+                min(1.0, told.reached / self.frames),
             )
         if self.result is not None:
             return Progress(TrajectoryState.DONE, total, fraction=1.0)
@@ -155,4 +140,4 @@ class Download(CommandedMotion):
             stopped = isinstance(self.error, MotionStopped)
             state = TrajectoryState.STOPPED if stopped else TrajectoryState.FAILED
         elapsed = self._state_port.clock() - self._began
-        return Progress(state, total, fraction=min(0.99, elapsed / max(self.plan.total, 1e-9)))
+        return Progress(state, total, fraction=min(0.99, elapsed / max(self.planned_seconds, 1e-9)))

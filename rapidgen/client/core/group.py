@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
-from rapidgen.client.errors import IncompatibleDriver, fault
+from rapidgen.client.errors import IncompatibleDriver
 from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
@@ -144,13 +144,11 @@ class Group:
     def require(self, hello: HelloReply) -> None:
         """Raise IncompatibleDriver when the driver was made for other joints."""
         if hello.mapping != self.mapping or hello.joint_count != len(self.joints):
-            raise IncompatibleDriver(
-                fault(
-                    "RG606",
-                    f"the driver on the controller has another joint map than '{self.name}'",
-                    "build and deploy this configuration, or connect with the one that is there",
-                    f"the driver has {hello.joint_count} joints, map {hello.mapping}, "
-                    f"BUILD_ID {hello.build_id}",
-                    f"the configuration has {len(self.joints)} joints, map {self.mapping}",
-                )
+            raise IncompatibleDriver.because(
+                "RG606",
+                f"the driver on the controller has another joint map than '{self.name}'",
+                "build and deploy this configuration, or connect with the one that is there",
+                f"the driver has {hello.joint_count} joints, map {hello.mapping}, "
+                f"BUILD_ID {hello.build_id}",
+                f"the configuration has {len(self.joints)} joints, map {self.mapping}",
             )

@@ -4,24 +4,20 @@ A driver that tells PROGRESS is believed: its states end a motion here. `Downloa
 that was sent whole) and `PointStream` (one that is sent while it is executed) add the rest.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum, auto
-from typing import Literal
 
-import numpy as np
-
+from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Progress, State
 from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
-from rapidgen.client.trajectory import Array, Trajectory
+from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState, TriState
-
-Way = Literal["download", "stream"]
-"""download: sent whole before anything moves; stream: sent while the robot moves."""
 
 _REASONS = {int(reason): reason for reason in Reason}
 
@@ -51,11 +47,12 @@ class Result:
     starved: int = 0
 
 
-class CommandedMotion:
+class CommandedMotion(ABC):
     """A motion from its first byte to its end. Its owner holds a lock or a loop."""
 
-    way: Way = "download"
+    way: Way
     starved = 0
+    """How often it ran out of points."""
 
     def __init__(self, group: Group, state_port: StatePort, silence: float) -> None:
         self.phase = Phase.SENDING
@@ -69,6 +66,14 @@ class CommandedMotion:
         """What was asked for in the robot's order of joints, where it was there as a whole."""
         self.warnings: Sequence[Diagnostic] = ()
         """What the checks noted."""
+        self.total = 0
+        """Points that were asked for, so far."""
+        self.planned_seconds = 0.0
+        """Seconds that the controller is asked to take, so far."""
+        self.longest = 0.0
+        """Seconds that may pass without a sign of getting on."""
+        self.goal: Sequence[float] = ()
+        """Axis values of the last point, rad or m."""
         self.stood: tuple[float, ...] | None = None
         """Joints where the controller says that the robot stood after a halt."""
         self._group = group
@@ -85,29 +90,9 @@ class CommandedMotion:
         return self.phase is Phase.OVER
 
     @property
-    def total(self) -> int:
-        """Points that were asked for, so far."""
-        raise NotImplementedError
-
-    @property
-    def planned_seconds(self) -> float:
-        """Seconds that the controller is asked to take, so far."""
-        raise NotImplementedError
-
-    @property
-    def goal(self) -> Array:
-        """The last point, rad or m in URDF order."""
-        raise NotImplementedError
-
-    @property
-    def longest(self) -> float:
-        """Seconds that may pass without a sign of getting on."""
-        raise NotImplementedError
-
-    @property
+    @abstractmethod
     def progress(self) -> Progress:
         """How far it is, now."""
-        raise NotImplementedError
 
     @property
     def mark(self) -> tuple[object, ...]:
@@ -150,19 +135,16 @@ class CommandedMotion:
         if silent <= self._silence:
             return False
         self.failed(
-            RobotTimeout(
-                fault(
-                    "RG603",
-                    f"no state for {silent:.1f} s while the robot may be moving",
-                    "look at the robot; a STOP was sent",
-                ),
-                messages=state_port.messages,
-                states=state_port.states,
+            RobotTimeout.because(
+                "RG603",
+                f"no state for {silent:.1f} s while the robot may be moving",
+                "look at the robot; a STOP was sent",
+                **state_port.evidence(),
             )
         )
         return True
 
-    def _told(self) -> messages.Progress | None:
+    def _told(self) -> messages.ProgressReport | None:
         """PROGRESS of this very trajectory.
 
         Its number and state are written by one task of the controller and read by another: what
@@ -179,7 +161,7 @@ class CommandedMotion:
         before = self._before.trajectory if self._before else 0
         return progress if progress.trajectory != before else None
 
-    def _by_progress(self, told: messages.Progress) -> None:
+    def _by_progress(self, told: messages.ProgressReport) -> None:
         match told.state:
             case TrajectoryState.DONE:
                 if self._state_port.status.in_motion is not TriState.TRUE:
@@ -211,7 +193,8 @@ class CommandedMotion:
         return told.reached if told is not None else None
 
     def _deviation(self, state: State) -> float:
-        return float(np.abs(np.array(state.joints) - self.goal).max())
+        goal = self._group.from_wire(self.goal)
+        return max(abs(a - b) for a, b in zip(state.joints, goal, strict=True))
 
     def _succeed(self) -> None:
         state = self._state_port.state
@@ -236,7 +219,6 @@ class CommandedMotion:
         point: int = -1,
         joint: int = 0,
     ) -> None:
-        state_port = self._state_port
         self.failed(
             kind(
                 diagnostic,
@@ -244,8 +226,7 @@ class CommandedMotion:
                 reached=self._reached(),
                 point=point,
                 joint=joint,
-                messages=state_port.messages,
-                states=state_port.states,
+                **self._state_port.evidence(),
             )
         )
 

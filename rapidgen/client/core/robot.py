@@ -6,21 +6,27 @@ Its owner holds a lock (sync) or a loop (async) and moves the bytes.
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TypedDict
 
 from rapidgen import __version__
-from rapidgen.client.core.checks import CheckedTrajectory, fits_a_stream, plan
+from rapidgen.client.core.checks import (
+    CheckedPoints,
+    CheckedTrajectory,
+    Way,
+    check_points,
+    check_trajectory,
+    to_stream,
+)
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
-from rapidgen.client.core.motion import Way, place_of, reason_of, reason_text
+from rapidgen.client.core.motion import place_of, reason_of, reason_text
 from rapidgen.client.core.request_port import PendingReply, RequestPort
-from rapidgen.client.core.state import State
-from rapidgen.client.core.state_port import StatePort
+from rapidgen.client.core.state_port import Evidence, StatePort
 from rapidgen.client.core.stream import PointStream
 from rapidgen.client.errors import (
     ConnectionLost,
     NotReady,
+    NotSupported,
     ProtocolError,
     RobotError,
     RobotTimeout,
@@ -31,7 +37,7 @@ from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message import ContentError, FramingError, decode, encode, messages
 from rapidgen.wire.simple_message.codec import number_of
 from rapidgen.wire.simple_message.declaration import Content
-from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, POINTS
+from rapidgen.wire.simple_message.messages import HEARTBEAT, JOINT_TRAJ_PT, POINTS, batch_points
 from rapidgen.wire.simple_message.spec import (
     INDEX_WRAP,
     MAX_JOINTS,
@@ -49,13 +55,6 @@ STOP_FRAME = encode(
 _SIMULATION = 1.2
 """Pace beyond which a clock is no controller's."""
 _SLACK = 3
-
-
-class Evidence(TypedDict):
-    """What every RobotError carries."""
-
-    messages: tuple[tuple[float, str], ...]
-    states: tuple[State, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -218,7 +217,7 @@ class Core:
 
     def disconnected(self) -> RobotError:
         """Why there is no connection."""
-        return self.fault or ConnectionLost(fault("RG602", "not connected", "connect()"))
+        return self.fault or ConnectionLost.because("RG602", "not connected", "connect()")
 
     def poll(self) -> None:
         """Let what is under way look at the newest state and at the clock."""
@@ -227,12 +226,10 @@ class Core:
             return
         if not run.is_over and self.heartbeat.is_late(self.clock()):
             run.failed(
-                RobotTimeout(
-                    fault(
-                        "RG603",
-                        "the control port does not answer any more while the robot may be moving",
-                        "a STOP was sent; look at the robot",
-                    ),
+                RobotTimeout.because(
+                    "RG603",
+                    "the control port does not answer any more while the robot may be moving",
+                    "a STOP was sent; look at the robot",
                     **self.evidence(),
                 )
             )
@@ -278,7 +275,7 @@ class Core:
             # A stall of this machine shortens the time by so much more; no robot is in danger.
             pace *= _SLACK
         self.heartbeat.sent(now, timeout, self.ports[Port.CONTROL].request(HEARTBEAT.number))
-        return encode(messages.Heartbeat(timeout * max(1.0, pace)), Comm.REQUEST)
+        return encode(messages.HeartbeatRequest(timeout * max(1.0, pace)), Comm.REQUEST)
 
     def post(self, content: Content) -> PendingReply:
         """A request for the control port; it goes out next."""
@@ -317,7 +314,7 @@ class Core:
 
     def evidence(self) -> Evidence:
         """The last messages and states, for an exception."""
-        return {"messages": self.state_port.messages, "states": self.state_port.states}
+        return self.state_port.evidence()
 
     def without_control(self, why: str) -> None:
         """There is no control connection, though the driver has the port."""
@@ -328,7 +325,7 @@ class Core:
         """The request that asks who is there."""
         wanted = int(self.subscribe) if subscribe else 0
         major, minor, patch = (int(part) for part in __version__.split(".")[:3])
-        asked = messages.Hello(PROTOCOL_VERSION, (major, minor, patch), wanted)
+        asked = messages.HelloRequest(PROTOCOL_VERSION, (major, minor, patch), wanted)
         return encode(asked, Comm.REQUEST)
 
     @property
@@ -341,6 +338,12 @@ class Core:
         return min(PLAIN_CAPACITY, self._group.policy.capacity if self._group else PLAIN_CAPACITY)
 
     @property
+    def batch(self) -> int:
+        """Points that go well together."""
+        hello = self.state_port.driver.hello
+        return hello.batch if hello is not None and hello.batch > 0 else batch_points(MAX_JOINTS)
+
+    @property
     def can_stream(self) -> bool:
         """Whether the driver takes points while it executes those before."""
         hello = self.state_port.driver.hello
@@ -348,25 +351,41 @@ class Core:
             hello is not None and Feature.STREAMING in Feature(hello.features) and hello.batch > 0
         )
 
-    def way_for(self, trajectory: Trajectory) -> Way:
-        """How a trajectory goes to the controller when nobody says: one that the ring does not
-        hold is streamed, so that motion need not wait for the last point."""
-        hello = self.state_port.driver.hello
-        if not self.can_stream or hello is None or len(trajectory) <= hello.ring:
-            return "download"
-        return "stream" if fits_a_stream(self.plan(trajectory)) else "download"
+    def require_streaming(self) -> None:
+        """Raise NotSupported where the driver takes no points while the robot moves."""
+        if not self.can_stream:
+            raise NotSupported.because(
+                "RG624",
+                "the driver does not take points while the robot moves",
+                "send the trajectory as a whole, or build and deploy a driver that streams",
+            )
 
-    def plan(self, trajectory: Trajectory, way: Way | None = None) -> CheckedTrajectory:
-        """Check a trajectory: for `download` it must be no longer than the driver holds.
+    def check(
+        self, trajectory: Trajectory, way: Way | None = None
+    ) -> CheckedTrajectory | CheckedPoints:
+        """Check a trajectory, once: what goes by `download`, or the points of a stream.
 
-        Raises InvalidTrajectory, NotReady (no state yet).
+        When nobody says the way, one that the driver's ring does not hold is streamed, so that
+        motion need not wait for the last point. Raises InvalidTrajectory, NotReady (no state
+        yet), NotSupported (no driver that streams).
         """
-        ends = way == "download" or not self.can_stream
-        return plan(
+        if way == "stream":
+            self.require_streaming()
+            return check_points(trajectory, self.known_group, before=None, start=self.start)
+        hello = self.state_port.driver.hello
+        fits = hello is None or len(trajectory) <= hello.ring
+        if way == "download" or fits or not self.can_stream:
+            return self.check_whole(trajectory)
+        whole = self.check_whole(trajectory, len(trajectory))
+        return to_stream(whole, self.known_group, self.capacity)
+
+    def check_whole(self, trajectory: Trajectory, capacity: int | None = None) -> CheckedTrajectory:
+        """Check what goes by download. Raises InvalidTrajectory, NotReady."""
+        return check_trajectory(
             trajectory,
             self.known_group,
             start=self.start,
-            capacity=self.capacity if ends else len(trajectory),
+            capacity=self.capacity if capacity is None else capacity,
             goes_to_single=self.state_port.driver.is_rapidgen,
         )
 
@@ -399,33 +418,39 @@ class Core:
         return [text for is_so, text in pairs if is_so]
 
     def ready(self) -> None:
-        """Raise NotReady when the robot says that it cannot move, or moves already."""
+        """Raise NotReady when the robot says that it cannot move, or moves already; or why there
+        is no connection to move it over."""
+        if not self.ports[Port.MOTION].is_open:
+            raise self.disconnected()
         if self.motion is not None and not self.motion.is_over:
-            raise NotReady(
-                fault("RG622", "a trajectory is under way", "wait for its result, or stop()")
+            raise NotReady.because(
+                "RG622", "a trajectory is under way", "wait for its result, or stop()"
             )
         hindrances = self.hindrances()
         if hindrances:
             text = "; ".join(hindrances)
-            raise NotReady(
-                fault("RG621", f"the robot cannot move: {text}", "mend that at the robot"),
+            raise NotReady.because(
+                "RG621",
+                f"the robot cannot move: {text}",
+                "mend that at the robot",
                 **self.evidence(),
             )
 
-    def begin(self, plan: CheckedTrajectory) -> Download:
-        """A run of this plan, from now on the one under way."""
-        self.motion = Download(
-            plan, self.known_group, self.state_port, silence=self.timeouts.silence
-        )
+    def begin(self, checked: CheckedTrajectory) -> Download:
+        """The motion by this trajectory, from now on the one under way."""
         self.override = 1.0
-        return self.motion
+        self.motion = motion = Download(
+            checked, self.known_group, self.state_port, silence=self.timeouts.silence
+        )
+        return motion
 
-    def begin_stream(self) -> PointStream:
-        """A stream, from now on the motion under way."""
+    def begin_stream(self, checked: CheckedPoints) -> PointStream:
+        """A stream that has these points first, from now on the motion under way."""
         hello = self.state_port.driver.hello
         assert hello is not None
         self._streams = self._streams % (INDEX_WRAP - 1) + 1
-        self.motion = PointStream(
+        self.override = 1.0
+        self.motion = motion = PointStream(
             self._streams,
             hello,
             self.known_group,
@@ -433,8 +458,9 @@ class Core:
             silence=self.timeouts.silence,
             reply=self.timeouts.reply,
         )
-        self.override = 1.0
-        return self.motion
+        motion.warnings = checked.warnings
+        motion.put(checked)
+        return motion
 
     def answered(self, run: Download, reply: Content) -> None:
         """The reply to the end frame has come: accepted, or TrajectoryRefused is raised."""
@@ -455,8 +481,10 @@ class Core:
             point, joint = reply.point, reply.joint
             reason, text = reason_of(reply.reason), reason_text(reply.reason)
         where = place_of(self.known_group, point, joint)
-        return TrajectoryRefused(
-            fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
+        return TrajectoryRefused.because(
+            "RG620",
+            f"the controller refused{where}: {text}",
+            "nothing moved",
             reason=reason,
             point=point,
             joint=joint,
@@ -471,4 +499,4 @@ class Core:
 
 
 def _unknown() -> NotReady:
-    return NotReady(fault("RG621", "the robot has not told where it stands", "connect first"))
+    return NotReady.because("RG621", "the robot has not told where it stands", "connect first")

@@ -174,7 +174,7 @@ def tri_state(value: int) -> TriState:
     return TriState(value) if value in (0, 1) else TriState.UNKNOWN
 
 
-def status_of(raw: messages.Status, driver: Driver) -> Status:
+def status_of(raw: messages.StatusReport, driver: Driver) -> Status:
     """STATUS with enums. Only a rapidgen driver's error_code is a reason."""
     error, joint = split_error_code(raw.error_code) if driver.is_rapidgen else (None, 0)
     return Status(

@@ -6,6 +6,7 @@ A State is made only when somebody looks: one hundred robots are watched by one 
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypedDict
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import (
@@ -41,13 +42,20 @@ class Sample:
     joints: tuple[float, ...]
 
 
+class Evidence(TypedDict):
+    """What every RobotError carries."""
+
+    messages: tuple[tuple[float, str], ...]
+    states: tuple[State, ...]
+
+
 class StatePort:
     """The state side of one robot. Not thread-safe: its owner holds a lock or a loop."""
 
     def __init__(self, clock: Callable[[], float]) -> None:
         self.clock = clock
         self.driver = Driver()
-        self.progress: messages.Progress | None = None
+        self.progress: messages.ProgressReport | None = None
         self.hello: messages.HelloReply | messages.HelloRefusal | None = None
         self.samples = 0
         self.progresses = 0
@@ -66,7 +74,7 @@ class StatePort:
         self._splitter = FrameSplitter()
         self._recent: deque[Sample] = deque(maxlen=KEPT_STATES)
         self._times: deque[float] = deque(maxlen=_RATE_WINDOW)
-        self._status: messages.Status | None = None
+        self._status: messages.StatusReport | None = None
         self._log: deque[tuple[float, Frame | str]] = deque(maxlen=KEPT_MESSAGES)
         self._state: State | None = None
 
@@ -118,14 +126,14 @@ class StatePort:
                 self._times.append(now)
                 for listener in self.listeners:
                     listener(sample)
-            case messages.Status():
+            case messages.StatusReport():
                 self._status = content
-            case messages.Progress():
+            case messages.ProgressReport():
                 self.progress = content
                 self.progresses += 1
             case messages.JointFeedback():
                 self._fed(content, now)
-            case messages.Event():
+            case messages.EventReport():
                 self.event_count += 1
                 self.events.append(_event(content, now, self.event_count))
             case messages.HelloReply():
@@ -222,6 +230,10 @@ class StatePort:
         """The last messages as (time, text), oldest first."""
         return tuple((time, _text(entry)) for time, entry in self._log)
 
+    def evidence(self) -> Evidence:
+        """The last messages and states, for an exception."""
+        return {"messages": self.messages, "states": self.states}
+
     def note(self, text: str) -> None:
         """Keep a line beside the messages."""
         self._log.append((self.clock(), text))
@@ -257,7 +269,7 @@ class StatePort:
         return tuple((a - b) / span for a, b in zip(now, then, strict=True))
 
 
-def _event(content: messages.Event, now: float, number: int) -> Event:
+def _event(content: messages.EventReport, now: float, number: int) -> Event:
     if content.domain == 0:
         title = f"{content.number} events were not told"
         return Event(now, 0, EventType.WARNING, title, number)

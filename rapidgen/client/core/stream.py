@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rapidgen.client.core.checks import CheckedPoints, LastPoint
+from rapidgen.client.core.checks import CheckedPoints
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.motion import CommandedMotion, Way, place_of, reason_of, reason_text
+from rapidgen.client.core.motion import CommandedMotion, place_of, reason_of, reason_text
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.state import Progress, trajectory_state
 from rapidgen.client.core.state_port import StatePort
@@ -20,9 +20,7 @@ from rapidgen.client.errors import (
     ProtocolError,
     RobotTimeout,
     TrajectoryRefused,
-    fault,
 )
-from rapidgen.client.trajectory import Array
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.bulk import Words, pack_points, points_frame
 from rapidgen.wire.simple_message.declaration import Content
@@ -41,7 +39,7 @@ class _Flight:
 class PointStream(CommandedMotion):
     """A stream from its first point to its end."""
 
-    way: Way = "stream"
+    way = "stream"
 
     def __init__(
         self,
@@ -66,7 +64,6 @@ class PointStream(CommandedMotion):
         self._patience = reply
         self._queue: deque[Words] = deque()
         self._no_points = pack_points(np.zeros(0), np.zeros((0, len(group.names))))
-        self._total = 0
         self._sent = 0
         self._accepted = 0
         self._planned = 0
@@ -82,40 +79,11 @@ class PointStream(CommandedMotion):
         """Whether the controller was told to start with a full ring, and it has not yet."""
         self._end_is_sent = False
         self._state = TrajectoryState.RECEIVING
-        self._seconds = 0.0
-        self._longest = 0.0
-        self._last: LastPoint | None = None
-
-    @property
-    def total(self) -> int:
-        """Points that the caller gave."""
-        return self._total
-
-    @property
-    def planned_seconds(self) -> float:
-        """Seconds of these points."""
-        return self._seconds
-
-    @property
-    def goal(self) -> Array:
-        """The last point, rad or m in URDF order."""
-        assert self._last is not None
-        return np.array(self._group.from_wire(self._last.wire.tolist()))
-
-    @property
-    def longest(self) -> float:
-        """Seconds of the longest segment: so long nothing need be reached."""
-        return self._longest
-
-    @property
-    def last(self) -> LastPoint | None:
-        """What the next points go on from."""
-        return self._last
 
     @property
     def backlog(self) -> int:
         """Points that wait here for room at the controller."""
-        return self._total - self._sent
+        return self.total - self._sent
 
     @property
     def is_paused(self) -> bool:
@@ -127,10 +95,10 @@ class PointStream(CommandedMotion):
     def put(self, piece: CheckedPoints) -> None:
         """Points to be sent, checked before."""
         self._queue.append(pack_points(piece.durations, piece.wire))
-        self._last = piece.last
-        self._total += len(piece.wire)
-        self._seconds += float(piece.durations.sum())
-        self._longest = max(self._longest, float(piece.durations.max()))
+        self.goal = piece.last.wire.tolist()
+        self.total += len(piece.wire)
+        self.planned_seconds += float(piece.durations.sum())
+        self.longest = max(self.longest, float(piece.durations.max()))
 
     def flush(self) -> None:
         """The controller shall start with what it has, once all points are there."""
@@ -204,14 +172,11 @@ class PointStream(CommandedMotion):
         waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
         if waited > self._patience:
             self.failed(
-                RobotTimeout(
-                    fault(
-                        "RG603",
-                        f"the controller did not answer a batch of points within {waited:.1f} s",
-                        "a STOP was sent; look at the robot",
-                    ),
-                    messages=self._state_port.messages,
-                    states=self._state_port.states,
+                RobotTimeout.because(
+                    "RG603",
+                    f"the controller did not answer a batch of points within {waited:.1f} s",
+                    "a STOP was sent; look at the robot",
+                    **self._state_port.evidence(),
                 )
             )
             return
@@ -232,14 +197,11 @@ class PointStream(CommandedMotion):
                 self._refused(reply, 0, -1, 0, 0)
             case _:
                 self.failed(
-                    ProtocolError(
-                        fault(
-                            "RG604",
-                            f"a batch of points was answered with {reply}",
-                            "a STOP was sent; look at the robot",
-                        ),
-                        messages=self._state_port.messages,
-                        states=self._state_port.states,
+                    ProtocolError.because(
+                        "RG604",
+                        f"a batch of points was answered with {reply}",
+                        "a STOP was sent; look at the robot",
+                        **self._state_port.evidence(),
                     )
                 )
 
@@ -261,17 +223,18 @@ class PointStream(CommandedMotion):
         text = reason_text(reason) if reason else "no reason given"
         where = place_of(self._group, point, joint)
         self.failed(
-            TrajectoryRefused(
-                fault("RG620", f"the controller refused{where}: {text}", "nothing moved"),
+            TrajectoryRefused.because(
+                "RG620",
+                f"the controller refused{where}: {text}",
+                "nothing moved",
                 reason=reason_of(reason),
                 point=point,
                 joint=joint,
-                messages=self._state_port.messages,
-                states=self._state_port.states,
+                **self._state_port.evidence(),
             )
         )
 
-    def _by_progress(self, told: messages.Progress) -> None:
+    def _by_progress(self, told: messages.ProgressReport) -> None:
         if self._state_port.progresses != self._looked_at:
             self._looked_at = self._state_port.progresses
             self._counts(told.planned, told.reached)
@@ -322,8 +285,8 @@ class PointStream(CommandedMotion):
         elif self.error is not None:
             state = TrajectoryState.FAILED
         reached = self._reached_points
-        share = reached / self._total if self._total else 0.0
-        return Progress(state, self._total, self._accepted, self._planned, reached, share)
+        share = reached / self.total if self.total else 0.0
+        return Progress(state, self.total, self._accepted, self._planned, reached, share)
 
 
 def unwrapped(count: int, near: int) -> int:

@@ -1,4 +1,4 @@
-"""Connecting, and finding out who is there, as generators run by both clients (see `effects`)."""
+"""Connecting, and finding out who is there."""
 
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.robot import Core
@@ -6,10 +6,10 @@ from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
     IncompatibleDriver,
+    RobotError,
     RobotTimeout,
-    fault,
 )
-from rapidgen.client.flows.effects import Close, Flow, Open, Send, Wait
+from rapidgen.client.flows.effects import INTERRUPTIONS, Close, Flow, HangUp, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.messages import HELLO
 from rapidgen.wire.simple_message.spec import MAX_JOINTS, PROTOCOL_VERSION, Feature, Port
@@ -19,7 +19,15 @@ _RETRY = 0.5
 
 
 def connect(core: Core) -> Flow[None]:
-    """Open the connections and find out who is there."""
+    """Connect and find out who is there; what stands of the connections if that fails is closed."""
+    try:
+        yield from _open(core)
+    except (RobotError, *INTERRUPTIONS):
+        yield HangUp()
+        raise
+
+
+def _open(core: Core) -> Flow[None]:
     core.fault = None
     limits = core.timeouts
     yield Open(Port.STATE, limits.connect)
@@ -31,12 +39,10 @@ def connect(core: Core) -> Flow[None]:
     if not core.state_open:
         raise core.disconnected()
     if not came:
-        raise RobotTimeout(
-            fault(
-                "RG603",
-                f"connected, but no joints and status came within {limits.state:g} s",
-                "is the state server's task running?",
-            ),
+        raise RobotTimeout.because(
+            "RG603",
+            f"connected, but no joints and status came within {limits.state:g} s",
+            "is the state server's task running?",
             **core.evidence(),
         )
     if not core.plain:
@@ -55,17 +61,17 @@ def _meet_control(core: Core) -> Flow[None]:
     trouble = "another driver answers on the control port"
     try:
         yield Open(Port.CONTROL, core.timeouts.connect)
-        talk = core.ports[Port.CONTROL]
-        pending = talk.request(HELLO.number)
+        control = core.ports[Port.CONTROL]
+        pending = control.request(HELLO.number)
         yield Send(Port.CONTROL, core.hello(subscribe=False), core.timeouts.send)
-        yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.hello)
+        yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.hello)
         known, told = core.state_port.hello, pending.reply
         assert isinstance(known, messages.HelloReply)
         if isinstance(told, messages.HelloReply) and told.same_driver(known):
             return
         if told is None:
             trouble = "nobody answers on the control port"
-        if talk.is_open:
+        if control.is_open:
             yield Close(Port.CONTROL)
     except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
         trouble = str(error)
@@ -75,13 +81,10 @@ def _meet_control(core: Core) -> Flow[None]:
 def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None) -> None:
     """Versions and joint maps must fit; without a configuration the driver's word counts."""
     if hello is not None and hello.protocol != PROTOCOL_VERSION:
-        raise IncompatibleDriver(
-            fault(
-                "RG605",
-                f"the driver speaks protocol version {hello.protocol}, this client "
-                f"{PROTOCOL_VERSION}",
-                "build and deploy the driver again with this rapidgen",
-            ),
+        raise IncompatibleDriver.because(
+            "RG605",
+            f"the driver speaks protocol version {hello.protocol}, this client {PROTOCOL_VERSION}",
+            "build and deploy the driver again with this rapidgen",
             **core.evidence(),
         )
     if isinstance(hello, messages.HelloReply):
@@ -89,8 +92,8 @@ def _meet(core: Core, hello: messages.HelloReply | messages.HelloRefusal | None)
             core.configured.require(hello)
             core.use(core.configured.narrowed(hello))
         elif not 1 <= hello.joint_count <= MAX_JOINTS:
-            raise IncompatibleDriver(
-                fault("RG605", f"the driver tells {hello.joint_count} joints"), **core.evidence()
+            raise IncompatibleDriver.because(
+                "RG605", f"the driver tells {hello.joint_count} joints", **core.evidence()
             )
         else:
             core.use(Group.told(hello))
@@ -107,7 +110,7 @@ def alive(core: Core, *, to_move: bool = False) -> Flow[None]:
     deadline = core.clock() + core.reconnect
     while True:
         try:
-            yield from connect(core)
+            yield from _open(core)
             return
         except (ConnectionFailed, ConnectionLost, RobotTimeout) as error:
             if core.clock() + _RETRY >= deadline:

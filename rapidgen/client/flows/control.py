@@ -1,8 +1,8 @@
-"""What goes over the control port, as generators run by both clients (see `effects`)."""
+"""What goes over the control port."""
 
 from rapidgen.client.core.motion import reason_of, reason_text
 from rapidgen.client.core.robot import Core
-from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout, fault
+from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.diagnostics import suggest
@@ -11,28 +11,42 @@ from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.spec import Feature, Port
 
 
-def pause(core: Core, paused: bool) -> Flow[None]:
-    """Hold what moves on its path, or let it go on."""
-    yield from _ask(core, messages.Pause(int(paused)), "pause" if paused else "go on")
+def pause(core: Core) -> Flow[None]:
+    """Hold what moves on its path. Raises NotSupported, RequestRefused, RobotTimeout."""
+    yield from _ask(core, messages.PauseRequest(1), "pause")
 
 
-def speed(core: Core, percent: float) -> Flow[None]:
-    """The share of the programmed speed of what moves."""
+def resume(core: Core) -> Flow[None]:
+    """Go on behind a pause. Raises as `pause`."""
+    yield from _ask(core, messages.PauseRequest(0), "go on")
+
+
+def set_speed(core: Core, percent: float) -> Flow[None]:
+    """Go at 1 to 100 % of the programmed speed, until the next motion. Raises as `pause`."""
     if not 1 <= percent <= 100:
         raise ValueError(f"percent must be 1 to 100, not {percent}")
-    yield from _ask(core, messages.Speed(percent), f"go at {percent:g} %")
+    yield from _ask(core, messages.SpeedRequest(percent), f"go at {percent:g} %")
     core.override = percent / 100
 
 
-def signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
-    """Read a signal, or write it; the value as it was read then."""
+def read_signal(core: Core, signal: str | int) -> Flow[float]:
+    """A signal that the configuration exposes, by name or number. Raises as `pause`."""
+    return (yield from _signal(core, signal, None))
+
+
+def write_signal(core: Core, signal: str | int, value: float) -> Flow[float]:
+    """Set a signal; the value as it was read then. Raises as `pause`."""
+    return (yield from _signal(core, signal, value))
+
+
+def _signal(core: Core, which: str | int, value: float | None) -> Flow[float]:
     index = _index(core, which, writes=value is not None)
-    asked = messages.Signal(index, int(value is not None), value or 0.0)
+    asked = messages.SignalRequest(index, int(value is not None), value or 0.0)
     what = "read" if value is None else "write"
     reply = yield from _ask(core, asked, f"{what} signal {which}")
     if not isinstance(reply, messages.SignalReply) or reply.signal != index:
-        raise RequestRefused(
-            fault("RG625", f"signal {which} was answered with {reply}"), **core.evidence()
+        raise RequestRefused.because(
+            "RG625", f"signal {which} was answered with {reply}", **core.evidence()
         )
     return reply.value
 
@@ -43,21 +57,17 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
     names = [signal.name for signal in signals]
     if isinstance(which, str):
         if which not in names:
-            raise NotSupported(
-                fault(
-                    "RG624",
-                    f"the configuration exposes no signal '{which}'",
-                    suggest(which, names) or f"it exposes: {', '.join(names) or 'none'}",
-                )
+            raise NotSupported.because(
+                "RG624",
+                f"the configuration exposes no signal '{which}'",
+                suggest(which, names) or f"it exposes: {', '.join(names) or 'none'}",
             )
         which = names.index(which)
     if writes and which < len(signals) and signals[which].access == "read":
-        raise NotSupported(
-            fault(
-                "RG624",
-                f"signal '{names[which]}' is exposed for reading only",
-                "`access: write` in the configuration; build and deploy again",
-            )
+        raise NotSupported.because(
+            "RG624",
+            f"signal '{names[which]}' is exposed for reading only",
+            "`access: write` in the configuration; build and deploy again",
         )
     return which
 
@@ -65,40 +75,34 @@ def _index(core: Core, which: str | int, *, writes: bool) -> int:
 def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
     """A request over the control port and its reply."""
     yield from alive(core)
-    talk = core.ports[Port.CONTROL]
-    if not talk.is_open:
+    control = core.ports[Port.CONTROL]
+    if not control.is_open:
         has_port = Feature.CONTROL in core.state_port.driver.features
         why = core.state_port.driver.control_fault or "it was lost"
-        raise NotSupported(
-            fault(
-                "RG624",
-                f"cannot {what}: "
-                + (
-                    f"no control connection ({why})"
-                    if has_port
-                    else "the driver has no control port"
-                ),
-                "connect again" if has_port else "`ports.control` in the configuration",
-            )
+        raise NotSupported.because(
+            "RG624",
+            f"cannot {what}: "
+            + (f"no control connection ({why})" if has_port else "the driver has no control port"),
+            "connect again" if has_port else "`ports.control` in the configuration",
         )
     pending = core.post(content)
-    yield Wait(lambda: pending.reply is not None or not talk.is_open, core.timeouts.reply)
+    yield Wait(lambda: pending.reply is not None or not control.is_open, core.timeouts.reply)
     reply = pending.reply
     if reply is None:
-        if not talk.is_open:
+        if not control.is_open:
             raise core.disconnected()
-        raise RobotTimeout(
-            fault("RG603", f"no reply to the request to {what}", "look at the controller"),
+        raise RobotTimeout.because(
+            "RG603",
+            f"no reply to the request to {what}",
+            "look at the controller",
             **core.evidence(),
         )
     if isinstance(reply, messages.NotDone | messages.Failure):
         number = reply.reason if isinstance(reply, messages.NotDone) else 0
-        raise RequestRefused(
-            fault(
-                "RG625",
-                f"the controller did not {what}: "
-                f"{reason_text(number) if number else 'no reason given'}",
-            ),
+        raise RequestRefused.because(
+            "RG625",
+            f"the controller did not {what}: "
+            f"{reason_text(number) if number else 'no reason given'}",
             reason=reason_of(number) if number else None,
             **core.evidence(),
         )

@@ -9,7 +9,7 @@ interruption is thrown in; flows that wait for a motion answer it with a STOP.
 from asyncio import CancelledError
 from collections.abc import Callable, Generator
 from dataclasses import dataclass
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from rapidgen.client.core.motion import CommandedMotion
 from rapidgen.wire.simple_message.spec import Port
@@ -30,19 +30,19 @@ class Open:
 class Send:
     """Send bytes: `urgent` ones at the next frame boundary, ahead of whatever is being sent.
 
-    Points of a `run` are cut short, by MotionStopped, once somebody asked it to stop.
+    Points of a `motion` are cut short, by MotionStopped, once somebody asked it to stop.
     """
 
     port: Port
     data: bytes
     timeout: float
     urgent: bool = False
-    run: CommandedMotion | None = None
+    motion: CommandedMotion | None = None
 
     @property
     def is_stopped(self) -> bool:
         """Whether these points must not be sent any more."""
-        return self.run is not None and self.run.stopping
+        return self.motion is not None and self.motion.stopping
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,5 +60,10 @@ class Close:
     port: Port
 
 
-Effect = Open | Send | Wait | Close
-Flow = Generator[Effect, Any, T]
+@dataclass(frozen=True, slots=True)
+class HangUp:
+    """Close all connections."""
+
+
+Effect = Open | Send | Wait | Close | HangUp
+Flow = Generator[Effect, bool | None, T]

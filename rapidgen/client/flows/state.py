@@ -1,19 +1,23 @@
-"""Waiting for what the state port tells, as generators run by both clients (see `effects`)."""
+"""Waiting for what the state port tells."""
 
 from collections.abc import Callable
 
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import Event, Feedback, State
-from rapidgen.client.errors import NotSupported, RobotTimeout, fault
+from rapidgen.client.errors import NotSupported, RobotTimeout
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.wire.simple_message.spec import Feature
 
 
-def wait_until(
+def wait_until(core: Core, condition: Callable[[State], bool], timeout: float) -> Flow[State]:
+    """The first state for which `condition` holds. Raises RobotTimeout, ConnectionLost."""
+    return (yield from _until(core, condition, timeout, "what was waited for"))
+
+
+def _until(
     core: Core, condition: Callable[[State], bool], timeout: float, what: str
 ) -> Flow[State]:
-    """The first state, from now on, for which the condition holds."""
     yield from alive(core)
     state_port = core.state_port
     found: list[State] = []
@@ -29,24 +33,26 @@ def wait_until(
         return found[0]
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout(
-        fault("RG603", f"{what} did not come within {timeout:g} s"), **core.evidence()
+    raise RobotTimeout.because(
+        "RG603", f"{what} did not come within {timeout:g} s", **core.evidence()
     )
 
 
-def next_state(core: Core, timeout: float | None) -> Flow[State]:
-    """The state of the next joint message."""
+def next_state(core: Core, timeout: float | None = None) -> Flow[State]:
+    """The state of the next joint message. Raises RobotTimeout, ConnectionLost."""
     yield from alive(core)
     seen = core.state_port.samples
     patience = core.timeouts.state if timeout is None else timeout
-    return (
-        yield from wait_until(core, lambda state: state.number > seen, patience, "the next state")
-    )
+    return (yield from _until(core, lambda state: state.number > seen, patience, "the next state"))
 
 
-def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[Event]:
-    """The next entry of the controller's log, or the one behind `after`; without a time-out as
-    long as there is a link."""
+def next_event(
+    core: Core, timeout: float | None = None, *, after: Event | None = None
+) -> Flow[Event]:
+    """The next entry of the controller's log, or the one behind `after`.
+
+    Without a time-out it waits as long as there is a link. Raises RobotTimeout, ConnectionLost.
+    """
     yield from alive(core)
     state_port = core.state_port
     seen = state_port.event_count if after is None else after.number
@@ -57,20 +63,21 @@ def next_event(core: Core, timeout: float | None, after: Event | None) -> Flow[E
         return found[0]
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout(fault("RG603", f"no event came within {timeout:g} s"), **core.evidence())
+    raise RobotTimeout.because("RG603", f"no event came within {timeout:g} s", **core.evidence())
 
 
-def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
-    """The next joints with the controller's time."""
+def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
+    """The next joints with the controller's time.
+
+    Raises NotSupported where nobody sends them, RobotTimeout, ConnectionLost.
+    """
     yield from alive(core)
     state_port = core.state_port
     if Feature.FEEDBACK not in state_port.driver.features & core.subscribe:
-        raise NotSupported(
-            fault(
-                "RG624",
-                "the driver sends no feedback with the controller's time",
-                "Robot(..., feedback=True) asks for it, where the driver has it",
-            )
+        raise NotSupported.because(
+            "RG624",
+            "the driver sends no feedback with the controller's time",
+            "Robot(..., feedback=True) asks for it, where the driver has it",
         )
     seen = state_port.feedbacks
     limit = core.timeouts.state if timeout is None else timeout
@@ -80,4 +87,4 @@ def next_feedback(core: Core, timeout: float | None) -> Flow[Feedback]:
         return feedback
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout(fault("RG603", f"no feedback came within {limit:g} s"), **core.evidence())
+    raise RobotTimeout.because("RG603", f"no feedback came within {limit:g} s", **core.evidence())

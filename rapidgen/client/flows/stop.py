@@ -1,4 +1,4 @@
-"""STOP, as generators run by both clients (see `effects`)."""
+"""STOP, and the end."""
 
 from rapidgen.client.core.motion import CommandedMotion, Phase
 from rapidgen.client.core.request_port import PendingReply
@@ -10,9 +10,8 @@ from rapidgen.client.errors import (
     RobotError,
     RobotTimeout,
     StopFailed,
-    fault,
 )
-from rapidgen.client.flows.effects import Flow, Open, Send, Wait
+from rapidgen.client.flows.effects import Flow, HangUp, Open, Send, Wait
 from rapidgen.wire.simple_message import messages
 from rapidgen.wire.simple_message.spec import Port, TriState
 
@@ -24,8 +23,8 @@ _STILL_SAMPLES = 5
 
 def stop_and_leave(core: Core) -> Flow[None]:
     """Write a STOP on every connection for it; nobody waits for the answer."""
-    for port, talk in core.ports.items():
-        if not talk.is_open:
+    for port, link in core.ports.items():
+        if not link.is_open:
             continue
         try:
             yield from _send_stop(core, port)
@@ -44,14 +43,16 @@ def _send_stop(core: Core, port: Port) -> Flow[PendingReply]:
 def stop(core: Core) -> Flow[State | None]:
     """Stop at once, whatever else is under way; the state in which the robot stands.
 
-    Over the control port where there is one, which no point delays; and over the motion port
-    when what was sent there is not all answered: it may be read after the STOP. Connects to the
-    motion port when there is no connection, and to the control port when that fails. None
-    without a state connection (then nobody saw it stand). Raises StopFailed.
+    STOP is written before anything is waited for. Without a connection the motion port alone is
+    opened, nobody sees the robot stand, and None is returned. Raises StopFailed: use the
+    emergency stop.
     """
-    run = core.motion
-    talks = core.ports
-    control = talks[Port.CONTROL]
+    # Over the control port where there is one, which no point delays; and over the motion port
+    # when what was sent there is not all answered: it may be read after the STOP. Where the
+    # motion port cannot be reached, the control port of whoever is there is the last that is left.
+    motion = core.motion
+    ports = core.ports
+    control = ports[Port.CONTROL]
     limit = core.timeouts.stop
     heard = None
     if control.is_open:
@@ -60,7 +61,7 @@ def stop(core: Core) -> Flow[State | None]:
         except (ConnectionLost, RobotTimeout) as error:
             core.state_port.note(f"STOP could not be sent over the control port ({error})")
     read = None
-    if heard is None or talks[Port.MOTION].pending:
+    if heard is None or ports[Port.MOTION].pending:
         try:
             read = yield from _stop_behind_points(core)
         except StopFailed:
@@ -69,15 +70,15 @@ def stop(core: Core) -> Flow[State | None]:
             heard = yield from _stop_as_a_stranger(core)
             if heard is None:
                 raise
-            control = talks[Port.CONTROL]
+            control = ports[Port.CONTROL]
     if heard is not None:
         yield Wait(lambda: heard.reply is not None or not control.is_open, limit / 2)
         if heard.reply is None and read is None:
             core.state_port.note("the control port did not answer STOP")
             read = yield from _stop_behind_points(core)
     if read is not None:
-        left = limit + PER_POINT * _unread(run)
-        yield Wait(lambda: read.reply is not None or not talks[Port.MOTION].is_open, left)
+        left = limit + PER_POINT * _unread(motion)
+        yield Wait(lambda: read.reply is not None or not ports[Port.MOTION].is_open, left)
     asked = [pending for pending in (heard, read) if pending is not None]
     if any(isinstance(pending.reply, messages.Failure) for pending in asked):
         raise _not_stopped(core, "the controller could not stop")
@@ -89,9 +90,19 @@ def stop(core: Core) -> Flow[State | None]:
     if not core.state_open:
         return None
     state = yield from _until_standing(core)
-    if run is not None and not run.is_over:
-        run.stopped()
+    if motion is not None and not motion.is_over:
+        motion.stopped()
     return state
+
+
+def close(core: Core) -> Flow[None]:
+    """Close all connections. A motion under way is stopped first."""
+    motion = core.motion
+    try:
+        if motion is not None and not motion.is_over and core.ports[Port.MOTION].is_open:
+            yield from stop(core)
+    finally:
+        yield HangUp()
 
 
 def _stop_behind_points(core: Core) -> Flow[PendingReply]:
@@ -111,9 +122,9 @@ def _stop_as_a_stranger(core: Core) -> Flow[PendingReply | None]:
         return None
 
 
-def _unread(run: CommandedMotion | None) -> int:
+def _unread(motion: CommandedMotion | None) -> int:
     """Points that the controller may have to read before a STOP behind them."""
-    return run.total if run is not None and run.phase is Phase.SENDING else 0
+    return motion.total if motion is not None and motion.phase is Phase.SENDING else 0
 
 
 def _until_standing(core: Core) -> Flow[State]:
@@ -136,6 +147,6 @@ def _until_standing(core: Core) -> Flow[State]:
 
 
 def _not_stopped(core: Core, text: str) -> StopFailed:
-    return StopFailed(
-        fault("RG632", text, "use the emergency stop if the robot moves"), **core.evidence()
+    return StopFailed.because(
+        "RG632", text, "use the emergency stop if the robot moves", **core.evidence()
     )

@@ -4,9 +4,8 @@ import math
 import re
 
 from rapidgen.config.draft import GroupDraft, JointDraft
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 COUPLED = frozenset({"2400", "4400", "6660", "460", "660", "760", "8700"})
 SERIAL = frozenset(
@@ -40,22 +39,20 @@ def check_coupling(
         return [
             error(
                 "RG047",
-                f"{who} couples axes 2 and 3; `coupling` is not given",
                 place,
-                "",
+                f"{who} couples axes 2 and 3; `coupling` is not given",
                 "add `coupling: 1` (controller axis 3 = joint_3 + joint_2), or 0 where the URDF "
                 "already has ABB's sense",
             )
         ]
     if draft.coupling and known in SERIAL:
         return [
-            Diagnostic(
+            error(
                 "RG047",
-                Severity.WARNING,
-                f"IRB {known} is a serial robot, yet `coupling` is {draft.coupling:g}",
                 place,
-                "",
+                f"IRB {known} is a serial robot, yet `coupling` is {draft.coupling:g}",
                 "launch files of ROS-Industrial before 2025 were wrong for some models",
+                severity=Severity.WARNING,
             )
         ]
     return []
@@ -85,11 +82,11 @@ def check_joint(
         return [
             error(
                 "RG048",
+                joint.span or place,
                 f"joint '{joint.name}': {lower:.4g}..{upper:.4g} {unit} is the mirror of the known "
                 f"range {known_lower:g}..{known_upper:g} {unit}",
-                joint.span or place,
-                "turns the other way",
                 f"set joints.{joint.name}.sign: {-draft.sign}, or correct the URDF",
+                label="turns the other way",
             )
         ], ""
     if not group.known:
@@ -104,13 +101,13 @@ def differences(phrases: list[str], place: Span | None) -> list[Diagnostic]:
     if not phrases:
         return []
     return [
-        Diagnostic(
+        error(
             "RG049",
-            Severity.WARNING,
-            f"the URDF contradicts the known ranges: {'; '.join(phrases)}",
             place,
-            "the configuration's figures are used",
+            f"the URDF contradicts the known ranges: {'; '.join(phrases)}",
             "give the right ones with their `source:` under `joints:`",
+            label="the configuration's figures are used",
+            severity=Severity.WARNING,
         )
     ]
 

@@ -7,12 +7,10 @@ runs (held by a test and the pin `xacro>=2.1.1,<3`). It is not thread-safe, nor 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 from xml.dom import minidom
 from xml.parsers.expat import ExpatError
 from xml.sax.saxutils import quoteattr
 
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.packages import PackageNotFound, Packages
 from rapidgen.config.urdf.source import (
     Macro,
@@ -22,7 +20,15 @@ from rapidgen.config.urdf.source import (
     macros,
     read_xml,
 )
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+from rapidgen.diagnostics import (
+    Diagnostic,
+    DiagnosticError,
+    Severity,
+    Span,
+    error,
+    refusal,
+    suggest,
+)
 
 _NAMESPACE = "http://www.ros.org/wiki/xacro"
 
@@ -56,12 +62,10 @@ def expand(request: Request) -> Description:
     if not is_xacro(request.path, text):
         made = Description(request.path, text, False, [(request.path.name, data)])
         if request.arguments or request.macro:
-            raise DiagnosticError(
-                error(
-                    "RG056",
-                    f"{request.path.name} is a plain URDF and takes no arguments or macro",
-                    request.place,
-                )
+            raise refusal(
+                "RG056",
+                request.place,
+                f"{request.path.name} is a plain URDF and takes no arguments or macro",
             )
     else:
         made = _expand_xacro(request, text)
@@ -71,10 +75,10 @@ def expand(request: Request) -> Description:
             found = [
                 error(
                     "RG033",
-                    d.message + f" of {request.path.name}",
                     request.place,
-                    d.label,
+                    d.message + f" of {request.path.name}",
                     d.help,
+                    label=d.label,
                 )
                 for d in found
             ]
@@ -102,13 +106,13 @@ def _expand_xacro(request: Request, text: str) -> Description:
         raise DiagnosticError([*unknown, *([failure] if failure else [])])
     for name, (first, second) in request.packages.doubles.items():
         made.found.append(
-            Diagnostic(
+            error(
                 "RG057",
-                Severity.WARNING,
-                f"two packages are called '{name}'",
                 request.place,
-                f"used: {first}",
+                f"two packages are called '{name}'",
                 f"the other is {second}; name one under urdf.packages",
+                label=f"used: {first}",
+                severity=Severity.WARNING,
             )
         )
     if not request.macro and "<link" not in made.text and defined:
@@ -122,14 +126,15 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
 
     original_parse, original_find = xacro.parse, substitution_args._eval_find
 
-    def parse(given: Any, filename: str | None = None) -> Any:
+    def parse(given: object, filename: str | None = None) -> minidom.Document:
         if given is None and filename is not None:
             path = Path(filename)
             content, data = read_xml(path, place=request.place)
             texts.append(content)
             made.inputs.append((path.name, data))
             return minidom.parseString(content)
-        return original_parse(given, filename)
+        parsed: minidom.Document = original_parse(given, filename)
+        return parsed
 
     def find(name: str) -> str:
         return str(request.packages.find(name))
@@ -166,8 +171,8 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
 
 def _translate(request: Request, fault: BaseException) -> Diagnostic:
     inner: BaseException = fault
-    while getattr(inner, "exc", None) is not None:
-        inner = inner.exc  # type: ignore[attr-defined]
+    while isinstance(cause := getattr(inner, "exc", None), BaseException):
+        inner = cause
     name = request.path.name
     if isinstance(inner, DiagnosticError):
         return inner.diagnostics[0]
@@ -175,37 +180,36 @@ def _translate(request: Request, fault: BaseException) -> Diagnostic:
         package = str(inner).split("'")[1]
         return error(
             "RG032",
-            str(inner),
             request.place,
-            f"needed by {name}",
+            str(inner),
             f"add\n  urdf:\n    packages: {{{package}: FOLDER}}\nor give --package-path FOLDER",
+            label=f"needed by {name}",
         )
     if isinstance(inner, ExpatError):
         hint = "declare xmlns:xacro on <robot>" if "unbound prefix" in str(inner) else ""
         return error(
             "RG060",
-            f"{name} is not well-formed XML: {inner}",
             Span(str(request.path), max(1, inner.lineno), inner.offset + 1),
-            help=hint,
+            f"{name} is not well-formed XML: {inner}",
+            hint,
         )
     if isinstance(inner, RecursionError):
-        return error("RG061", f"xacro: a macro of {name} calls itself without end", request.place)
+        return error("RG061", request.place, f"xacro: a macro of {name} calls itself without end")
     text = " ".join(str(inner).split()) or type(inner).__name__
     hint = ""
     if type(inner).__name__ == "ArgException":
         wanted, text = text, f"the argument '{text}' has no value"
         hint = f"add\n  urdf:\n    args: {{{wanted}: VALUE}}"
-    return error("RG061", f"xacro cannot expand {name}: {text}", request.place, help=hint)
+    return error("RG061", request.place, f"xacro cannot expand {name}: {text}", hint)
 
 
 def _unknown_arguments(request: Request, known: set[str]) -> list[Diagnostic]:
     return [
         error(
             "RG056",
-            f"{request.path.name} has no xacro argument '{name}'",
             request.place,
-            help=suggest(name, sorted(known))
-            or f"it declares: {', '.join(sorted(known)) or 'none'}",
+            f"{request.path.name} has no xacro argument '{name}'",
+            suggest(name, sorted(known)) or f"it declares: {', '.join(sorted(known)) or 'none'}",
         )
         for name in request.arguments
         if name not in known
@@ -216,10 +220,10 @@ def _macro_only(request: Request, defined: tuple[Macro, ...]) -> Diagnostic:
     shown = ", ".join(macro.shown for macro in defined)
     return error(
         "RG031",
-        f"{request.path.name} only defines macros: {shown}",
         request.place,
-        "expands to an empty robot",
+        f"{request.path.name} only defines macros: {shown}",
         f"give the top-level file, or add\n  urdf:\n    macro: {defined[0].name}",
+        label="expands to an empty robot",
     )
 
 
@@ -228,13 +232,11 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
     macro = next((m for m in defined if m.name == request.macro), None)
     if macro is None:
         known = [m.name for m in defined]
-        raise DiagnosticError(
-            error(
-                "RG031",
-                f"{request.path.name} defines no macro '{request.macro}'",
-                request.place,
-                help=suggest(request.macro, known) or f"it defines: {', '.join(known) or 'none'}",
-            )
+        raise refusal(
+            "RG031",
+            request.place,
+            f"{request.path.name} defines no macro '{request.macro}'",
+            suggest(request.macro, known) or f"it defines: {', '.join(known) or 'none'}",
         )
     given = dict(request.macro_arguments)
     names = {name for name, _ in macro.parameters}
@@ -243,9 +245,9 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
     faults = [
         error(
             "RG056",
-            f"macro '{macro.name}' has no parameter '{name}'",
             request.place,
-            help=suggest(name, sorted(names)) or f"it is {macro.shown}",
+            f"macro '{macro.name}' has no parameter '{name}'",
+            suggest(name, sorted(names)) or f"it is {macro.shown}",
         )
         for name in given
         if name not in names
@@ -256,9 +258,9 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
     faults += [
         error(
             "RG056",
-            f"macro '{macro.name}' needs a value for '{name}'",
             request.place,
-            help=f"it is {macro.shown}; "
+            f"macro '{macro.name}' needs a value for '{name}'",
+            f"it is {macro.shown}; "
             + (
                 "a block cannot be given here: write a xacro file that calls the macro"
                 if name.startswith("*")

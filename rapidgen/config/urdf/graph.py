@@ -3,9 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +66,8 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
                 found.append(
                     error(
                         "RG051",
-                        f"joint '{joint.name}': its {role} link '{link}' does not exist",
                         joint.span,
+                        f"joint '{joint.name}': its {role} link '{link}' does not exist",
                     )
                 )
         if joint.child in above:
@@ -76,10 +75,10 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
             found.append(
                 error(
                     "RG051",
-                    f"link '{joint.child}' has two parents, by '{first}' and '{joint.name}'",
                     joint.span,
-                    "closes a loop",
+                    f"link '{joint.child}' has two parents, by '{first}' and '{joint.name}'",
                     "a controller needs a tree: export the open chain, without rods and cylinders",
+                    label="closes a loop",
                 )
             )
         above.setdefault(joint.child, joint)
@@ -87,21 +86,20 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
             found.append(
                 error(
                     "RG042",
-                    f"joint '{joint.name}' mimics '{joint.mimic}', which does not exist",
                     joint.span,
+                    f"joint '{joint.name}' mimics '{joint.mimic}', which does not exist",
                 )
             )
     found += _loops(robot, above)
     roots = [link for link in robot.links if link not in above]
     if len(roots) > 1 and not found:
         found.append(
-            Diagnostic(
+            error(
                 "RG051",
-                Severity.WARNING,
-                f"{len(roots)} links have no parent: {', '.join(roots[:6])}",
                 place,
-                "",
+                f"{len(roots)} links have no parent: {', '.join(roots[:6])}",
                 "one root is usual; what is not below the robot's root is ignored",
+                severity=Severity.WARNING,
             )
         )
     return Graph(robot, above), found
@@ -116,9 +114,9 @@ def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> list[Diagnostic]:
                 return [
                     error(
                         "RG051",
-                        f"the joints run in a circle through link '{link}'",
                         above[link].span,
-                        "closes a loop",
+                        f"the joints run in a circle through link '{link}'",
+                        label="closes a loop",
                     )
                 ]
             seen.add(link)

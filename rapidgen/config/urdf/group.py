@@ -7,14 +7,13 @@ from pathlib import Path
 from rapidgen.config import schema
 from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.model import ChainLink
-from rapidgen.config.tree import error
 from rapidgen.config.urdf import crosscheck, limits
 from rapidgen.config.urdf.expand import Request, expand
 from rapidgen.config.urdf.graph import Graph, build_graph
 from rapidgen.config.urdf.mapping import ROBOT_AXES, infer, paste, unmapped
 from rapidgen.config.urdf.packages import Packages
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, suggest
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, suggest
 
 Found = list[Diagnostic]
 
@@ -94,7 +93,7 @@ def _candidates(
     for name in given.ignore_joints:
         if name not in names:
             meant = suggest(name, names)
-            found.append(error("RG043", f"ignore_joints: no joint '{name}'", place, help=meant))
+            found.append(error("RG043", place, f"ignore_joints: no joint '{name}'", meant))
     joints = [
         j
         for j in robot.joints
@@ -107,7 +106,7 @@ def _candidates(
             meant = suggest(given.tip, [*robot.links, *names])
             return [], [
                 *found,
-                error("RG052", f"no link or joint '{given.tip}'", place, help=meant),
+                error("RG052", place, f"no link or joint '{given.tip}'", meant),
             ]
         path = {j.name for j in graph.path_to(link)}
         joints = [j for j in joints if j.name in path]
@@ -116,9 +115,8 @@ def _candidates(
             found.append(
                 error(
                     "RG053",
-                    f"joint '{joint.name}' is {joint.kind}; no controller axis is",
                     joint.span or place,
-                    "",
+                    f"joint '{joint.name}' is {joint.kind}; no controller axis is",
                     f"name it under urdf.ignore_joints, or make it fixed: [{joint.name}]",
                 )
             )
@@ -168,9 +166,8 @@ def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> F
         return [
             error(
                 "RG034",
-                f"the model has the axes {shown}; the URDF has {', '.join(mapping)}",
                 place,
-                "",
+                f"the model has the axes {shown}; the URDF has {', '.join(mapping)}",
                 "map them under `joints:`",
             )
         ]
@@ -198,9 +195,8 @@ def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Found:
         return [
             error(
                 "RG034",
-                f"the URDF has no joint '{joint.name}'",
                 place,
-                "",
+                f"the URDF has no joint '{joint.name}'",
                 suggest(joint.name, names) or f"it has {', '.join(names[:20])}",
             )
         ]
@@ -208,14 +204,13 @@ def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Found:
         return [
             error(
                 "RG042",
-                f"joint '{joint.name}' mimics '{known.mimic}' and is no axis of its own",
                 known.span or place,
-                "",
+                f"joint '{joint.name}' mimics '{known.mimic}' and is no axis of its own",
                 f"map '{known.mimic}' instead",
             )
         ]
     if known.kind == "fixed":
-        return [error("RG034", f"joint '{joint.name}' is fixed", known.span or place)]
+        return [error("RG034", known.span or place, f"joint '{joint.name}' is fixed")]
     return []
 
 
@@ -232,9 +227,8 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
             found.append(
                 error(
                     "RG046",
-                    f"'{after.name}' cannot be {axis}: it does not hang on '{before.name}'",
                     after.span or place,
-                    "",
+                    f"'{after.name}' cannot be {axis}: it does not hang on '{before.name}'",
                     "an axis on another branch or under the robot is external: eax_a..eax_f\n"
                     + paste([j for j in graph.robot.joints if j.is_actuated]),
                 )
@@ -245,14 +239,13 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
         moving = [j.name for j in draft.joints if j.name in below]
         if moving:
             found.append(
-                Diagnostic(
+                error(
                     "RG046",
-                    Severity.INFO,
-                    f"{', '.join(moving)} carries the robot: its base moves",
                     place,
-                    "",
+                    f"{', '.join(moving)} carries the robot: its base moves",
                     "positions that RAPID gives are in the frames of the controller, not of "
                     "the URDF's root",
+                    severity=Severity.INFO,
                 )
             )
     return found

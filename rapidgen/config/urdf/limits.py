@@ -3,9 +3,8 @@
 import math
 
 from rapidgen.config.draft import JointDraft
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.robot import UrdfJoint
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 DEGREES_AS_RADIANS = 10.0
 """rad: no axis of a robot turns further (the widest known has 460 degrees = 8.03 rad)."""
@@ -28,7 +27,7 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
     unit = "mm" if linear else "deg"
     if draft.unit not in ("", unit):
         text = f"joint '{joint.name}' is {joint.kind}, yet its unit is {draft.unit}"
-        return [error("RG041", text, span, "", f"set joints.{joint.name}.unit: {unit}")]
+        return [error("RG041", span, text, f"set joints.{joint.name}.unit: {unit}")]
     draft.unit = unit
     needs_range = draft.lower is None or draft.upper is None
     if joint.kind == "continuous" and needs_range:
@@ -39,12 +38,12 @@ def fill(draft: JointDraft, joint: UrdfJoint, place: Span | None) -> list[Diagno
         found += _speed(draft, joint, span)
     if linear and needs_range and not found:
         found.append(
-            Diagnostic(
+            error(
                 "RG041",
-                Severity.INFO,
+                span,
                 f"'{joint.name}' is linear: metres of the URDF become mm "
                 f"({draft.lower:g}..{draft.upper:g} mm)",
-                span,
+                severity=Severity.INFO,
             )
         )
     if needs_range:
@@ -57,22 +56,22 @@ def _continuous(draft: JointDraft, span: Span | None) -> Diagnostic:
     if axis.startswith("eax"):
         draft.lower, draft.upper = -INDEPENDENT, INDEPENDENT
         draft.unsure = (*draft.unsure, "lower", "upper")
-        return Diagnostic(
+        return error(
             "RG040",
-            Severity.WARNING,
+            span,
             f"joint '{name}' is continuous; taken as an independent axis of "
             f"{INDEPENDENT / 360:g} turns to each side",
-            span,
-            "turns without end",
             f"add the range that the controller has for {axis} under joints.{name}",
+            label="turns without end",
+            severity=Severity.WARNING,
         )
     return error(
         "RG040",
-        f"joint '{name}' is continuous; {axis or 'a controller axis'} has limits",
         span,
-        "turns without end",
+        f"joint '{name}' is continuous; {axis or 'a controller axis'} has limits",
         f"add the range of the axis:\njoints:\n  {name}: "
         f"{{axis: {axis or 'eax_a'}, lower: -180, upper: 180, speed: 90}}",
+        label="turns without end",
     )
 
 
@@ -83,22 +82,21 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagn
         return [
             error(
                 "RG038",
-                f"joint '{name}' has no limits",
                 span,
-                "",
+                f"joint '{name}' has no limits",
                 f"add\njoints:\n  {name}: {{axis: {draft.axis}, lower: ..., upper: ...}}",
             )
         ]
     if lower > upper:
-        return [error("RG053", f"joint '{name}': lower {lower:g} is above upper {upper:g}", span)]
+        return [error("RG053", span, f"joint '{name}': lower {lower:g} is above upper {upper:g}")]
     if lower == upper:
         return [
             error(
                 "RG039",
-                f"joint '{name}' has the range {lower:g}..{upper:g}",
                 span,
-                "a placeholder",
+                f"joint '{name}' has the range {lower:g}..{upper:g}",
                 f"add its range under joints.{name}, or name it under urdf.ignore_joints",
+                label="a placeholder",
             )
         ]
     found: list[Diagnostic] = []
@@ -107,23 +105,23 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagn
         return [
             error(
                 "RG037",
-                f"joint '{name}': limit {widest:g} rad looks like degrees",
                 span,
-                f"{math.degrees(widest):,.0f} deg",
+                f"joint '{name}': limit {widest:g} rad looks like degrees",
                 "a URDF has radians",
+                label=f"{math.degrees(widest):,.0f} deg",
             )
         ]
     if linear and widest > LONG:
-        return [error("RG041", f"joint '{name}': {widest:g} m is no stroke; are these mm?", span)]
+        return [error("RG041", span, f"joint '{name}': {widest:g} m is no stroke; are these mm?")]
     if linear and upper - lower < SHORT:
-        return [error("RG041", f"joint '{name}': a stroke of {upper - lower:g} m is no axis", span)]
+        return [error("RG041", span, f"joint '{name}': a stroke of {upper - lower:g} m is no axis")]
     if linear and upper - lower > LOOKS_LIKE_MM:
         found.append(
-            Diagnostic(
+            error(
                 "RG041",
-                Severity.WARNING,
-                f"joint '{name}': a stroke of {upper - lower:g} m; are these mm?",
                 span,
+                f"joint '{name}': a stroke of {upper - lower:g} m; are these mm?",
+                severity=Severity.WARNING,
             )
         )
     factor = 1000.0 if linear else 180 / math.pi
@@ -148,11 +146,11 @@ def _rounded(draft: JointDraft, span: Span | None) -> list[Diagnostic]:
     if not ends:
         return []
     return [
-        Diagnostic(
+        error(
             "RG054",
-            Severity.INFO,
-            f"joint '{draft.name}': limits rounded inwards, {' and '.join(ends)} deg",
             span,
+            f"joint '{draft.name}': limits rounded inwards, {' and '.join(ends)} deg",
+            severity=Severity.INFO,
         )
     ]
 
@@ -163,9 +161,8 @@ def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagn
         return [
             error(
                 "RG038",
-                f"joint '{name}' has no velocity",
                 span,
-                "",
+                f"joint '{name}' has no velocity",
                 f"add joints.{name}.speed, from the robot's data sheet",
             )
         ]
@@ -173,10 +170,10 @@ def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagn
         return [
             error(
                 "RG039",
-                f"joint '{name}' has the velocity {velocity:g}",
                 span,
-                "a placeholder",
+                f"joint '{name}' has the velocity {velocity:g}",
                 f"add joints.{name}.speed, from the robot's data sheet",
+                label="a placeholder",
             )
         ]
     linear = joint.kind == "prismatic"
@@ -184,24 +181,23 @@ def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagn
     if velocity >= PLACEHOLDER_SPEED:
         draft.unsure = (*draft.unsure, "speed")
         return [
-            Diagnostic(
+            error(
                 "RG039",
-                Severity.WARNING,
+                span,
                 f"joint '{name}': {velocity:g} {'m/s' if linear else 'rad/s'} looks like a "
                 "placeholder",
-                span,
-                "",
                 f"add joints.{name}.speed, from the robot's data sheet",
+                severity=Severity.WARNING,
             )
         ]
     if not linear and velocity > FAST_TURN:
         draft.unsure = (*draft.unsure, "speed")
         return [
-            Diagnostic(
+            error(
                 "RG037",
-                Severity.WARNING,
-                f"joint '{name}': {velocity:g} rad/s looks like degrees per second",
                 span,
+                f"joint '{name}': {velocity:g} rad/s looks like degrees per second",
+                severity=Severity.WARNING,
             )
         ]
     return []

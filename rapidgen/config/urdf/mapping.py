@@ -7,10 +7,9 @@ Everything else is an error that prints the candidates and the lines to paste.
 import re
 from collections.abc import Sequence
 
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.graph import Graph
 from rapidgen.config.urdf.robot import UrdfJoint
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
 ROBOT_AXES = tuple(f"rax_{n}" for n in range(1, 7))
 _NUMBER = re.compile(r"^(?P<prefix>.*?)(?P<number>\d+)(?P<suffix>\D{0,12})$")
@@ -32,9 +31,9 @@ def infer(
         return {}, [
             error(
                 "RG031",
-                "the description has no joint that moves by itself",
                 place,
-                help="is this the top-level file of the robot?",
+                "the description has no joint that moves by itself",
+                "is this the top-level file of the robot?",
             )
         ]
     chains = graph.chains(joints)
@@ -48,13 +47,12 @@ def infer(
     if parts[0].lower() not in _USUAL or parts[2]:
         table = ", ".join(f"{name} = {axis}" for name, axis in mapping.items())
         found.append(
-            Diagnostic(
+            error(
                 "RG036",
-                Severity.WARNING,
-                f"joint names have a prefix or suffix; read as {table}",
                 place,
-                "",
+                f"joint names have a prefix or suffix; read as {table}",
                 "write the mapping under `joints:` to settle it",
+                severity=Severity.WARNING,
             )
         )
     return mapping, found
@@ -87,72 +85,71 @@ def _shape(
         tips = ", ".join(graph.tip_link(chain[-1]) for chain in arms)
         return error(
             "RG052",
-            f"{len(arms)} robots are in one description (tips: {tips})",
             place,
-            "which of them is this group?",
+            f"{len(arms)} robots are in one description (tips: {tips})",
             f"add\n  urdf:\n    tip: {graph.tip_link(arms[0][-1])}\n"
             "one group for each robot, each with its own task",
+            label="which of them is this group?",
         )
     gripper = next((j for j in joints if _is_gripper(graph, j)), None)
     if gripper and len(joints) > 6:
         return error(
             "RG044",
-            f"'{gripper.name}' looks like a gripper",
             gripper.span or place,
-            "moves less than 0.1 m behind the arm",
+            f"'{gripper.name}' looks like a gripper",
             f"add\n  urdf:\n    ignore_joints: [{gripper.name}]\nor map it:\n{paste(joints)}",
+            label="moves less than 0.1 m behind the arm",
         )
     still = [j for j in joints if j.lower is not None and j.lower == j.upper]
     if still and len(joints) > 6:
         names = ", ".join(j.name for j in still)
         return error(
             "RG043",
-            f"{len(joints)} joints move by themselves; {names} cannot be a controller axis",
             still[0].span or place,
-            "its range is 0..0",
+            f"{len(joints)} joints move by themselves; {names} cannot be a controller axis",
             f"add\n  urdf:\n    ignore_joints: [{names}]",
+            label="its range is 0..0",
         )
     if len(joints) > 6 and (outside := _outside(graph, joints)):
         names = ", ".join(j.name for j in outside)
         return error(
             "RG046",
-            f"{names}: an external axis on or under the robot?",
             outside[0].span or place,
-            "not one of the robot's six",
+            f"{names}: an external axis on or under the robot?",
             "map it to eax_a, eax_b, ... in the order of the controller:\n" + paste(joints),
+            label="not one of the robot's six",
         )
     if len(joints) == 7 and len(chains) == 1:
         return error(
             "RG045",
-            "seven joints in one chain: which one is the seventh axis?",
             place,
-            "controllers call it eax_a, and names of joints often number it otherwise",
+            "seven joints in one chain: which one is the seventh axis?",
             paste(joints),
+            label="controllers call it eax_a, and names of joints often number it otherwise",
         )
     if len(joints) > 6:
         return error(
             "RG043",
-            f"{len(joints)} joints move by themselves; a robot has six axes",
             place,
-            ", ".join(j.name for j in joints[:12]),
+            f"{len(joints)} joints move by themselves; a robot has six axes",
             "name the others under urdf.ignore_joints, or map all:\n" + paste(joints),
+            label=", ".join(j.name for j in joints[:12]),
         )
     if len(joints) == 4:
         return error(
             "RG050",
-            "four joints: a SCARA or a palletiser?",
             place,
-            "",
+            "four joints: a SCARA or a palletiser?",
             "a SCARA has rax_1, rax_2, rax_3, rax_4; a palletiser rax_1, rax_2, rax_3, rax_6:\n"
             + paste(joints),
         )
     if len(joints) < 6 or len(chains) > 1:
         return error(
             "RG034",
-            f"cannot infer the axes of {len(joints)} joints in {len(chains)} chain(s)",
             place,
-            ", ".join(j.name for j in joints[:12]),
+            f"cannot infer the axes of {len(joints)} joints in {len(chains)} chain(s)",
             paste(joints),
+            label=", ".join(j.name for j in joints[:12]),
         )
     return None
 
@@ -166,10 +163,10 @@ def unmapped(graph: Graph, left: Sequence[UrdfJoint], place: Span | None) -> Dia
         code, what = "RG044", f"'{first.name}' looks like a gripper: neither mapped nor ignored"
     return error(
         code,
-        what,
         first.span or place,
-        "moves by itself",
+        what,
         f"add\n  urdf:\n    ignore_joints: [{names}]\nor map it:\n{paste(left)}",
+        label="moves by itself",
     )
 
 
@@ -205,9 +202,8 @@ def _numbers(
     if sliding:
         return error(
             "RG034",
-            f"cannot infer the axis of '{sliding.name}': it is {sliding.kind}",
             sliding.span or place,
-            "",
+            f"cannot infer the axis of '{sliding.name}': it is {sliding.kind}",
             paste(joints),
         )
     parts = [number_of(joint.name) for joint in chain]
@@ -218,17 +214,16 @@ def _numbers(
         index = next((i for i, n in enumerate(numbers) if n != i + 1), 0)
         return error(
             "RG034",
+            chain[index].span or place,
             f"cannot infer the axis of '{chain[index].name}': it is number {index + 1} in the "
             f"chain and says {numbers[index]}",
-            chain[index].span or place,
-            "",
             paste(chain),
         )
     shown = ", ".join(joint.name for joint in chain)
     return error(
         "RG035",
-        f"the numbers in the joint names are not 1 to 6: {shown}",
         place,
-        "the number in a name need not be the axis",
+        f"the numbers in the joint names are not 1 to 6: {shown}",
         paste(chain),
+        label="the number in a name need not be the axis",
     )

@@ -6,13 +6,22 @@ others), so whatever it takes for granted is checked on the XML first. No mesh i
 
 import gc
 import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from io import BytesIO
-from typing import Any
+from types import ModuleType
+from typing import TYPE_CHECKING
 
-from rapidgen.config.tree import error
 from rapidgen.config.urdf.expand import Description
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
+
+if TYPE_CHECKING:
+    import numpy as np
+    from lxml.etree import _Element as Element
+    from numpy.typing import NDArray
+
+    Matrix = NDArray[np.float64]
+    PlaceOf = Callable[[Element], Span | None]
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
 _NUMBERS = {
@@ -74,23 +83,21 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
     except etree.XMLSyntaxError as fault:
         line, column = fault.position
         span = place if description.expanded else Span(str(description.path), line, column or 1)
-        raise DiagnosticError(
-            error("RG060", f"{description.path.name} is not well-formed XML: {fault.msg}", span)
+        raise refusal(
+            "RG060", span, f"{description.path.name} is not well-formed XML: {fault.msg}"
         ) from None
 
-    def span_of(element: Any) -> Span | None:
+    def span_of(element: "Element") -> Span | None:
         if description.expanded or not element.sourceline:
             return place
         return Span(str(description.path), element.sourceline, 1)
 
     if etree.QName(root).localname != "robot":
-        raise DiagnosticError(
-            error(
-                "RG060",
-                f"{description.path.name} is no robot description: its root is <{root.tag}>",
-                span_of(root),
-                help="the root of a URDF is <robot>",
-            )
+        raise refusal(
+            "RG060",
+            span_of(root),
+            f"{description.path.name} is no robot description: its root is <{root.tag}>",
+            "the root of a URDF is <robot>",
         )
     faults = _structure(root, span_of, description.path.name)
     if faults:
@@ -100,7 +107,7 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
     return _read(etree.tostring(_skeleton(root)), lines)
 
 
-def _skeleton(root: Any) -> Any:
+def _skeleton(root: "Element") -> "Element":
     """The robot with links and joints only: no geometry, so that no mesh is even looked at."""
     from lxml import etree
 
@@ -116,7 +123,7 @@ def _skeleton(root: Any) -> Any:
     return made
 
 
-def _yourdfpy() -> Any:
+def _yourdfpy() -> ModuleType:
     """The module. It brings trimesh and scipy: collecting garbage meanwhile costs a tenth."""
     enabled = gc.isenabled()
     gc.disable()
@@ -125,7 +132,8 @@ def _yourdfpy() -> Any:
     finally:
         if enabled:
             gc.enable()
-    return yourdfpy
+    module: ModuleType = yourdfpy
+    return module
 
 
 def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
@@ -159,7 +167,7 @@ def _read(data: bytes, lines: dict[str, Span | None]) -> UrdfRobot:
     return UrdfRobot(robot.name, tuple(link.name for link in robot.links), tuple(joints))
 
 
-def _moved(matrix: Any, axis: Vector, amount: float, *, slides: bool) -> Any:
+def _moved(matrix: "Matrix | None", axis: Vector, amount: float, *, slides: bool) -> "Matrix":
     """A joint's origin with the joint itself moved by `amount`."""
     import numpy as np
 
@@ -174,7 +182,7 @@ def _moved(matrix: Any, axis: Vector, amount: float, *, slides: bool) -> Any:
     return step if matrix is None else matrix @ step
 
 
-def _vector(values: Any) -> Vector:
+def _vector(values: Iterable[float]) -> Vector:
     x, y, z = (float(v) for v in values)
     return (x, y, z)
 
@@ -185,7 +193,7 @@ def _unit(values: Vector) -> Vector:
     return (x, y, z)
 
 
-def _rpy(matrix: Any) -> Vector:
+def _rpy(matrix: "Matrix") -> Vector:
     """Roll, pitch, yaw about fixed axes of a rotation matrix."""
     cosine = math.hypot(matrix[0, 0], matrix[1, 0])
     pitch = math.atan2(-matrix[2, 0], cosine)
@@ -198,7 +206,7 @@ def _rpy(matrix: Any) -> Vector:
     )
 
 
-def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
+def _structure(root: "Element", span_of: "PlaceOf", name: str) -> list[Diagnostic]:
     """What yourdfpy takes for granted: names, parent and child, numbers, known types."""
     found: list[Diagnostic] = []
     seen: dict[tuple[str, str], int] = {}
@@ -207,15 +215,15 @@ def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
             continue
         own = element.get("name")
         if not own:
-            found.append(error("RG053", f"a <{element.tag}> has no name", span_of(element)))
+            found.append(error("RG053", span_of(element), f"a <{element.tag}> has no name"))
             continue
         if (element.tag, own) in seen:
             found.append(
                 error(
                     "RG051",
-                    f"two {element.tag}s are called '{own}'",
                     span_of(element),
-                    "second time",
+                    f"two {element.tag}s are called '{own}'",
+                    label="second time",
                 )
             )
         seen[element.tag, own] = 1
@@ -225,33 +233,33 @@ def _structure(root: Any, span_of: Any, name: str) -> list[Diagnostic]:
         found.append(
             error(
                 "RG031",
-                f"{name} is an empty robot: it has no joints",
                 span_of(root),
-                help="give the top-level file of the description",
+                f"{name} is an empty robot: it has no joints",
+                "give the top-level file of the description",
             )
         )
     return found
 
 
-def _joint_structure(element: Any, name: str, span_of: Any) -> list[Diagnostic]:
+def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> list[Diagnostic]:
     found: list[Diagnostic] = []
     kind = element.get("type")
     if kind not in KINDS:
         found.append(
             error(
                 "RG053",
-                f"joint '{name}' has the unknown type '{kind}'",
                 span_of(element),
-                help=f"a joint is {', '.join(KINDS[:4])}",
+                f"joint '{name}' has the unknown type '{kind}'",
+                f"a joint is {', '.join(KINDS[:4])}",
             )
         )
     for part in ("parent", "child"):
         inner = element.find(part)
         if inner is None or not inner.get("link"):
-            found.append(error("RG053", f"joint '{name}' has no {part} link", span_of(element)))
+            found.append(error("RG053", span_of(element), f"joint '{name}' has no {part} link"))
     mimic = element.find("mimic")
     if mimic is not None and not mimic.get("joint"):
-        found.append(error("RG042", f"joint '{name}' mimics no joint", span_of(element)))
+        found.append(error("RG042", span_of(element), f"joint '{name}' mimics no joint"))
     for part, attributes in (*_NUMBERS.items(), *_VECTORS.items()):
         inner = element.find(part)
         for attribute in attributes if inner is not None else ():
@@ -261,10 +269,10 @@ def _joint_structure(element: Any, name: str, span_of: Any) -> list[Diagnostic]:
                 found.append(
                     error(
                         "RG053",
+                        span_of(inner),
                         f"joint '{name}': {part} {attribute}=\"{text}\" is not "
                         + ("a finite number" if wanted == 1 else "three finite numbers"),
-                        span_of(inner),
-                        help="write a decimal point, not a comma" if "," in text else "",
+                        "write a decimal point, not a comma" if "," in text else "",
                     )
                 )
     return found

@@ -8,8 +8,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
-from rapidgen.config.tree import error
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span
+from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MAX_BYTES = 20_000_000
 _DOCTYPE = re.compile(r"<!\s*(DOCTYPE|ENTITY)", re.IGNORECASE)
@@ -41,28 +40,26 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
         reason = getattr(fault, "strerror", None) or str(fault)
-        raise DiagnosticError(
-            error("RG060", f"cannot read {path}: {reason}", place, help="give the path of a file")
+        raise refusal(
+            "RG060", place, f"cannot read {path}: {reason}", "give the path of a file"
         ) from None
     if len(data) > MAX_BYTES:
-        raise DiagnosticError(error("RG060", f"{path} is larger than {MAX_BYTES:,} bytes", place))
+        raise refusal("RG060", place, f"{path} is larger than {MAX_BYTES:,} bytes")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
-        raise DiagnosticError(
-            error("RG060", f"{path} is not UTF-8 text", place, help="save the file as UTF-8")
+        raise refusal(
+            "RG060", place, f"{path} is not UTF-8 text", "save the file as UTF-8"
         ) from None
     hit = _DOCTYPE.search(_COMMENT.sub(lambda m: " " * len(m[0]), text))
     if hit or "\x00" in text:
         line = text.count("\n", 0, hit.start()) + 1 if hit else 1
-        raise DiagnosticError(
-            error(
-                "RG060",
-                "a robot description has no document type and no entities",
-                Span(str(path), line, 1),
-                "refused",
-                "remove the <!DOCTYPE ...>",
-            )
+        raise refusal(
+            "RG060",
+            Span(str(path), line, 1),
+            "a robot description has no document type and no entities",
+            "remove the <!DOCTYPE ...>",
+            label="refused",
         )
     return text, data
 
@@ -111,11 +108,11 @@ def leftovers(text: str, shown: str) -> list[Diagnostic]:
         found.append(
             error(
                 "RG033",
-                f"'{hit[0].strip()}' is left over after expansion",
                 Span(shown, line, column),
-                "not replaced",
+                f"'{hit[0].strip()}' is left over after expansion",
                 "xacro only replaces tags with the prefix `xacro:`; declare xmlns:xacro on "
                 "<robot> and write <xacro:macro>, <xacro:include>",
+                label="not replaced",
             )
         )
         if len(found) == 5:

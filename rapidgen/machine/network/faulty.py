@@ -9,11 +9,11 @@ from collections import deque
 
 from rapidgen.machine.network.interface import (
     BUFFER,
-    Address,
     Endpoint,
     Network,
     NetworkFault,
     NetworkReason,
+    SocketAddress,
     taken,
 )
 from rapidgen.machine.network.rules import NetworkRule
@@ -142,7 +142,7 @@ class FaultyNetwork(Network):
         self._watch(endpoint, port)
         return endpoint
 
-    def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
+    def send(self, endpoint: Endpoint, data: bytes, to: SocketAddress | None = None) -> int:
         """See `Network.send`."""
         line = self._lines.get(endpoint)
         if line is None or not line.lane_out.active or not endpoint.connected:

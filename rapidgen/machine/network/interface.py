@@ -11,7 +11,7 @@ from enum import StrEnum
 
 from rapidgen.machine.scheduler import WaitSet
 
-Address = tuple[str, int]
+SocketAddress = tuple[str, int]
 
 BUFFER = 65_536
 """Bytes that one direction of a connection holds before its sender has to wait."""
@@ -46,14 +46,14 @@ class Endpoint:
 
     __slots__ = ("changed", "closed", "connected", "fault", "local", "peer", "sender")
 
-    def __init__(self, local: Address, peer: Address | None = None) -> None:
+    def __init__(self, local: SocketAddress, peer: SocketAddress | None = None) -> None:
         self.local = local
         self.peer = peer
         self.connected = False
         self.closed = False
         self.fault: NetworkFault | None = None
         """Why it cannot be used any more."""
-        self.sender: Address | None = None
+        self.sender: SocketAddress | None = None
         self.changed = WaitSet()
 
     def check(self) -> None:
@@ -80,7 +80,7 @@ class Network(ABC):
     def __init__(self) -> None:
         self.address = "127.0.0.1"
         """The controller's LAN address, as GetSysInfo tells it."""
-        self.listeners: dict[int, Address] = {}
+        self.listeners: dict[int, SocketAddress] = {}
         """Port that the program asked for: where its clients find it, for all that listen now."""
         self.listening = WaitSet()
         """Notified when `listeners` changes."""
@@ -102,7 +102,7 @@ class Network(ABC):
         """Begin to connect; `connected` turns True, or `receive` and `send` raise the fault."""
 
     @abstractmethod
-    def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
+    def send(self, endpoint: Endpoint, data: bytes, to: SocketAddress | None = None) -> int:
         """Take as much of `data` as there is room for; the number of bytes taken, 0 for none."""
 
     @abstractmethod

@@ -7,14 +7,15 @@ connection falls silent, as with TCP when nobody acknowledges: the sender's buff
 """
 
 from collections import deque
+from functools import partial
 
 from rapidgen.machine.network.interface import (
     BUFFER,
-    Address,
     Endpoint,
     Network,
     NetworkFault,
     NetworkReason,
+    SocketAddress,
     taken,
 )
 from rapidgen.machine.scheduler import Scheduler
@@ -62,11 +63,11 @@ class MemoryEndpoint(Endpoint):
 
     __slots__ = ("backlog", "datagrams", "incoming", "listening", "outgoing")
 
-    def __init__(self, local: Address, peer: Address | None = None) -> None:
+    def __init__(self, local: SocketAddress, peer: SocketAddress | None = None) -> None:
         super().__init__(local, peer)
         self.listening = False
         self.backlog: deque[MemoryEndpoint] = deque()
-        self.datagrams: deque[tuple[Address, bytes]] | None = None
+        self.datagrams: deque[tuple[SocketAddress, bytes]] | None = None
         self.incoming: _Pipe | None = None
         self.outgoing: _Pipe | None = None
 
@@ -121,7 +122,7 @@ class MemoryNetwork(Network):
         self._scheduler.after(self._latency, lambda: self._answer(client, port))
         return client
 
-    def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
+    def send(self, endpoint: Endpoint, data: bytes, to: SocketAddress | None = None) -> int:
         """See `Network.send`."""
         own = _mine(endpoint)
         own.check()
@@ -243,7 +244,7 @@ class MemoryNetwork(Network):
             segment = bytes(pipe.waiting[:size])
             del pipe.waiting[:size]
             pipe.flying += size
-            self._scheduler.after(self._latency, lambda s=segment: self._arrive(pipe, s))  # type: ignore[misc]
+            self._scheduler.after(self._latency, partial(self._arrive, pipe, segment))
         if not pipe.waiting and pipe.ended and not pipe.finished:
             self._scheduler.after(self._latency, lambda: self._finish(pipe))
         if not had_room and len(pipe.waiting) < BUFFER:
@@ -281,7 +282,7 @@ class MemoryNetwork(Network):
             endpoint.fault = fault
             endpoint.changed.notify()
 
-    def _send_datagram(self, own: MemoryEndpoint, data: bytes, to: Address | None) -> int:
+    def _send_datagram(self, own: MemoryEndpoint, data: bytes, to: SocketAddress | None) -> int:
         if to is None:
             raise NetworkFault(NetworkReason.FAILED, "a datagram needs an address")
         _, port = to

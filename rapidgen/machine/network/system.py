@@ -14,11 +14,11 @@ from typing import Literal
 
 from rapidgen.machine.network.interface import (
     BUFFER,
-    Address,
     Endpoint,
     Network,
     NetworkFault,
     NetworkReason,
+    SocketAddress,
     taken,
 )
 from rapidgen.machine.scheduler import Scheduler
@@ -50,7 +50,12 @@ class SystemEndpoint(Endpoint):
     __slots__ = ("buffer", "datagram", "ended", "interest", "port", "socket")
 
     def __init__(
-        self, own: socket.socket, local: Address, peer: Address | None = None, *, port: int = 0
+        self,
+        own: socket.socket,
+        local: SocketAddress,
+        peer: SocketAddress | None = None,
+        *,
+        port: int = 0,
     ) -> None:
         super().__init__(local, peer)
         self.socket = own
@@ -92,7 +97,7 @@ class SystemNetwork(Network):
         except OSError as error:
             own.close()
             raise _fault(error) from error
-        local: Address = own.getsockname()[:2]
+        local: SocketAddress = own.getsockname()[:2]
         self._actual[datagram, port] = local[1]
         endpoint = SystemEndpoint(own, local, port=port)
         endpoint.connected = datagram
@@ -140,7 +145,7 @@ class SystemNetwork(Network):
         self._want(endpoint, _WRITE)
         return endpoint
 
-    def send(self, endpoint: Endpoint, data: bytes, to: Address | None = None) -> int:
+    def send(self, endpoint: Endpoint, data: bytes, to: SocketAddress | None = None) -> int:
         """See `Network.send`."""
         own = _mine(endpoint)
         own.check()
@@ -216,7 +221,7 @@ class SystemNetwork(Network):
             raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port} + {self._map}")
         return port + self._map
 
-    def _outward(self, host: str, port: int, *, datagram: bool) -> Address:
+    def _outward(self, host: str, port: int, *, datagram: bool) -> SocketAddress:
         if not 0 < port <= _LAST_PORT:
             raise NetworkFault(NetworkReason.ADDRESS_INVALID, f"port {port}")
         if not self._loopback:

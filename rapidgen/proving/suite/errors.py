@@ -10,7 +10,7 @@ from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import STATUS, Reason, TrajectoryState, TriState, text_of
 from rapidgen.proving.model import Broken, Theme
-from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.runtime.builtins.clocks import StopWatch
 
 case = Theme("failing")
 
@@ -224,7 +224,7 @@ def _clocks_at_their_end(bench: Bench) -> None:
     bench.run(2)
     program = bench.rapid_task("ROS_motionServer").program
     for value in program.space.values():
-        if isinstance(value, Clock) and value.started is not None:
+        if isinstance(value, StopWatch) and value.started is not None:
             value.started -= 50 * 86_400 * 10**9
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)

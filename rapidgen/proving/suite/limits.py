@@ -5,8 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rapidgen.config.model import Joint
-from rapidgen.machine.configuration import arm_name
 from rapidgen.machine.log import EventType
+from rapidgen.machine.system_parameters import arm_name
 from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import RawLink, raw_point

@@ -25,7 +25,7 @@ from rapidgen.proving.messages import (
 )
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import distance, small_unit
-from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.runtime.builtins.clocks import StopWatch
 
 case = Theme("reading")
 
@@ -212,15 +212,15 @@ def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
                 raise Broken(f"{what}: joint {joint + 1} moves with {gone}, told is {now}")
 
 
-def _clocks(bench: Bench) -> list[Clock]:
+def _clocks(bench: Bench) -> list[StopWatch]:
     program = bench.rapid_task("ROS_stateServer").program
     return [clock for value in program.space.values() for clock in _of(value)]
 
 
-def _of(value: object) -> list[Clock]:
+def _of(value: object) -> list[StopWatch]:
     if isinstance(value, dict):
         return [clock for one in value.values() for clock in _of(one)]
-    return [value] if isinstance(value, Clock) and value.started is not None else []
+    return [value] if isinstance(value, StopWatch) and value.started is not None else []
 
 
 @case("over-the-ends", "schedule and stamps over the ends of the clock")

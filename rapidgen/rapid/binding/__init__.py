@@ -12,8 +12,16 @@ nothing itself. `names` has the rules; a task's modules are bound by
     Bound(module).at(12, 5)                      # what stands at a place
 """
 
-from rapidgen.rapid.binding.arguments import Matching, Misfit, Pairing, first_fit, match
-from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate, value_of
+from rapidgen.rapid.binding.arguments import (
+    Matching,
+    Misfit,
+    Pairing,
+    first_fit,
+    held_as,
+    match,
+    may_pass,
+)
+from rapidgen.rapid.binding.constants import NotConstant, constant, evaluate, sizes_of, value_of
 from rapidgen.rapid.binding.expressions import declared_type, root, type_of
 from rapidgen.rapid.binding.names import (
     ModuleScope,
@@ -60,9 +68,12 @@ __all__ = [
     "declared_type",
     "evaluate",
     "first_fit",
+    "held_as",
     "installed_objects",
     "match",
+    "may_pass",
     "root",
+    "sizes_of",
     "type_of",
     "value_of",
 ]

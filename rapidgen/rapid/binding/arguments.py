@@ -9,6 +9,7 @@ Arguments and parameters are walked together, because they have the same order:
   that has an argument already.
 * Of alternatives (`\\A | \\B`) one may have an argument; of conditional ones run time decides.
 * Every required parameter gets an argument, of required alternatives one of them.
+* A reference parameter takes a datum that is held as its mode says (`may_pass`).
 
 What breaks these rules is said as data: the checker makes diagnostics of it, the compiler
 refuses the routine, and a late call fails with ERR_CALLPROC.
@@ -17,9 +18,11 @@ refuses the routine, and a late call fails with ERR_CALLPROC.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import Final, Generic, Protocol, TypeVar
+from typing import Final, Generic, Literal, Protocol, TypeVar
 
+from rapidgen.rapid.binding.symbols import DataSymbol
 from rapidgen.rapid.binding.types import NUMBER
+from rapidgen.rapid.syntax.nodes import Mode
 
 
 class Formal(Protocol):
@@ -94,9 +97,7 @@ _NO_MISFIT: Final[tuple[Misfit, ...]] = ()
 
 
 def match(
-    parameters: Sequence[Formal],
-    arguments: Sequence[A],
-    fitting: Callable[[A, Sequence[int]], int],
+    parameters: Sequence[Formal], arguments: Sequence[A], fitting: Callable[[A, Sequence[int]], int]
 ) -> Matching[A]:
     """Match the arguments of a call to the parameters of its routine.
 
@@ -152,6 +153,26 @@ def first_fit(found: str | None, alternatives: Sequence[int], types: Sequence[st
             if wanted == found:
                 return k
     return alternatives[0]
+
+
+Held = Literal["VAR", "PERS", "either", "read-only"]
+
+
+def held_as(datum: DataSymbol) -> Held:
+    """How a datum is held: `either` is known at run time only, of an INOUT parameter."""
+    if datum.readonly:
+        return "read-only"
+    if datum.kind == "PARAMETER":
+        return "either" if datum.mode == "INOUT" else "PERS" if datum.mode == "PERS" else "VAR"
+    return "PERS" if datum.kind == "PERS" else "VAR"
+
+
+def may_pass(datum: DataSymbol, mode: Mode) -> bool:
+    """Whether a datum may be the argument of a parameter of a mode, as far as is known [K §5.1]."""
+    held = held_as(datum)
+    if mode in ("", "REF"):
+        return True
+    return held in ("either", mode) or (mode == "INOUT" and held != "read-only")
 
 
 def _next_required(parameters: Sequence[Formal], at: int, taken: dict[int, A]) -> int:

@@ -98,6 +98,13 @@ def value_of(symbol: DataSymbol, scope: Scope) -> Value | None:
     return values[symbol]
 
 
+def sizes_of(symbol: DataSymbol, scope: Scope) -> list[Value | None]:
+    """Sizes that a declaration gives to an array, None where one is not known; see `value_of`."""
+    away = symbol.routine is None and symbol.module is not None
+    inside = symbol.module if away and symbol.module else scope
+    return [constant(size, inside) for size in symbol.dimensions]
+
+
 def _value(node: Expression, want: str | None, scope: Scope, depth: int) -> _Typed:
     if depth > _MAX_DEPTH:
         raise NotConstant("this is nested too deeply", node)

@@ -91,5 +91,8 @@ def type_of(node: Expression, scope: Scope) -> str | None:
             left, right = type_of(node.left, scope), type_of(node.right, scope)
             if left == AGGREGATE or right == AGGREGATE:
                 left = right = right if left == AGGREGATE else left
-            return arithmetic(node.operator, left, right) if left and right else None
+            if left and right:
+                return arithmetic(node.operator, left, right)
+            known = left or right
+            return known if known in ("string", "dnum") else None
     return None

@@ -22,15 +22,15 @@ A type behind aliases is found from the module that declares its object. What tw
 differently under one name has no known type where both are looked at together.
 
 Nothing here judges: a name that nothing declares is None, a type that is not known is None, and
-objects of one scope with the same name are kept as pairs in `clashes`.
+objects of a module or a task with the same name are kept as pairs in `clashes`.
 """
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from typing import Final
 
 from rapidgen.rapid.binding.symbols import (
-    TYPES,
     DataSymbol,
     LabelSymbol,
     ModuleSymbol,
@@ -48,11 +48,13 @@ from rapidgen.rapid.syntax.nodes import (
     For,
     Label,
     Module,
+    Parameter,
     RecordDeclaration,
     RoutineDeclaration,
 )
 from rapidgen.rapid.syntax.walk import walk
 
+_MAX_ALIASES: Final = 4
 Clash = tuple[Symbol, Symbol]
 """Two objects of one name where there may be one: the first, which counts, and the second."""
 
@@ -78,11 +80,14 @@ class TaskScope:
     records: dict[TypeSymbol, Mapping[str, str | None]] = field(default_factory=dict)
     """What `ModuleScope.components` has found."""
     _parameters: dict[RoutineSymbol, tuple[DataSymbol, ...]] = field(default_factory=dict)
+    _scopes: list["ModuleScope"] = field(default_factory=list)
+    """All modules, of equal names as well."""
 
     def add(self, tree: Module, *, installed: bool = False) -> "ModuleScope":
         """Take a module in; its global names are known to all modules from now on."""
         module = ModuleScope(tree, self, installed)
         self.modules[tree.name.lower()] = module
+        self._scopes.append(module)
         found = self.installed if installed else self.globals
         own = ModuleSymbol(tree.name, "MODULE", module, node=tree)
         for key, symbol in [(tree.name.lower(), own), *module.own.items()]:
@@ -101,6 +106,7 @@ class TaskScope:
 
     def remove(self, module: "ModuleScope") -> None:
         """Take a module out, and its global names."""
+        self._scopes.remove(module)
         key = module.tree.name.lower()
         if self.modules.get(key) is module:
             del self.modules[key]
@@ -110,10 +116,12 @@ class TaskScope:
         self._forget()
 
     def _forget(self) -> None:
-        """What has been found of types and values may be different now."""
-        self.types.clear()
-        self.values.clear()
-        self.records.clear()
+        """What has been found of names, types and values may be different now."""
+        for found in (self.types, self.values, self.records):
+            found.clear()
+        for scope in self._scopes:
+            for known in (scope.known, scope.bases, scope.classes):
+                known.clear()
 
     def find(self, key: str, *, program: bool = True) -> Symbol | None:
         """A name as seen from no module: by lower-case name, with or without the program's."""
@@ -135,16 +143,7 @@ class TaskScope:
         found = self._parameters.get(routine)
         if found is None:
             found = self._parameters[routine] = tuple(
-                DataSymbol(
-                    p.name,
-                    "PARAMETER",
-                    routine.module,
-                    type=p.type,
-                    degree=p.dimensions,
-                    node=p,
-                    routine=routine.node,
-                )
-                for p in routine.parameters or ()
+                parameter_symbol(p, routine.module, routine.node) for p in routine.parameters or ()
             )
         return found
 
@@ -168,8 +167,13 @@ class ModuleScope:
     """What it declares, by lower-case name."""
     clashes: list[Clash] = field(default_factory=list)
     """Objects of this module with the same name [K §2.12]."""
+    known: dict[str, Symbol | None] = field(default_factory=dict)
+    """What `find` has found, by name as it was asked for."""
+    bases: dict[str, str | None] = field(default_factory=dict)
+    """What `base` has found."""
+    classes: dict[str, TypeClass | None] = field(default_factory=dict)
+    """What `type_class` has found; None of a record while it is at it."""
     _routines: dict[RoutineDeclaration, "RoutineScope"] = field(default_factory=dict)
-    _busy: set[Symbol] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         for declaration in self.tree.declarations:
@@ -185,14 +189,14 @@ class ModuleScope:
 
     def _symbol(self, d: Declaration) -> Symbol | None:
         if isinstance(d, DataDeclaration):
-            return _datum(d, self)
+            return datum_symbol(d, self)
         if isinstance(d, RoutineDeclaration):
-            return RoutineSymbol(d.name, d.kind, self, d.scope == "LOCAL", d.type, d)
+            return RoutineSymbol(d.name, d.kind, self, d.scope == "LOCAL", d, d.type)
         if isinstance(d, RecordDeclaration):
             components = [(c.type, c.name) for c in d.components]
-            return TypeSymbol(d.name, "RECORD", self, d.scope == "LOCAL", None, d, components)
+            return TypeSymbol(d.name, "RECORD", self, d.scope == "LOCAL", d, None, components)
         if isinstance(d, AliasDeclaration):
-            return TypeSymbol(d.name, "ALIAS", self, d.scope == "LOCAL", d.type, d)
+            return TypeSymbol(d.name, "ALIAS", self, d.scope == "LOCAL", d, d.type)
         return None
 
     @property
@@ -202,8 +206,12 @@ class ModuleScope:
 
     def find(self, name: str) -> Symbol | None:
         """What a name means in this module outside routines."""
+        if name in self.known:
+            return self.known[name]
         key = name.lower()
-        return self.own.get(key) or self.task.find(key, program=not self.installed)
+        found = self.own.get(key) or self.task.find(key, program=not self.installed)
+        self.known[name] = found
+        return found
 
     def routine(self, node: RoutineDeclaration) -> "RoutineScope":
         """The scope of a routine of this module, with everything that it declares."""
@@ -212,20 +220,22 @@ class ModuleScope:
             found = self._routines[node] = RoutineScope(self, node)
             symbol = self.own.get(node.name.lower())
             if not isinstance(symbol, RoutineSymbol) or symbol.node is not node:
-                symbol = RoutineSymbol(node.name, node.kind, self, False, node.type, node)
+                symbol = RoutineSymbol(node.name, node.kind, self, False, node, node.type)
             for parameter in self.task.parameters(symbol):
                 found.declare(parameter)
             for declaration in node.data:
-                found.declare(_datum(declaration, self, node))
-            found.find_labels()
+                found.declare(datum_symbol(declaration, self, node))
         return found
 
     # -- types ---------------------------------------------------------------------------
 
     def type_symbol(self, name: str) -> TypeSymbol | None:
-        """The record or predefined type behind aliases, or None when there is no such type."""
+        """The record or predefined type behind aliases, or None when there is no such type.
+
+        An alias of an alias is an error [K §2.15]; aliases of each other come to no end.
+        """
         scope: ModuleScope = self
-        for _ in range(3):
+        for _ in range(_MAX_ALIASES):
             symbol = scope.find(name)
             if not isinstance(symbol, TypeSymbol):
                 return None
@@ -236,15 +246,12 @@ class ModuleScope:
 
     def base(self, name: str) -> str | None:
         """Lower-case name of the type behind aliases, or None when there is no such type."""
-        symbol = self.find(name)
-        if symbol is None or symbol.kind not in TYPES:
-            return None
-        if isinstance(symbol, TypeSymbol) and symbol.base is not None:
-            target = self.find(symbol.base)
-            if target is None or target.kind not in TYPES:
-                return None
-            return target.name.lower()
-        return symbol.name.lower()
+        if name in self.bases:
+            return self.bases[name]
+        symbol = self.type_symbol(name)
+        found = symbol.name.lower() if symbol is not None else None
+        self.bases[name] = found
+        return found
 
     def type_of(self, symbol: Symbol) -> str | None:
         """Type of a datum, parameter or function, with its dimensions."""
@@ -275,20 +282,19 @@ class ModuleScope:
 
     def type_class(self, type_name: str) -> TypeClass | None:
         """Value class of a type behind aliases; an array has that of its element [K §2.16]."""
+        if type_name in self.classes:
+            return self.classes[type_name]
+        self.classes[type_name] = None
         symbol = self.find(element(type_name))
-        if symbol is None:
-            return None
-        if not isinstance(symbol, TypeSymbol) or symbol.kind != "RECORD":
-            return signatures.type_class(symbol.name)
-        if symbol in self._busy:
-            return None
-        self._busy.add(symbol)
-        try:
+        found: TypeClass | None = None
+        if isinstance(symbol, TypeSymbol) and symbol.kind == "RECORD":
             inside = symbol.module or self
             classes = {inside.type_class(of) for of, _ in symbol.components or ()}
-        finally:
-            self._busy.discard(symbol)
-        return "nonvalue" if classes & {"nonvalue", "semivalue"} else "value"
+            found = "nonvalue" if classes & {"nonvalue", "semivalue"} else "value"
+        elif symbol is not None:
+            found = signatures.type_class(symbol.name)
+        self.classes[type_name] = found
+        return found
 
 
 @dataclass(slots=True, eq=False)
@@ -299,25 +305,29 @@ class RoutineScope:
     node: RoutineDeclaration
     names: dict[str, DataSymbol] = field(default_factory=dict)
     """Parameters, data and loop variables, by lower-case name."""
-    labels: dict[str, LabelSymbol] = field(default_factory=dict)
-    clashes: list[Clash] = field(default_factory=list)
-    """Data of this routine with the same name [K §2.20]."""
+    _labels: dict[str, LabelSymbol] | None = None
 
-    def declare(self, symbol: DataSymbol) -> None:
-        """Add a parameter or a datum; the second of a name is a clash."""
+    def declare(self, symbol: DataSymbol) -> DataSymbol | None:
+        """Add a parameter or a datum, unless there is one of that name already: gives that one."""
         key = symbol.name.lower()
         first = self.names.get(key)
-        if first is not None:
-            self.clashes.append((first, symbol))
-        elif not key.startswith("<"):
+        if first is None and not key.startswith("<"):
             self.names[key] = symbol
+        return first
 
-    def find_labels(self) -> None:
-        """Fill `labels`; the first of a name counts."""
-        for at in walk(self.node):
-            if isinstance(at, Label):
-                symbol = LabelSymbol(at.name, "LABEL", self.module, node=at)
-                self.labels.setdefault(at.name.lower(), symbol)
+    @property
+    def labels(self) -> dict[str, LabelSymbol]:
+        """By lower-case name; the first of a name counts. Looked for when they are asked for."""
+        routine = self.module.routine(self.node)
+        if routine is not self:
+            return routine.labels
+        if self._labels is None:
+            self._labels = {}
+            for at in walk(self.node):
+                if isinstance(at, Label):
+                    symbol = LabelSymbol(at.name, "LABEL", self.module, node=at)
+                    self._labels.setdefault(at.name.lower(), symbol)
+        return self._labels
 
     def loop(self, node: For) -> "RoutineScope":
         """The scope of a loop's statements: its variable hides any other name [K §4.15]."""
@@ -325,7 +335,7 @@ class RoutineScope:
             node.variable, "LOOP", self.module, node=node, routine=self.node, readonly=True
         )
         names = {**self.names, node.variable.lower(): variable}
-        return RoutineScope(self.module, self.node, names, self.labels)
+        return RoutineScope(self.module, self.node, names)
 
     def find(self, name: str) -> Symbol | None:
         """What a name means in this routine."""
@@ -336,11 +346,19 @@ Scope = ModuleScope | RoutineScope
 """Where a name is looked up: both have `find` and `module`."""
 
 
-def _datum(
+def datum_symbol(
     d: DataDeclaration, module: ModuleScope, routine: RoutineDeclaration | None = None
 ) -> DataSymbol:
+    """What a declaration of data gives, in a module or a routine."""
     local, degree = d.scope == "LOCAL", len(d.dimensions)
-    return DataSymbol(d.name, d.kind, module, local, d.type, degree, d, routine, d.kind == "CONST")
+    return DataSymbol(d.name, d.kind, module, local, d, d.type, degree, routine, d.kind == "CONST")
+
+
+def parameter_symbol(
+    p: Parameter, module: ModuleScope | None, routine: RoutineDeclaration | None
+) -> DataSymbol:
+    """What a parameter is inside its routine; both None: of a built-in."""
+    return DataSymbol(p.name, "PARAMETER", module, False, p, p.type, p.dimensions, routine)
 
 
 @cache

@@ -18,6 +18,7 @@ from rapidgen.rapid.syntax.nodes import (
     Label,
     Mode,
     Module,
+    Node,
     Parameter,
     RecordDeclaration,
     RoutineDeclaration,
@@ -44,6 +45,8 @@ class Symbol:
     module: "ModuleScope | None" = None
     local: bool = False
     """Declared LOCAL."""
+    node: Node | None = None
+    """Its declaration; None for what is built in or installed."""
 
     @property
     def token(self) -> int:
@@ -62,10 +65,10 @@ class Symbol:
 class DataSymbol(Symbol):
     """A variable, persistent, constant, parameter, loop variable or installed object."""
 
+    node: DataDeclaration | Parameter | For | None = None
     type: str = "num"
     """As declared: before aliases, and without dimensions."""
     degree: int = 0
-    node: DataDeclaration | Parameter | For | None = None
     routine: RoutineDeclaration | None = None
     """Whose parameter, datum or loop variable it is; None for module data."""
     readonly: bool = False
@@ -104,9 +107,9 @@ class DataSymbol(Symbol):
 class RoutineSymbol(Symbol):
     """A routine of the program (`node`) or a built-in one (`signature`)."""
 
+    node: RoutineDeclaration | None = None
     type: str | None = None
     """Type of a function's value, as declared."""
-    node: RoutineDeclaration | None = None
     signature: Signature | None = None
 
     @property
@@ -128,9 +131,9 @@ class RoutineSymbol(Symbol):
 class TypeSymbol(Symbol):
     """A record, an alias or a predefined type; predefined records are of kind `TYPE`."""
 
+    node: RecordDeclaration | AliasDeclaration | None = None
     base: str | None = None
     """Of an alias: the type that it names."""
-    node: RecordDeclaration | AliasDeclaration | None = None
     components: Sequence[tuple[str, str]] | None = None
     """(type, name) of a record's components in order, as declared; None for what is no record."""
 

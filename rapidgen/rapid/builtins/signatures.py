@@ -131,7 +131,7 @@ def routine(name: str) -> Signature | None:
         return None
     proper, type_name, text, marks = header
     tokens = lexer.tokenize(text, f"<{proper}>", "utf-8", radix=False)
-    parameters, _ = ModuleParser(tokens, builtin=True).parameters(1)
+    parameters, _ = ModuleParser(tokens, builtin=True).data.parameters(1)
     known = _marks(marks or "")
     since, until = (_version(known.pop(word, ())) for word in ("since", "until"))
     kind: Literal["PROC", "FUNC"] = "FUNC" if type_name else "PROC"
@@ -192,9 +192,7 @@ class _Types:
     records: Mapping[str, PredefinedRecord]
 
 
-def _declarations(
-    text: str,
-) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
+def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
     tokens = lexer.tokenize(
         f"MODULE builtins\n{text}\nENDMODULE", "<builtins>", "utf-8", radix=False
     )

@@ -4,14 +4,23 @@
 by what was given: see `given.Extent`.
 """
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from dataclasses import replace
 
-from rapidgen.diagnostics import Diagnostic, Severity, Span
-from rapidgen.rapid.checks.declarations import ModuleChecker
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
+from rapidgen.rapid.binding import (
+    DataSymbol,
+    ModuleScope,
+    RoutineSymbol,
+    Symbol,
+    TaskScope,
+    installed_objects,
+)
+from rapidgen.rapid.checks.declarations import check_module
+from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.given import Extent, Given
-from rapidgen.rapid.checks.symbols import Scope, Symbol, World, collect, task_globals
 from rapidgen.rapid.dialect import Dialect
-from rapidgen.rapid.syntax.nodes import Module, RoutineDeclaration
+from rapidgen.rapid.syntax.nodes import Module
 from rapidgen.rapid.syntax.parser import parse
 from rapidgen.system import System, TaskSpec
 
@@ -53,58 +62,50 @@ def check(
     if isinstance(given, str | bytes):
         given = parse(given, path=path, dialect=dialect)
     if isinstance(given, Module):
-        return _check_modules([given], Given(dialect, Extent.FILE, gaps), World())
+        return _check_modules([given], Given(dialect, Extent.FILE, gaps))
     modules = list(given)
     extent = Extent.TASK if whole_task else Extent.FOLDER
     if not whole_task and not any(r.name.lower() == "main" for m in modules for r in m.routines):
         gaps = True
-    return _check_modules(modules, Given(dialect, extent, gaps), World(elsewhere=elsewhere))
+    return _check_modules(modules, Given(dialect, extent, gaps, elsewhere))
 
 
-def _check_modules(modules: Sequence[Module], given: Given, world: World) -> list[Diagnostic]:
+def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
     """Modules of one folder: they may belong to several tasks, so equal names do not clash."""
     if _any_unreadable(modules) or _loads(modules):
-        given = Given(given.dialect, given.extent, gaps=True)
-    collected = [collect(module, world) for module in modules]
-    scopes = [scope for scope, _ in collected]
-    names, clashes = task_globals(scopes)
-    for first, second in clashes:
-        _merge(first, second)
-    found: list[Diagnostic] = []
-    for scope, twice in collected:
-        scope.globals = names
-        found += _check_module(scope, given, twice)
-    return _sorted(found)
-
-
-def _merge(first: Symbol, second: Symbol) -> None:
-    """Two tasks' objects of one name: what they differ in is not judged."""
-    if first.kind != second.kind or first.type != second.type or first.degree != second.degree:
-        first.known, first.resolved = True, None
+        given = replace(given, gaps=True)
+    task = TaskScope()
+    scopes = [task.add(module) for module in modules]
+    for clash in task.clashes:
+        task.dispute(clash)
+    return _sorted(d for scope in scopes for d in _check_module(scope, given))
 
 
 def _check_module(
-    scope: Scope, given: Given, twice: Sequence[tuple[Symbol, Symbol]]
+    scope: ModuleScope, given: Given, clashes: Sequence[tuple[Symbol, Symbol]] = ()
 ) -> list[Diagnostic]:
-    module = scope.module
-    checker = ModuleChecker(scope, given)
-    for first, second in twice:
-        _clash(checker, first, second, "in this module")
-    if all(d.code in _TREE_STANDS or d.severity is not Severity.ERROR for d in module.diagnostics):
-        checker.module()
-    return [*module.diagnostics, *checker.found]
+    """One module; `clashes` are those with other modules of its task."""
+    findings = Findings(scope, given)
+    for first, second in scope.clashes:
+        _clash(findings, first, second, "in this module")
+    diagnostics = scope.tree.diagnostics
+    if all(d.code in _TREE_STANDS or d.severity is not Severity.ERROR for d in diagnostics):
+        check_module(findings)
+    for first, second in clashes:
+        if second.module is scope:
+            _clash(findings, first, second, "in this task")
+    return [*diagnostics, *findings.found]
 
 
-def _clash(checker: ModuleChecker, first: Symbol, second: Symbol, where: str) -> None:
-    node = second.node
-    at = getattr(node, "name_token", None)
-    place = at if isinstance(at, int) else (node.first if node is not None else 0)
-    checker.report(
+def _clash(findings: Findings, first: Symbol, second: Symbol, where: str) -> None:
+    named = isinstance(second, DataSymbol | RoutineSymbol)
+    head = second.node.first if second.node is not None else 0
+    findings.report(
         "RG305",
         f"'{second.name}' is declared twice {where}",
-        place,
+        second.token if named else head,
         notes=("objects of one scope differ in name [K §2.12, 9.1]",),
-        related=checker.declared(first),
+        related=findings.declared(first),
     )
 
 
@@ -112,86 +113,65 @@ def _clash(checker: ModuleChecker, first: Symbol, second: Symbol, where: str) ->
 
 
 def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnostic]:
-    installed = _installed(system)
+    configured = installed_objects(_installed(system))
     parsed: dict[tuple[str, int], Module] = {}
     found: list[Diagnostic] = []
-    seen: set[Diagnostic] = set()
-    for task in system.tasks:
-        modules = []
-        for file in task.modules:
+    for spec in system.tasks:
+        task = TaskScope(configured)
+        scopes = []
+        for file in spec.modules:
             key = (file.path, len(file.data))
             module = parsed.get(key)
             if module is None:
                 module = parsed[key] = parse(file.data, path=file.path, dialect=dialect)
-            modules.append(module)
+            scopes.append(task.add(module, installed=file.installed or file.shared))
+        modules = [scope.tree for scope in scopes]
         given = Given(dialect, Extent.SYSTEM, gaps or _loads(modules) or _any_unreadable(modules))
-        for diagnostic in _check_task(modules, given, World(installed), task):
-            if diagnostic not in seen:
-                seen.add(diagnostic)
-                found.append(diagnostic)
-    return _sorted(found)
+        for scope in scopes:
+            found += _check_module(scope, given, task.clashes)
+        found += _entry(spec, task, given)
+    return _sorted(dict.fromkeys(found))  # a module may be in several tasks
 
 
-def _check_task(
-    modules: Sequence[Module], given: Given, world: World, task: TaskSpec
-) -> list[Diagnostic]:
-    collected = [collect(module, world) for module in modules]
-    names, clashes = task_globals([scope for scope, _ in collected])
-    found: list[Diagnostic] = []
-    for scope, twice in collected:
-        scope.globals = names
-        found += _check_module(scope, given, twice)
-        checker = ModuleChecker(scope, given)
-        for first, second in clashes:
-            if second.module is scope:
-                _clash(checker, first, second, "in this task")
-        found += checker.found
-    return found + _entry(task, names, given)
-
-
-def _entry(task: TaskSpec, names: Mapping[str, Symbol], given: Given) -> list[Diagnostic]:
+def _entry(spec: TaskSpec, task: TaskScope, given: Given) -> list[Diagnostic]:
     """A task starts in a procedure without parameters [K §9]; without modules it never does."""
-    symbol = names.get(task.entry.lower())
-    if symbol is None or symbol.module is None or not isinstance(symbol.node, RoutineDeclaration):
-        if given.gaps or not task.modules:
+    symbol = task.find(spec.entry.lower())
+    if not isinstance(symbol, RoutineSymbol) or symbol.module is None or symbol.node is None:
+        if given.gaps or not spec.modules:
             return []
         return [
-            Diagnostic(
+            error(
                 "RG331",
-                Severity.WARNING,
-                f"the task {task.name} has no procedure '{task.entry}' to start in",
-                Span(task.modules[0].path, 1, 1),
-                help=f"declare PROC {task.entry}() in one of its modules, or name another entry",
+                Span(spec.modules[0].path, 1, 1),
+                f"the task {spec.name} has no procedure '{spec.entry}' to start in",
+                f"declare PROC {spec.entry}() in one of its modules, or name another entry",
+                severity=Severity.WARNING,
             )
         ]
     if symbol.kind == "PROC" and not symbol.node.parameters:
         return []
     what = "has parameters" if symbol.kind == "PROC" else f"is a {symbol.kind}"
-    checker = ModuleChecker(symbol.module, given)
-    checker.report(
+    findings = Findings(symbol.module, given)
+    findings.report(
         "RG331",
-        f"the task {task.name} starts in '{symbol.name}', but that {what}",
-        symbol.node.name_token,
+        f"the task {spec.name} starts in '{symbol.name}', but that {what}",
+        symbol.token,
         help=f"write PROC {symbol.name}()",
         notes=("the entry routine is a procedure without parameters [K §9]",),
     )
-    return checker.found
+    return findings.found
 
 
-def _installed(system: System) -> Mapping[str, Symbol]:
-    """Signals, mechanical units and task identities of a configuration."""
-    found: dict[str, Symbol] = {}
+def _installed(system: System) -> Iterator[tuple[str, str]]:
+    """Name and type of signals, mechanical units and task identities of a configuration."""
     for signal in system.signals:
-        kind = _SIGNAL_TYPES[signal.type]
-        found[signal.name.lower()] = Symbol(signal.name, "INSTALLED", kind)
+        yield signal.name, _SIGNAL_TYPES[signal.type]
     for group in system.groups:
         for unit in (group.robot, *group.units):
             if unit:
-                found[unit.lower()] = Symbol(unit, "INSTALLED", "mecunit")
+                yield unit, "mecunit"
     for task in system.tasks:
-        name = f"{task.name}Id"
-        found[name.lower()] = Symbol(name, "INSTALLED", "taskid")
-    return found
+        yield f"{task.name}Id", "taskid"
 
 
 def _unreadable(module: Module) -> bool:

@@ -2,9 +2,13 @@
 
 from typing import Final
 
+from rapidgen.rapid.binding import DataSymbol, RoutineScope, Symbol, TypeSymbol
+from rapidgen.rapid.binding.names import datum_symbol, parameter_symbol
+from rapidgen.rapid.binding.types import array
+from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.flow import FlowChecker
 from rapidgen.rapid.checks.labels import bodies, check_labels, flat
-from rapidgen.rapid.checks.symbols import Symbol, array
+from rapidgen.rapid.checks.typing import TypeChecker
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     AliasDeclaration,
@@ -30,12 +34,23 @@ from rapidgen.rapid.syntax.nodes import (
 _MAX_DEGREE: Final = 3
 
 
-class ModuleChecker(FlowChecker):
-    """Checks one module."""
+def check_module(findings: Findings) -> None:
+    """Judge everything in a module."""
+    _ModuleChecker(findings).module()
+
+
+class _ModuleChecker:
+    """Checks the declarations of one module."""
+
+    def __init__(self, findings: Findings) -> None:
+        self.findings = findings
+        self.report, self.warn, self.declared = findings.report, findings.warn, findings.declared
+        self.scope = findings.module
+        self.types = TypeChecker(findings)
 
     def module(self) -> None:
         """Everything in the module."""
-        for declaration in self.scope.module.declarations:
+        for declaration in self.scope.tree.declarations:
             if isinstance(declaration, DataDeclaration):
                 self._data(declaration, routine=False)
             elif isinstance(declaration, RoutineDeclaration):
@@ -48,11 +63,11 @@ class ModuleChecker(FlowChecker):
 
     def _type(self, name: str, at: int) -> str | None:
         """Base of a declared type; reports a name that is no type."""
-        symbol = self.find(name)
+        symbol = self.findings.find(name)
         if symbol is None:
-            self.unknown("type", name, at, certain=self.given.judges_routines)
+            self.findings.unknown("type", name, at, certain=self.findings.given.judges_routines)
             return None
-        if symbol.kind not in ("RECORD", "ALIAS", "TYPE") or symbol.name == "anytype":
+        if not isinstance(symbol, TypeSymbol) or symbol.name == "anytype":
             self.report(
                 "RG303",
                 f"'{symbol.name}' is no type",
@@ -61,7 +76,7 @@ class ModuleChecker(FlowChecker):
                 related=self.declared(symbol),
             )
             return None
-        if name.lower() == "dnum" and not self.given.dialect.has_dnum:
+        if name.lower() == "dnum" and not self.findings.given.dialect.has_dnum:
             self.report("RG325", "dnum came with RobotWare 5.12", at)
         return self.scope.base(name)
 
@@ -88,14 +103,14 @@ class ModuleChecker(FlowChecker):
                 )
 
     def _alias(self, node: AliasDeclaration) -> None:
-        target = self.find(node.type)
+        target = self.findings.find(node.type)
         self._type(node.type, node.last - 2)
-        if target is not None and target.kind == "ALIAS":
+        if isinstance(target, TypeSymbol) and target.kind == "ALIAS":
             self.report(
                 "RG327",
                 f"'{node.type}' is itself an alias",
                 node,
-                help=f"name its base type: ALIAS {target.type} {node.name};",
+                help=f"name its base type: ALIAS {target.base} {node.name};",
                 notes=("no alias of an alias [K §2.15]",),
             )
 
@@ -133,8 +148,8 @@ class ModuleChecker(FlowChecker):
         else:
             self._constant_expression(initial)
         wanted = array(base, len(node.dimensions)) if base else None
-        self.expect(initial, wanted, "the initial value")
-        self.members_of(initial, [self.constant(size) for size in node.dimensions])
+        self.types.expect(initial, wanted, "the initial value")
+        self.types.members_of(initial, [self.types.constant(size) for size in node.dimensions])
 
     def _persistent(self, node: DataDeclaration, *, routine: bool) -> None:
         if routine:
@@ -163,8 +178,8 @@ class ModuleChecker(FlowChecker):
             )
         for size in node.dimensions:
             self._constant_expression(size)
-            self.expect(size, "num", "a size")
-            value = self.constant(size)
+            self.types.expect(size, "num", "a size")
+            value = self.types.constant(size)
             if isinstance(value, int | float) and (value < 1 or value != int(value)):
                 self.report("RG318", f"a size is a whole number from 1, not {value:g}", size)
 
@@ -203,7 +218,7 @@ class ModuleChecker(FlowChecker):
         elif isinstance(node, FunctionCall):
             self._not_constant(node, "a function call")
         elif isinstance(node, Name | Index | Member):
-            root = self.root(node)
+            root = self.types.root(node)
             if root is not None and root.kind in ("VAR", "PERS", "PARAMETER"):
                 self._not_constant(node, f"'{root.name}' ({root.kind})", root)
 
@@ -220,50 +235,44 @@ class ModuleChecker(FlowChecker):
     # -- routines ------------------------------------------------------------------------
 
     def _routine(self, node: RoutineDeclaration) -> None:
-        self.locals = {}
-        self.routine = node
-        self.returns = 0
+        here = RoutineScope(self.scope, node)
+        self.findings.here = here
+        flow = FlowChecker(self.findings, self.types, node)
         if node.kind == "FUNC" and node.type is not None:
             self._result(node)
         for parameter in node.parameters:
-            self._parameter(parameter)
+            self._parameter(parameter, here)
         for datum in node.data:
             self._data(datum, routine=True)
-            symbol = Symbol(
-                datum.name, datum.kind, datum.type, len(datum.dimensions), datum, self.scope
-            )
-            self._declare(symbol, datum.name_token)
-        check_labels(self, node)
+            self._declare(here, datum_symbol(datum, self.scope, node))
+        check_labels(self.findings, node)
         for part, body in bodies(node):
-            self.part = part
+            flow.part = part
             if part == "ERROR":
                 self._error_numbers(node)
-            alive = self.statements(body)
+            alive = flow.statements(body)
             if part == "body" and node.kind == "FUNC" and alive:
-                self._no_return(node)
-        for symbol in self.locals.values():
-            if not symbol.used and isinstance(symbol.node, DataDeclaration):
+                self._no_return(node, flow.returns)
+        for symbol in here.names.values():
+            if symbol not in self.findings.used and isinstance(symbol.node, DataDeclaration):
                 self.warn(
                     "RG324",
                     f"'{symbol.name}' is never read",
-                    symbol.node.name_token,
+                    symbol.token,
                     help="remove its declaration",
                 )
-        self.locals = {}
+        self.findings.here = self.scope
 
-    def _declare(self, symbol: Symbol, at: int) -> None:
-        key = symbol.name.lower()
-        first = self.locals.get(key)
+    def _declare(self, here: RoutineScope, symbol: DataSymbol) -> None:
+        first = here.declare(symbol)
         if first is not None:
             self.report(
                 "RG305",
                 f"'{symbol.name}' is declared twice in this routine",
-                at,
+                symbol.token,
                 notes=("parameters count as data of the routine [K §2.20]",),
                 related=self.declared(first),
             )
-        elif not key.startswith("<"):
-            self.locals[key] = symbol
 
     def _result(self, node: RoutineDeclaration) -> None:
         base = self._type(node.type or "", node.name_token - 1)
@@ -275,13 +284,10 @@ class ModuleChecker(FlowChecker):
                 notes=("functions return value types [K §5.4]",),
             )
 
-    def _parameter(self, parameter: Parameter) -> None:
+    def _parameter(self, parameter: Parameter, here: RoutineScope) -> None:
         if parameter.name.startswith("<"):
             return
-        symbol = Symbol(
-            parameter.name, "PARAMETER", parameter.type, parameter.dimensions, parameter, self.scope
-        )
-        self._declare(symbol, parameter.name_token)
+        self._declare(here, parameter_symbol(parameter, self.scope, here.node))
         if parameter.dimensions > _MAX_DEGREE:
             self.report("RG318", "an array has at most 3 dimensions", parameter)
         type_token = parameter.name_token - 1
@@ -308,10 +314,10 @@ class ModuleChecker(FlowChecker):
 
     def _error_numbers(self, node: RoutineDeclaration) -> None:
         for number in (node.error.numbers or []) if node.error else []:
-            self.expect(number, "num", "the error number")
+            self.types.expect(number, "num", "the error number")
 
-    def _no_return(self, node: RoutineDeclaration) -> None:
-        if self.returns == 0:
+    def _no_return(self, node: RoutineDeclaration, returns: int) -> None:
+        if returns == 0:
             self.report(
                 "RG322",
                 f"the function '{node.name}' has no RETURN",
@@ -331,12 +337,12 @@ class ModuleChecker(FlowChecker):
         """LOCAL objects that nothing in the module names; persistents are seen from outside."""
         late = any(
             isinstance(statement, LateCall)
-            for routine in self.scope.module.routines
+            for routine in self.scope.tree.routines
             for _, body in bodies(routine)
             for statement in flat(body)
         )
         for symbol in self.scope.own.values():
-            if symbol.used or not symbol.local or symbol.kind == "PERS":
+            if symbol in self.findings.used or not symbol.local or symbol.kind == "PERS":
                 continue
             node = symbol.node
             if isinstance(node, RoutineDeclaration) and not late:

@@ -6,8 +6,11 @@ Each statement function says whether execution can go on behind the statement.
 from collections.abc import Callable, Sequence
 from typing import Final, cast
 
-from rapidgen.rapid.checks.calls import CallChecker
-from rapidgen.rapid.checks.symbols import READ_ONLY, Symbol, degree
+from rapidgen.rapid.binding import DataSymbol, RoutineScope, RoutineSymbol, Symbol
+from rapidgen.rapid.binding.types import AGGREGATE, degree
+from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.checks.findings import Findings
+from rapidgen.rapid.checks.typing import TypeChecker
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
     Assignment,
@@ -36,17 +39,19 @@ from rapidgen.rapid.syntax.nodes import (
     While,
 )
 
-_ENDING: Final = frozenset(("exitcycle",))
-"""Built-in procedures that never come back."""
 
+class FlowChecker:
+    """Checks the statements of one routine."""
 
-class FlowChecker(CallChecker):
-    """Checks the statements of one routine at a time."""
-
-    routine: RoutineDeclaration
-    part: str
-    """`body`, `ERROR`, `UNDO` or `BACKWARD`."""
-    returns: int
+    def __init__(self, findings: Findings, types: TypeChecker, routine: RoutineDeclaration) -> None:
+        self.findings = findings
+        self.report, self.warn, self.declared = findings.report, findings.warn, findings.declared
+        self.types = types
+        self.calls = types.calls
+        self.routine = routine
+        self.part = "body"
+        """`body`, `ERROR`, `UNDO` or `BACKWARD`."""
+        self.returns = 0
 
     def statements(self, body: Sequence[Statement]) -> bool:
         """Check a list; whether its end can be reached."""
@@ -72,15 +77,15 @@ class FlowChecker(CallChecker):
         target = node.target
         wanted: str | None = None
         if isinstance(target, Name | Index | Member):
-            root = self.root(target)
-            was_used = root.used if root else False
-            wanted = self.datum(target, self._hint(node))
+            root = self.types.root(target)
+            was_used = root in self.findings.used
+            wanted = self.types.datum(target, self._hint(node))
             if root is not None:
-                if isinstance(target, Name):
-                    root.used = was_used  # being written is no use
+                if isinstance(target, Name) and not was_used:
+                    self.findings.used.discard(root)  # being written is no use
                 self._writable(target, root)
         if wanted is not None:
-            kind = self.scope.type_class(wanted)
+            kind = self.findings.module.type_class(wanted)
             if kind in ("nonvalue", "semivalue"):
                 self.report(
                     "RG309",
@@ -91,11 +96,11 @@ class FlowChecker(CallChecker):
                     else "",
                     notes=("value classes [K §2.16]",),
                 )
-                self.used(node.value)
+                self.types.used(node.value)
                 return True
-        self.expect(node.value, wanted, "the value")
+        self.types.expect(node.value, wanted, "the value")
         if wanted is not None and degree(wanted):
-            self.same_sizes(node, target, node.value)
+            self.types.same_sizes(node, target, node.value)
         return True
 
     def _hint(self, node: Assignment) -> str | None:
@@ -109,7 +114,7 @@ class FlowChecker(CallChecker):
             why = f"'{root.name}' is a constant"
         elif root.kind == "LOOP":
             why = f"the loop variable '{root.name}' is read-only"
-        elif root.kind == "VAR" and root.node is None and root.name.lower() in READ_ONLY:
+        elif isinstance(root, DataSymbol) and root.readonly:
             why = f"{root.name} is read-only"
         else:
             return
@@ -122,29 +127,28 @@ class FlowChecker(CallChecker):
         )
 
     def _call_statement(self, node: ProcedureCall) -> bool:
-        self.call(node)
-        return node.name.lower() not in _ENDING
+        self.calls.call(node)
+        return node.name.lower() not in signatures.marked("ends")
 
     def _late(self, node: LateCall) -> bool:
-        self.expect(node.procedure, "string", "the name of the procedure")
-        name = self.constant(node.procedure)
+        self.types.expect(node.procedure, "string", "the name of the procedure")
+        name = self.types.constant(node.procedure)
         # `module:name` may reach a LOCAL procedure of a module that is not looked at here.
         known = name.removeprefix(":") if isinstance(name, str) else ""
-        symbol = self.find(known) if known and ":" not in known else None
-        if symbol is not None and symbol.kind == "PROC":
-            self.check_arguments(symbol, node)
+        symbol = self.findings.find(known) if known and ":" not in known else None
+        if isinstance(symbol, RoutineSymbol) and symbol.kind == "PROC":
+            self.calls.check_arguments(symbol, node)
             return True
         if symbol is not None:
             self.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
-        elif known and ":" not in known and self.given.judges_routines:
+        elif known and ":" not in known and self.findings.given.judges_routines:
             self.warn(
                 "RG301",
                 f"there is no procedure '{known}'",
                 node.procedure,
                 help="the call would fail with ERR_REFUNKPRC",
             )
-        for argument in node.arguments:
-            self.loose_argument(argument)
+        self.calls.loose_arguments(node.arguments)
         return True
 
     def _holder(self, node: PlaceholderStatement) -> bool:
@@ -175,26 +179,21 @@ class FlowChecker(CallChecker):
                 notes=("RETURN [K §4.7]",),
             )
         if node.value is not None:
-            wanted = self.scope.base(routine.type) if routine.type else None
-            if wanted is not None and self.scope.type_class(wanted) != "value":
+            wanted = self.findings.module.base(routine.type) if routine.type else None
+            if wanted is not None and self.findings.module.type_class(wanted) != "value":
                 wanted = None  # reported at the head of the function
-            self.expect(node.value, wanted, "the returned value")
+            self.types.expect(node.value, wanted, "the returned value")
         return False
 
     def _place(self, node: Statement, word: str, where: str, section: str) -> None:
-        self.report(
-            "RG321",
-            f"{word} stands only in {where}",
-            node,
-            notes=(f"[K §{section}]",),
-        )
+        self.report("RG321", f"{word} stands only in {where}", node, notes=(f"[K §{section}]",))
 
     def _raise(self, node: Raise) -> bool:
         if node.number is None:
             if self.part != "ERROR":
                 self._place(node, "RAISE without a number", "an ERROR handler", "4.8")
         else:
-            self.expect(node.number, "num", "the error number")
+            self.types.expect(node.number, "num", "the error number")
             if self.part == "ERROR":
                 # K forbids it, public programs do it: not an error here.
                 self.warn(
@@ -203,7 +202,7 @@ class FlowChecker(CallChecker):
                     node,
                     help="RAISE; hands the same error on",
                 )
-            value = self.constant(node.number)
+            value = self.types.constant(node.number)
             if (
                 isinstance(value, int | float)
                 and not 1 <= value <= 90
@@ -230,10 +229,10 @@ class FlowChecker(CallChecker):
     def _connect(self, node: Connect) -> bool:
         target = node.target
         if isinstance(target, Name | Index | Member):
-            found = self.datum(target, "num")
-            root = self.root(target)
+            found = self.types.datum(target, "num")
+            root = self.types.root(target)
             if found is not None and found != "num":
-                self.mismatch(target, "num", found, "the interrupt variable")
+                self.types.mismatch(target, "num", found, "the interrupt variable")
             elif root is not None and root.kind in ("CONST", "PERS", "LOOP"):
                 self.report(
                     "RG326",
@@ -243,16 +242,22 @@ class FlowChecker(CallChecker):
                     notes=("CONNECT [K §4.12]",),
                     related=self.declared(root),
                 )
-            elif root is not None and root.kind == "VAR" and root.name.lower() in self.locals:
+            elif (
+                root is not None
+                and root.kind == "VAR"
+                and root.name.lower() in self.findings.locals
+            ):
                 self.warn(
                     "RG326",
                     f"the interrupt variable '{root.name}' ends with its routine",
                     target,
                     help="declare it at the head of the module",
                 )
-        trap = self.find(node.trap)
+        trap = self.findings.find(node.trap)
         if trap is None:
-            self.unknown("trap", node.trap, node.last - 1, certain=self.given.judges_routines)
+            self.findings.unknown(
+                "trap", node.trap, node.last - 1, certain=self.findings.given.judges_routines
+            )
         elif trap.kind != "TRAP":
             self.report(
                 "RG306", f"'{trap.name}' is no trap", node.last - 1, related=self.declared(trap)
@@ -264,45 +269,44 @@ class FlowChecker(CallChecker):
     def _if(self, node: If) -> bool:
         alive = False
         for branch in node.branches:
-            self.expect(branch.condition, "bool", "the condition")
+            self.types.expect(branch.condition, "bool", "the condition")
             alive = self.statements(branch.body) or alive
         if node.otherwise is None:
             return True
         return self.statements(node.otherwise) or alive
 
     def _compact_if(self, node: CompactIf) -> bool:
-        self.expect(node.condition, "bool", "the condition")
+        self.types.expect(node.condition, "bool", "the condition")
         _CHECKS[type(node.statement)](self, node.statement)
         return True
 
     def _for(self, node: For) -> bool:
-        self.expect(node.start, "num", "the start")
-        self.expect(node.end, "num", "the end")
+        self.types.expect(node.start, "num", "the start")
+        self.types.expect(node.end, "num", "the end")
         if node.step is not None:
-            self.expect(node.step, "num", "the step")
-            if self.constant(node.step) == 0:
+            self.types.expect(node.step, "num", "the step")
+            if self.types.constant(node.step) == 0:
                 self.warn("RG319", "a step of 0 never comes to an end", node.step)
-        key = node.variable.lower()
-        hidden = self.locals.get(key)
-        self.locals[key] = Symbol(node.variable, "LOOP", "num", resolved="num", known=True)
+        around = self.findings.here
+        assert isinstance(around, RoutineScope)
+        self.findings.here = around.loop(node)
         self.statements(node.body)
-        if hidden is None:
-            del self.locals[key]
-        else:
-            self.locals[key] = hidden
+        self.findings.here = around
         return True
 
     def _while(self, node: While) -> bool:
-        self.expect(node.condition, "bool", "the condition")
+        self.types.expect(node.condition, "bool", "the condition")
         self.statements(node.body)
         return not (isinstance(node.condition, BoolLiteral) and node.condition.value)
 
     def _test(self, node: Test) -> bool:
-        subject = self.type_of(node.subject)
+        subject = self.types.type_of(node.subject)
         alive = False
         for case in node.cases:
             for value in case.values:
-                self.expect(value, subject if subject != "aggregate" else None, "the CASE value")
+                self.types.expect(
+                    value, subject if subject != AGGREGATE else None, "the CASE value"
+                )
             alive = self.statements(case.body) or alive
         if node.default is None:
             return True

@@ -1,6 +1,6 @@
 """What the checker was given, and therefore what it may call unknown."""
 
-from collections.abc import Iterable
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Final
@@ -31,6 +31,8 @@ class Given:
     dialect: Dialect
     extent: Extent
     gaps: bool = False
+    elsewhere: Collection[str] = ()
+    """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
 
     @property
     def judges_routines(self) -> bool:

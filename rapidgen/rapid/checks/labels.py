@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from rapidgen.rapid.checks.flow import FlowChecker
+from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.syntax.nodes import (
     CompactIf,
@@ -67,7 +67,7 @@ def bodies(routine: RoutineDeclaration) -> list[tuple[str, Sequence[Statement]]]
     return found
 
 
-def check_labels(checker: FlowChecker, routine: RoutineDeclaration) -> None:
+def check_labels(findings: Findings, routine: RoutineDeclaration) -> None:
     """Report labels that clash, are missing or unused, and GOTOs into blocks."""
     labels: dict[str, tuple[Label, Path]] = {}
     gotos: list[tuple[Goto, Path]] = []
@@ -78,14 +78,14 @@ def check_labels(checker: FlowChecker, routine: RoutineDeclaration) -> None:
                 continue
             key = node.name.lower()
             if key in labels:
-                checker.report("RG305", f"the label '{node.name}' is set twice", node)
-            elif key in checker.locals:
-                checker.report(
+                findings.report("RG305", f"the label '{node.name}' is set twice", node)
+            elif key in findings.locals:
+                findings.report(
                     "RG305",
                     f"'{node.name}' is a label and a datum of the same routine",
                     node,
                     notes=("[K §4.3]",),
-                    related=checker.declared(checker.locals[key]),
+                    related=findings.declared(findings.locals[key]),
                 )
             elif key != "<id>":
                 labels[key] = (node, path)
@@ -96,7 +96,7 @@ def check_labels(checker: FlowChecker, routine: RoutineDeclaration) -> None:
             continue
         if key not in labels:
             likely = closest(goto.name, [label.name for label, _ in labels.values()])
-            checker.report(
+            findings.report(
                 "RG320",
                 f"there is no label '{goto.name}' in this routine",
                 goto,
@@ -106,7 +106,7 @@ def check_labels(checker: FlowChecker, routine: RoutineDeclaration) -> None:
         reached.add(key)
         label, there = labels[key]
         if path[: len(there)] != there:
-            checker.report(
+            findings.report(
                 "RG320",
                 f"GOTO '{goto.name}' would enter a block from outside",
                 goto,
@@ -115,4 +115,4 @@ def check_labels(checker: FlowChecker, routine: RoutineDeclaration) -> None:
             )
     for key, (label, _) in labels.items():
         if key not in reached:
-            checker.warn("RG324", f"nothing jumps to the label '{label.name}'", label)
+            findings.warn("RG324", f"nothing jumps to the label '{label.name}'", label)

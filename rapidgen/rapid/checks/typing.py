@@ -8,22 +8,30 @@ from collections.abc import Callable, Sequence
 from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
-from rapidgen.rapid.checks.constants import (
-    MAX_STRING,
-    Constant,
-    constant,
-    is_exact_single,
-    is_single,
+from rapidgen.rapid.binding import DATA, DataSymbol, RoutineSymbol, Symbol, constant, root, sizes_of
+from rapidgen.rapid.binding.types import (
+    AGGREGATE,
+    ATOMIC,
+    EQUALITY,
+    LOGICAL,
+    NUMBER,
+    NUMERIC,
+    RELATIONS,
+    arithmetic,
+    array,
+    degree,
+    element,
+    equal,
 )
+from rapidgen.rapid.builtins.signatures import Value
+from rapidgen.rapid.checks.calls import CallChecker
+from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.given import Extent, closest
-from rapidgen.rapid.checks.report import Reporter
-from rapidgen.rapid.checks.symbols import DATA, Symbol, array, degree, element
+from rapidgen.rapid.numbers import MAX_STRING, is_exact_single, is_single
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
-    Argument,
     Binary,
     BoolLiteral,
-    DataDeclaration,
     Expression,
     FunctionCall,
     Index,
@@ -38,13 +46,6 @@ from rapidgen.rapid.syntax.nodes import (
     Unary,
 )
 
-NUMBER: Final = "number"
-"""A number that may still become num or dnum: a literal, or sums of literals."""
-AGGREGATE: Final = "aggregate"
-_NUMERIC: Final = frozenset((NUMBER, "num", "dnum"))
-_ATOMIC: Final = frozenset(("num", "dnum", "bool", "string"))
-"""What surely has no components; of some installed types they are not known."""
-_RELATIONS: Final = frozenset(("<", "<=", ">", ">="))
 _MAX_DEPTH: Final = 50
 _HARDWARE: Final = frozenset(
     ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
@@ -52,14 +53,14 @@ _HARDWARE: Final = frozenset(
 """Types whose objects the configuration installs."""
 
 
-class TypeChecker(Reporter):
-    """Finds types, and says where they do not fit."""
+class TypeChecker:
+    """Finds types of expressions, and says where they do not fit."""
 
-    _depth = 0
-
-    def check_arguments(self, symbol: Symbol, node: FunctionCall) -> None:
-        """Check a call's arguments against its routine."""
-        raise NotImplementedError
+    def __init__(self, findings: Findings) -> None:
+        self.findings = findings
+        self.report, self.declared = findings.report, findings.declared
+        self.calls = CallChecker(findings, self)
+        self._depth = 0
 
     # -- reading -------------------------------------------------------------------------
 
@@ -76,7 +77,7 @@ class TypeChecker(Reporter):
         return found
 
     def _number(self, node: NumberLiteral) -> str:
-        if not is_single(node.value) and not self.given.dialect.has_dnum:
+        if not is_single(node.value) and not self.findings.given.dialect.has_dnum:
             self.report("RG319", f"num cannot hold {node.text}", node)
         return NUMBER
 
@@ -109,7 +110,7 @@ class TypeChecker(Reporter):
         found = self.datum(node)
         if found is None:
             return None
-        kind = self.scope.type_class(found)
+        kind = self.findings.module.type_class(found)
         if kind == "semivalue":
             return array("num", degree(found))
         if kind == "nonvalue":
@@ -124,13 +125,14 @@ class TypeChecker(Reporter):
         return found
 
     def _call(self, node: FunctionCall) -> str | None:
-        symbol = self.find(node.name)
+        symbol = self.findings.find(node.name)
         if symbol is None:
-            self.unknown("function", node.name, node.first, certain=self.given.judges_routines)
-            for argument in node.arguments:
-                self.loose_argument(argument)
+            self.findings.unknown(
+                "function", node.name, node.first, certain=self.findings.given.judges_routines
+            )
+            self.calls.loose_arguments(node.arguments)
             return None
-        if symbol.kind != "FUNC":
+        if not isinstance(symbol, RoutineSymbol) or symbol.kind != "FUNC":
             what = "an array: its index stands in braces" if symbol.kind in DATA else "no function"
             self.report(
                 "RG306",
@@ -140,8 +142,8 @@ class TypeChecker(Reporter):
                 related=self.declared(symbol),
             )
             return None
-        self.check_arguments(symbol, node)
-        return self.scope.type_of(symbol)
+        self.calls.check_arguments(symbol, node)
+        return self.findings.module.type_of(symbol)
 
     def used(self, node: Expression) -> None:
         """Look at an expression whose place says nothing about its type."""
@@ -150,40 +152,31 @@ class TypeChecker(Reporter):
         else:
             self.type_of(node)
 
-    def loose_argument(self, argument: Argument) -> None:
-        """Look at an argument of a routine that is not known."""
-        if argument.value is not None:
-            self.used(argument.value)
-
     # -- data ----------------------------------------------------------------------------
 
     def root(self, node: Expression) -> Symbol | None:
         """The datum that a reference starts from, without marking or reporting."""
-        while isinstance(node, Index | Member):
-            node = node.base
-        if isinstance(node, Name):
-            return self.locals.get(node.name.lower()) or self.scope.find(node.name)
-        return None
+        return root(node, self.findings.here)
 
     def datum(self, node: Name | Index | Member, wanted: str | None = None) -> str | None:
         """Declared type of a data reference, signals and non-values included."""
         if isinstance(node, Name):
-            symbol = self.find(node.name)
+            symbol = self.findings.find(node.name)
             if symbol is None:
                 self._unknown_datum(node, wanted)
                 return None
             if symbol.kind not in DATA:
                 self._no_datum(symbol, node)
                 return None
-            return self.scope.type_of(symbol)
+            return self.findings.module.type_of(symbol)
         if isinstance(node, Index):
             return self._indexed(node)
         base = self.datum(cast("Name | Index | Member", node.base))
         if base is None:
             return None
-        components = self.scope.components(base)
+        components = self.findings.module.components(base)
         if components is None:
-            if base in _ATOMIC or degree(base):
+            if base in ATOMIC or degree(base):
                 self.report("RG304", f"{base} has no components", node.last, label="no record")
             return None
         if node.component.lower() not in components:
@@ -199,20 +192,21 @@ class TypeChecker(Reporter):
         return components[node.component.lower()]
 
     def _unknown_datum(self, node: Name, wanted: str | None) -> None:
-        given = self.given
+        given = self.findings.given
         certain = given.judges_data and wanted != "mecunit"
         if given.extent == Extent.TASK and not given.gaps and wanted not in _HARDWARE:
             certain = wanted is not None and wanted not in ("num", "dnum", "anytype")
         if wanted in _HARDWARE and not given.judges_data:
             return
-        self.unknown("datum", node.name, node, certain=certain)
+        self.findings.unknown("datum", node.name, node, certain=certain)
 
     def _no_datum(self, symbol: Symbol, node: Name) -> None:
         help = ""
         if symbol.kind == "FUNC":
             help = f"a function is called with parentheses: {symbol.name}()"
         # A module that is not here may declare a datum that hides the built-in routine.
-        hidden = symbol.signature is not None and self.given.extent < Extent.TASK
+        hidden = isinstance(symbol, RoutineSymbol) and symbol.node is None
+        hidden = hidden and self.findings.given.extent < Extent.TASK
         self.report(
             "RG306",
             f"'{symbol.name}' is no datum",
@@ -246,15 +240,12 @@ class TypeChecker(Reporter):
 
     def _bounds(self, node: Index) -> None:
         symbol = self.root(node)
-        declared = symbol.node if symbol else None
-        sizes: list[Expression] = []
-        if isinstance(declared, DataDeclaration):
-            sizes = declared.dimensions
+        sizes = self._sizes(node.base)
         for k, index in enumerate(node.indices):
             value = self.constant(index)
-            if value is None or isinstance(value, str | bool):
+            if value is None or isinstance(value, str | bool | tuple):
                 continue
-            size = self.constant(sizes[k]) if k < len(sizes) else None
+            size = sizes[k] if k < len(sizes) else None
             if value != int(value) or value < 1:
                 self.report("RG318", f"an index is a whole number from 1, not {value:g}", index)
             elif isinstance(size, int | float) and not isinstance(size, bool) and value > size:
@@ -265,11 +256,9 @@ class TypeChecker(Reporter):
                     related=self.declared(symbol) if symbol else (),
                 )
 
-    def constant(self, node: Expression) -> Constant | None:
+    def constant(self, node: Expression) -> Value | None:
         """Value of a constant expression in this place."""
-        if isinstance(node, NumberLiteral):
-            return node.value
-        return constant(node, lambda n: self.locals.get(n.lower()) or self.scope.find(n))
+        return constant(node, self.findings.here)
 
     # -- operators -----------------------------------------------------------------------
 
@@ -278,35 +267,35 @@ class TypeChecker(Reporter):
             self.expect(node.operand, "bool", "the operand of NOT")
             return "bool"
         found = self.type_of(node.operand)
-        if found is None or found in _NUMERIC or found == "pos":
+        if found is None or found in NUMERIC or found == "pos":
             return found
         self._operator(node, node.operator, found, None)
         return None
 
     def _binary(self, node: Binary) -> str | None:
         operator = node.operator
-        if operator in ("AND", "OR", "XOR"):
+        if operator in LOGICAL:
             self.expect(node.left, "bool", f"the left operand of {operator}")
             self.expect(node.right, "bool", f"the right operand of {operator}")
             return "bool"
         left, right = self._operands(node)
-        if operator in ("=", "<>"):
+        if operator in EQUALITY:
             if left is not None and right is not None:
-                if not _equal(left, right):
+                if not equal(left, right):
                     self._operator(node, operator, left, right)
                 elif degree(left):
                     self.same_sizes(node, node.left, node.right)
             return "bool"
-        if operator in _RELATIONS:
+        if operator in RELATIONS:
             if left is not None and right is not None:
-                fits = left in _NUMERIC and right in _NUMERIC and _equal(left, right)
+                fits = left in NUMERIC and right in NUMERIC and equal(left, right)
                 if not fits:
                     self._operator(node, operator, left, right)
             return "bool"
         if left is None or right is None:
             known = left or right
             return known if known in ("string", "dnum") else None
-        result = _arithmetic(operator, left, right)
+        result = arithmetic(operator, left, right)
         if result is None:
             self._operator(node, operator, left, right)
         elif result == "string":
@@ -373,7 +362,7 @@ class TypeChecker(Reporter):
             self._unknown_datum(node, wanted)
             return wanted
         found = self.type_of(node)
-        if found is None or found == wanted or _equal(found, wanted):
+        if found is None or found == wanted or equal(found, wanted):
             return wanted
         self.mismatch(node, wanted, found, place)
         return wanted
@@ -389,19 +378,12 @@ class TypeChecker(Reporter):
         if known and ours != theirs:
             self.report("RG318", "the arrays differ in size", node)
 
-    def _sizes(self, node: Expression) -> list[Constant | None]:
+    def _sizes(self, node: Expression) -> Sequence[Value | None]:
         """Declared sizes of a whole array; None where one is not known, none for what is none."""
-        root = self.root(node) if isinstance(node, Name) else None
-        if root is None or not isinstance(root.node, DataDeclaration):
-            return []
-        # Names in another module's declaration mean what they mean there.
-        away = root.module not in (None, self.scope)
-        return [
-            None if away and type(size) is not NumberLiteral else self.constant(size)
-            for size in root.node.dimensions
-        ]
+        symbol = self.root(node) if isinstance(node, Name) else None
+        return sizes_of(symbol, self.findings.here) if isinstance(symbol, DataSymbol) else ()
 
-    def members_of(self, value: Expression, sizes: Sequence[Constant | None]) -> None:
+    def members_of(self, value: Expression, sizes: Sequence[Value | None]) -> None:
         """Members of an aggregate against the declared sizes of an array."""
         if not sizes or not isinstance(value, Aggregate):
             return
@@ -422,9 +404,9 @@ class TypeChecker(Reporter):
         help = ""
         if {wanted, found} == {"num", "dnum"}:
             help = "convert with NumToDnum or DnumToNum"
-        elif wanted == "string" and found in _NUMERIC:
+        elif wanted == "string" and found in NUMERIC:
             help = "convert with ValToStr or NumToStr"
-        elif wanted == "bool" and found in _NUMERIC:
+        elif wanted == "bool" and found in NUMERIC:
             help = "compare it: x = 1"
         self.report(
             "RG307",
@@ -459,9 +441,9 @@ class TypeChecker(Reporter):
             for member in members:
                 self.expect(member, inner, "the element")
             return
-        components = self.scope.components(wanted)
+        components = self.findings.module.components(wanted)
         if components is None:
-            if wanted in _ATOMIC:
+            if wanted in ATOMIC:
                 self.report(
                     "RG330", f"{place} is an aggregate, but {wanted} has no components", node
                 )
@@ -487,32 +469,6 @@ class TypeChecker(Reporter):
 def shown(type_name: str) -> str:
     """How a type is called in a message."""
     return "a number" if type_name == NUMBER else type_name
-
-
-def _equal(left: str, right: str) -> bool:
-    if left == right:
-        return True
-    if left == NUMBER:
-        return right in _NUMERIC
-    return right == NUMBER and left in _NUMERIC
-
-
-def _arithmetic(operator: str, left: str, right: str) -> str | None:
-    """Type of the result, or None when the operator does not take these [K §3.11]."""
-    if left in _NUMERIC and right in _NUMERIC:
-        if not _equal(left, right):
-            return None
-        return right if left == NUMBER else left
-    if operator in ("+", "-") and left == right == "pos":
-        return "pos"
-    if operator == "+" and left == right == "string":
-        return "string"
-    if operator == "*":
-        if left == right and left in ("pos", "orient"):
-            return left
-        if "pos" in (left, right) and {left, right} & {NUMBER, "num"}:
-            return "pos"
-    return None
 
 
 _READERS: Final = cast(

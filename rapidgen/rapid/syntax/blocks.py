@@ -1,24 +1,17 @@
-"""Statement lists, the blocks that they are in, and their recovery [K §4.2].
+"""Blocks of statements, and recovery from errors in them [K §4.2].
 
 An error is caught by the innermost statement list: it is reported once, and the list goes on
 behind the next `;` or at the next token that can only start or end a statement. A block that
 lacks its end is closed where an outer one ends.
 """
 
-from collections.abc import Callable
 from typing import Final
 
+from rapidgen.diagnostics import error
 from rapidgen.rapid.syntax import faults
 from rapidgen.rapid.syntax.expressions import MAX_BLOCK_DEPTH, ExpressionParser
 from rapidgen.rapid.syntax.faults import CLOSER, GivenUp, SyntaxFault
-from rapidgen.rapid.syntax.lexer import EOF, NAME, UNTERMINATED, Tokens
-from rapidgen.rapid.syntax.nodes import (
-    Assignment,
-    DataDeclaration,
-    Name,
-    ProcedureCall,
-    Statement,
-)
+from rapidgen.rapid.syntax.lexer import EOF, NAME, UNTERMINATED
 
 ROUTINE_END_WORDS: Final = frozenset(("ENDPROC", "ENDFUNC", "ENDTRAP"))
 _ROUTINE_ENDS: Final = (
@@ -49,72 +42,23 @@ _DIVIDERS: Final = {"ELSE": "ENDIF", "ELSEIF": "ENDIF", "CASE": "ENDTEST", "DEFA
 BLOCK_ENDS: Final = {"ENDIF": "IF", "ENDFOR": "FOR", "ENDWHILE": "WHILE", "ENDTEST": "TEST"}
 
 
-class BlockParser(ExpressionParser):
-    """Parses statement lists; those that inherit give it statements and data declarations."""
+class Blocks:
+    """The blocks that are open, and how to go on behind an error."""
 
-    late_data: list[DataDeclaration]
-    """Data declared among statements of the present routine; kept, and reported."""
-
-    def __init__(self, tokens: Tokens) -> None:
-        super().__init__(tokens)
-        self.late_data = []
+    def __init__(self, expressions: ExpressionParser) -> None:
+        self.expressions = expressions
+        self.kinds = expressions.kinds
+        self.open = expressions.open
         self.suspect = (-1, -1)
         """The last compact IF, and its statement: if on another line, a THEN may be missing."""
         self.forgiven: list[str] = []
         """Ends that belong to a block whose start was reported as missing."""
-        self.handlers: dict[str, Callable[[int], Statement]] = {}
-        """What parses a statement, by the kind of its first token."""
 
-    def data_declaration(self, i: int) -> DataDeclaration:
-        """The declaration that starts at VAR, PERS or CONST (or LOCAL, TASK)."""
-        raise NotImplementedError
-
-    # -- lists ---------------------------------------------------------------------------
-
-    def statements(self, i: int) -> list[Statement]:
-        """Statements up to what ends the innermost open block; its index is left in `after`."""
-        kinds, texts, handlers = self.kinds, self.texts, self.handlers
-        ends = ENDS[self.open[-1][0]]
-        body: list[Statement] = []
-        append = body.append
-        node: Statement
-        while True:
-            kind = kinds[i]
-            try:
-                if kind is NAME:
-                    following = kinds[i + 1]
-                    if following == ":=":
-                        value = self.expression(i + 2)
-                        end = value.last + 1
-                        if kinds[end] != ";":
-                            raise SyntaxFault(end, "';' or an operator")
-                        append(Assignment(i, end, Name(i, i, texts[i]), value))
-                        i = end + 1
-                        continue
-                    if following == ";":
-                        append(ProcedureCall(i, i + 1, texts[i], []))
-                        i += 2
-                        continue
-                    node = handlers[NAME](i)
-                elif kind in ends:
-                    self.after = i
-                    return body
-                else:
-                    handler = handlers.get(kind)
-                    if handler is None:
-                        here = self._misplaced(i, kind)
-                        if here < 0:
-                            self.after = i
-                            return body
-                        i = here
-                        continue
-                    node = handler(i)
-                append(node)
-                i = node.last + 1
-            except SyntaxFault as found:
-                self.depth = 0
-                self.fault(found)
-                i = self.resume(i, found.at, found.expected)
+    def start(self, keyword: str, i: int) -> None:
+        """Open a routine: what was suspected before it counts no more."""
+        self.open.append((keyword, i))
+        self.forgiven.clear()
+        self.suspect = (-1, -1)
 
     def resume(self, start: int, at: int, expected: str = "") -> int:
         """Index from which to go on after an error at token `at` of what began at `start`."""
@@ -123,7 +67,9 @@ class BlockParser(ExpressionParser):
             return at + 1  # the quote took the rest of its line
         # A keyword in the midst of a line, where an operand should be, starts no statement.
         operand = expected == "an expression" and kinds[at] in STARTERS
-        if kinds[at] is not EOF and (at == start or (operand and not self._starts_line(at))):
+        if kinds[at] is not EOF and (
+            at == start or (operand and not self.expressions.starts_line(at))
+        ):
             if kinds[at] == ";":
                 return at + 1
             at += 1
@@ -133,19 +79,15 @@ class BlockParser(ExpressionParser):
                 return at + 1
             if kind in STARTERS:
                 # An error that takes the rest of the text takes its ends with it.
-                self.end_reported |= kind is EOF
+                self.expressions.end_reported |= kind is EOF
                 return at
-            if kind is NAME and self._starts_line(at):
+            if kind is NAME and self.expressions.starts_line(at):
                 following = kinds[at + 1]
                 if following == ":=" or following is NAME:
                     return at
             at += 1
 
-    def _starts_line(self, at: int) -> bool:
-        gap = self.source.gaps[at - 1] if at else self.source.lead
-        return "\n" in gap or "\r" in gap
-
-    def _misplaced(self, i: int, kind: str) -> int:
+    def misplaced(self, i: int, kind: str) -> int:
         """Deal with a token that starts no statement and does not end this list.
 
         The index from which to go on, or -1 when the list ends here all the same.
@@ -154,24 +96,10 @@ class BlockParser(ExpressionParser):
         if blocks[-1][1] < 0:
             return -1
         expected = f"a statement or {CLOSER[blocks[-1][0]]}"
-        if kind in ("VAR", "PERS", "CONST"):
-            declaration = self.data_declaration(i)
-            self.late_data.append(declaration)
-            self.report(
-                faults.error(
-                    "RG213",
-                    f"the declaration of '{declaration.name}' stands behind a statement",
-                    self.source.span(i, i),
-                    label="data come first in a routine",
-                    help="move it to the head of the routine",
-                    notes=("data declarations come before the statements [K §5.3]",),
-                )
-            )
-            return declaration.last + 1
         for outer in range(len(blocks) - 2, -1, -1):
             if kind in ENDS[blocks[outer][0]]:
                 missing = len(blocks) - 1 - outer
-                self.unclosed(i, missing)
+                self.expressions.unclosed(i, missing)
                 self._close(missing)
                 return -1
         if kind in self.forgiven:
@@ -180,7 +108,9 @@ class BlockParser(ExpressionParser):
         inner = blocks[-1][0]
         if kind in BLOCK_ENDS:
             if inner in BLOCK_ENDS.values() and self._ends_this(i, inner):
-                self.fault(SyntaxFault(i, CLOSER[inner], f"{inner} ends with {CLOSER[inner]}"))
+                self.expressions.fault(
+                    SyntaxFault(i, CLOSER[inner], f"{inner} ends with {CLOSER[inner]}")
+                )
                 return -1
             self._stray(i, expected)
             return self._behind(i)
@@ -188,20 +118,22 @@ class BlockParser(ExpressionParser):
             self._stray(i, expected)
             self.forgiven.append(_DIVIDERS[kind])
             mark = {"CASE": ":", "DEFAULT": ":", "ELSEIF": "THEN"}.get(kind)
-            if mark and self._reaches(i + 1, mark):
+            if mark and self.reaches(i + 1, mark):
                 return self.kinds.index(mark, i) + 1
             return i + 1
         help = "a statement has no ';' before it" if kind == ";" else ""
-        self.fault(SyntaxFault(i, expected, help))
+        self.expressions.fault(SyntaxFault(i, expected, help))
         return self.resume(i, i)
 
     def _stray(self, i: int, expected: str) -> None:
         suspect, statement = self.suspect
         self.suspect = (-1, -1)
         wrong_word = self.kinds[i] not in ("ELSE", "ELSEIF", "ENDIF")
-        if suspect < 0 or wrong_word or not self._starts_line(statement):
+        if suspect < 0 or wrong_word or not self.expressions.starts_line(statement):
             suspect = -1
-        self.report(faults.stray(self.source, self.kinds, i, expected, self.open, suspect))
+        self.expressions.report(
+            faults.stray(self.expressions.source, self.kinds, i, expected, self.open, suspect)
+        )
 
     def _behind(self, i: int) -> int:
         return i + 2 if self.kinds[i + 1] == ";" else i + 1
@@ -228,7 +160,7 @@ class BlockParser(ExpressionParser):
                     return False
         return True
 
-    def _reaches(self, at: int, wanted: str) -> bool:
+    def reaches(self, at: int, wanted: str) -> bool:
         """Whether `wanted` comes before the statement at token `at` can end."""
         kinds = self.kinds
         while kinds[at] != wanted:
@@ -241,19 +173,18 @@ class BlockParser(ExpressionParser):
         """Open a block."""
         if len(self.open) >= MAX_BLOCK_DEPTH + 2:  # module and routine come on top
             raise GivenUp(
-                faults.error(
+                error(
                     "RG210",
+                    faults.place(self.expressions.source, i),
                     f"blocks are nested more than {MAX_BLOCK_DEPTH} deep",
-                    faults.place(self.source, i),
-                    help="move inner blocks into a procedure of their own",
+                    "move inner blocks into a procedure of their own",
                 )
             )
         self.open.append((keyword, i))
 
-    def leave(self) -> int:
-        """Close the innermost block at `after`; the index of its last token."""
+    def leave(self, end: int) -> int:
+        """Close the innermost block, whose list ended at token `end`; its last token."""
         keyword, at = self.open.pop()
-        end = self.after
         kind = self.kinds[end]
         if kind == CLOSER[keyword]:
             return end
@@ -263,10 +194,9 @@ class BlockParser(ExpressionParser):
             return end  # reported as standing for this block's own end
         return end - 1
 
-    def _header(self, i: int, found: SyntaxFault, wanted: str) -> int:
+    def header(self, i: int, found: SyntaxFault, wanted: str) -> int:
         """Report an error in a block's header; the index behind it, or -1 if it has no end."""
-        self.depth = 0
-        self.fault(found)
+        self.expressions.fault(found)
         kinds, at = self.kinds, found.at
         while True:
             kind = kinds[at]

@@ -10,7 +10,7 @@ The functions take the index of the first token and give the node; the next toke
 
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.syntax import faults, lexer
 from rapidgen.rapid.syntax.faults import Block, GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.lexer import HOLDER, NAME, NUMBER, STRING, Tokens
@@ -50,6 +50,8 @@ _LEVELS: Final = {
 }  # fmt: skip
 _BEHIND_NAMES: Final = frozenset(("(", "{", "."))
 """What makes more of a name than a whole datum."""
+_BEHIND_DECLARED: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
+"""What shows that a reserved word was meant as a name."""
 _PLAIN_OPERANDS: Final = frozenset((NAME, NUMBER, STRING, "(", "[", "TRUE", "FALSE"))
 _BEHIND_ARGUMENTS: Final = frozenset((",", ";", "\\", ")"))
 _NOT_LEVEL: Final = 1
@@ -67,7 +69,10 @@ class _Numbers(dict[str, float]):
 
 
 class ExpressionParser:
-    """Parses expressions out of two parallel lists, texts and kinds."""
+    """Parses expressions out of two parallel lists, texts and kinds; collects what is wrong.
+
+    The other parts of the parser are built on it: blocks, data, statements, routines, module.
+    """
 
     def __init__(self, tokens: Tokens) -> None:
         self.source = tokens.source
@@ -82,7 +87,7 @@ class ExpressionParser:
         self.end_reported = False
         """Whether an error at the end of the text is reported: one is enough."""
         self.after = 0
-        """Index behind the last list of arguments or statements."""
+        """Index behind the last list of arguments."""
 
     def report(self, diagnostic: Diagnostic) -> None:
         """Keep a finding; a text with too many is given up."""
@@ -91,7 +96,8 @@ class ExpressionParser:
             raise GivenUp(faults.too_many(diagnostic, MAX_ERRORS))
 
     def fault(self, found: SyntaxFault) -> None:
-        """Report what a statement or declaration raised, once."""
+        """Report what a statement or declaration raised, once. No expression goes on behind it."""
+        self.depth = 0
         if found.reported or (self.kinds[found.at] is lexer.EOF and self.end_reported):
             return
         found.reported = True
@@ -115,13 +121,30 @@ class ExpressionParser:
     def too_deep(self, at: int) -> GivenUp:
         """The one diagnostic of an expression beyond the limit."""
         return GivenUp(
-            faults.error(
+            error(
                 "RG211",
-                f"the expression is nested more than {MAX_EXPRESSION_DEPTH} deep",
                 faults.place(self.source, at),
-                help="split the expression over several statements",
+                f"the expression is nested more than {MAX_EXPRESSION_DEPTH} deep",
+                "split the expression over several statements",
             )
         )
+
+    def identifier(self, i: int, expected: str) -> str:
+        """The name at token i, or the placeholder <ID>."""
+        if self.kinds[i] is NAME:
+            return self.texts[i]
+        if self.kinds[i] is HOLDER and self.texts[i].upper() == "<ID>":
+            return "<ID>"
+        if self.kinds[i] in lexer.KEYWORDS and self.kinds[i + 1] in _BEHIND_DECLARED:
+            # Taken as the name that it was meant for, so that nothing follows from it.
+            self.fault(SyntaxFault(i, expected, f"{self.kinds[i]} is a reserved word"))
+            return self.texts[i]
+        raise SyntaxFault(i, expected)
+
+    def starts_line(self, at: int) -> bool:
+        """Whether token `at` is the first of its line."""
+        gap = self.source.gaps[at - 1] if at else self.source.lead
+        return "\n" in gap or "\r" in gap
 
     def expression(self, i: int) -> Expression:
         """The expression that starts at token i."""
@@ -248,12 +271,12 @@ class ExpressionParser:
         if again:
             return  # one warning for a row of prefixes
         self.report(
-            faults.error(
+            error(
                 "RG212",
-                rule,
                 faults.place(self.source, i),
+                rule,
+                "put it and its operand in parentheses",
                 label="bound to the next operand",
-                help="put it and its operand in parentheses",
                 notes=("the RAPID kernel manual does not derive this form [K §3]",),
                 severity=Severity.WARNING,
             )

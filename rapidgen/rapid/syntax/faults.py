@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Label, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Label, Span, error
 from rapidgen.rapid.syntax import lexer
 from rapidgen.rapid.syntax.source import Source
 
@@ -79,21 +79,6 @@ def place(source: Source, at: int) -> Span:
     return Span(source.path, line, column)
 
 
-def error(
-    code: str,
-    message: str,
-    span: Span,
-    *,
-    label: str = "",
-    help: str = "",
-    notes: tuple[str, ...] = (),
-    related: tuple[Label, ...] = (),
-    severity: Severity = Severity.ERROR,
-) -> Diagnostic:
-    """A diagnostic; an error unless said otherwise."""
-    return Diagnostic(code, severity, message, span, label, help, notes, related)
-
-
 def met(source: Source, kinds: Sequence[str], at: int) -> str:
     """How a token is called in a message."""
     if at >= len(source.tokens):
@@ -127,14 +112,14 @@ def unexpected(
     lexical = _LEXICAL.get(kinds[at])
     if lexical:
         code, message, mend = lexical
-        return error(code, f"{message}: {met(source, kinds, at)}", span, help=mend)
+        return error(code, span, f"{message}: {met(source, kinds, at)}", mend)
     related, note = still_open(source, blocks)
     return error(
         "RG201",
-        f"met {met(source, kinds, at)}, expected {expected}",
         span,
+        f"met {met(source, kinds, at)}, expected {expected}",
+        help,
         label=f"expected {expected}",
-        help=help,
         notes=(note,) if note else (),
         related=related,
     )
@@ -149,10 +134,10 @@ def unclosed(
     related, note = still_open(source, blocks)
     return error(
         "RG202",
-        f"met {met(source, kinds, at)}, but {closers} is missing before it",
         place(source, at),
+        f"met {met(source, kinds, at)}, but {closers} is missing before it",
+        f"add {closers} before this place",
         label=f"expected {CLOSER[inner[-1][0]]}",
-        help=f"add {closers} before this place",
         notes=(note,),
         related=related,
     )
@@ -160,12 +145,11 @@ def unclosed(
 
 def too_many(last: Diagnostic, limit: int) -> Diagnostic:
     """Says that the rest of a text was not looked at."""
-    return Diagnostic(
+    return error(
         "RG214",
-        Severity.ERROR,
-        f"more than {limit} errors: the rest of the text was not read",
         last.span,
-        help="mend the first ones and check again",
+        f"more than {limit} errors: the rest of the text was not read",
+        "mend the first ones and check again",
     )
 
 
@@ -186,10 +170,10 @@ def stray(
         related = (Label(source.span(suspect, suspect), "is THEN missing behind this condition?"),)
     return error(
         "RG203",
-        f"met {met(source, kinds, at)}, but no block that it belongs to is open here",
         place(source, at),
+        f"met {met(source, kinds, at)}, but no block that it belongs to is open here",
+        "remove it, or add the statement that opens its block",
         label=f"expected {expected}",
-        help="remove it, or add the statement that opens its block",
         notes=(note,) if note else (),
         related=related,
     )

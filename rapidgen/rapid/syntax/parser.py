@@ -5,9 +5,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.dialect import Dialect
 from rapidgen.rapid.syntax import faults, lexer, text
+from rapidgen.rapid.syntax.blocks import Blocks
+from rapidgen.rapid.syntax.data import DATA, MODULE_STOPS, DataParser
+from rapidgen.rapid.syntax.expressions import ExpressionParser
 from rapidgen.rapid.syntax.faults import GivenUp, SyntaxFault
 from rapidgen.rapid.syntax.lexer import EOF, HOLDER, NAME, Tokens
 from rapidgen.rapid.syntax.nodes import (
@@ -19,7 +22,7 @@ from rapidgen.rapid.syntax.nodes import (
     RecordDeclaration,
     Scope,
 )
-from rapidgen.rapid.syntax.routines import DATA, MODULE_STOPS, ROUTINES, RoutineParser
+from rapidgen.rapid.syntax.routines import ROUTINES, RoutineParser
 from rapidgen.rapid.syntax.source import Source
 
 _ATTRIBUTES: Final = ("SYSMODULE", "NOVIEW", "NOSTEPIN", "VIEWONLY", "READONLY")
@@ -33,8 +36,20 @@ _RANK: Final = {"type": 0, "datum": 1, "routine": 2}
 _DECLARATION_HOLDERS: Final = {"<TDN>": "type", "<DDN>": "datum", "<RDN>": "routine"}
 
 
-class ModuleParser(RoutineParser):
-    """Parses one module."""
+class ModuleParser:
+    """Parses one module. `builtin`: the headers of predefined routines."""
+
+    def __init__(self, tokens: Tokens, *, builtin: bool = False) -> None:
+        expressions = self.expressions = ExpressionParser(tokens)
+        self.data = DataParser(expressions, builtin=builtin)
+        self.routines = RoutineParser(expressions, Blocks(expressions), self.data)
+        self.source = tokens.source
+        self.kinds = expressions.kinds
+        self.texts = expressions.texts
+        self.open = expressions.open
+        self.fault = expressions.fault
+        self.report = expressions.report
+        self.identifier = expressions.identifier
 
     # -- module --------------------------------------------------------------------------
 
@@ -76,14 +91,14 @@ class ModuleParser(RoutineParser):
             return
         again = self.kinds[i] == "MODULE"
         self.report(
-            faults.error(
+            error(
                 "RG217",
+                faults.place(self.source, i),
                 "a second module in one file: it is not read"
                 if again
                 else "there is text behind ENDMODULE: it is not read",
-                faults.place(self.source, i),
+                "give each module a file of its own" if again else "remove it",
                 label="not read from here on",
-                help="give each module a file of its own" if again else "remove it",
                 notes=("no manual says what a controller makes of it [K §9, 9.1]",),
                 severity=Severity.WARNING,
             )
@@ -119,11 +134,11 @@ class ModuleParser(RoutineParser):
         else:
             return
         self.report(
-            faults.error(
+            error(
                 "RG215",
-                fault,
                 faults.place(self.source, i),
-                help="the order is SYSMODULE, NOVIEW, NOSTEPIN, VIEWONLY, READONLY",
+                fault,
+                "the order is SYSMODULE, NOVIEW, NOSTEPIN, VIEWONLY, READONLY",
                 notes=("module attributes [K §9.1]",),
             )
         )
@@ -139,10 +154,10 @@ class ModuleParser(RoutineParser):
             try:
                 if kind in DATA:
                     new = 1
-                    declaration = self.data_declaration(i)
+                    declaration = self.data.data_declaration(i)
                 elif kind in ROUTINES:
                     new = 2
-                    declaration = self.routine(i, i, "")
+                    declaration = self.routines.routine(i, i, "")
                 elif kind == "LOCAL" or kind == "TASK":
                     declaration, new = self._scoped(i, kind)
                 elif kind == "RECORD":
@@ -160,7 +175,6 @@ class ModuleParser(RoutineParser):
                 else:
                     raise SyntaxFault(i, "a declaration or ENDMODULE")
             except SyntaxFault as fault:
-                self.depth = 0
                 del self.open[1:]
                 self.fault(fault)
                 i = self._next_declaration(start, fault.at)
@@ -186,12 +200,12 @@ class ModuleParser(RoutineParser):
         what = ("type definition", "data declaration")[new]
         behind = ("", "data", "routines")[rank]
         self.report(
-            faults.error(
+            error(
                 "RG213",
-                f"a {what} stands behind {behind}",
                 self.source.span(declaration.first, declaration.first),
+                f"a {what} stands behind {behind}",
+                "order a module: RECORD and ALIAS, then data, then routines",
                 label=f"{what}s come before {behind}",
-                help="order a module: RECORD and ALIAS, then data, then routines",
                 notes=("order inside a module [K §5, 9.1]",),
             )
         )
@@ -200,10 +214,10 @@ class ModuleParser(RoutineParser):
         """A declaration behind LOCAL or TASK, and its rank."""
         kind = self.kinds[i + 1]
         if kind in ("VAR", "PERS") or (kind == "CONST" and scope == "LOCAL"):
-            return self.data_declaration(i), 1
+            return self.data.data_declaration(i), 1
         if scope == "LOCAL":
             if kind in ROUTINES:
-                return self.routine(i, i + 1, "LOCAL"), 2
+                return self.routines.routine(i, i + 1, "LOCAL"), 2
             if kind == "RECORD":
                 return self._record(i, i + 1, "LOCAL"), 0
             if kind == "ALIAS":
@@ -229,7 +243,7 @@ class ModuleParser(RoutineParser):
                     help = "a component cannot be an array [K §2.14]"
                     self.fault(SyntaxFault(end, "';'", help))
                     end = self._behind_braces(end)
-                end = self.semicolon_here(end, "';'")
+                end = self.data.semicolon_here(end, "';'")
                 components.append(Component(at, end, texts[at], name_here))
                 at = end + 1
             except SyntaxFault as found:
@@ -258,7 +272,7 @@ class ModuleParser(RoutineParser):
     def _alias(self, first: int, i: int, scope: Scope) -> AliasDeclaration:
         type_name = self.identifier(i + 1, "the name of a type")
         name = self.identifier(i + 2, "the name of the alias")
-        end = self.semicolon_here(i + 3, "';'")
+        end = self.data.semicolon_here(i + 3, "';'")
         return AliasDeclaration(first, end, scope, type_name, name)
 
 
@@ -299,10 +313,7 @@ _COLLECTOR = _Collector()
 
 
 def parse(
-    source: str | bytes,
-    *,
-    path: str | None = None,
-    dialect: Dialect | None = None,
+    source: str | bytes, *, path: str | None = None, dialect: Dialect | None = None
 ) -> Module:
     """The tree of one module; never raises for bad text, see `Module.diagnostics`.
 
@@ -331,10 +342,10 @@ def _run(parser: ModuleParser, tokens: Tokens) -> Module:
         module_name, attributes, declarations, last = parser.module()
     except GivenUp as reason:
         if reason.diagnostic.code == "RG214":
-            parser.diagnostics.append(reason.diagnostic)
+            parser.expressions.diagnostics.append(reason.diagnostic)
         else:
-            parser.diagnostics[:] = [reason.diagnostic]
-    found = sorted(parser.diagnostics, key=_position)
+            parser.expressions.diagnostics[:] = [reason.diagnostic]
+    found = sorted(parser.expressions.diagnostics, key=_position)
     return Module(0, last, module_name, attributes, declarations, tokens.source, found)
 
 

@@ -1,10 +1,13 @@
 """Statements, simple and compound [K §4]."""
 
-from typing import Final
+from collections.abc import Callable
 
-from rapidgen.rapid.syntax.blocks import BLOCK_ENDS, STARTERS, BlockParser
+from rapidgen.diagnostics import error
+from rapidgen.rapid.syntax.blocks import BLOCK_ENDS, ENDS, STARTERS, Blocks
+from rapidgen.rapid.syntax.data import DATA, DataParser
+from rapidgen.rapid.syntax.expressions import ExpressionParser
 from rapidgen.rapid.syntax.faults import SyntaxFault
-from rapidgen.rapid.syntax.lexer import HOLDER, KEYWORDS, NAME, Tokens
+from rapidgen.rapid.syntax.lexer import HOLDER, NAME
 from rapidgen.rapid.syntax.nodes import (
     Argument,
     Assignment,
@@ -12,6 +15,7 @@ from rapidgen.rapid.syntax.nodes import (
     Case,
     CompactIf,
     Connect,
+    DataDeclaration,
     Exit,
     Expression,
     For,
@@ -19,6 +23,7 @@ from rapidgen.rapid.syntax.nodes import (
     If,
     Label,
     LateCall,
+    Name,
     Placeholder,
     PlaceholderStatement,
     ProcedureCall,
@@ -31,17 +36,27 @@ from rapidgen.rapid.syntax.nodes import (
     While,
 )
 
-_BEHIND_NAMES: Final = frozenset((";", ":=", "{", "(", ")", ",", "\\", "|", "FROM"))
 
+class StatementParser:
+    """Parses statement lists."""
 
-class StatementParser(BlockParser):
-    """Parses statements."""
-
-    def __init__(self, tokens: Tokens) -> None:
-        super().__init__(tokens)
+    def __init__(self, expressions: ExpressionParser, blocks: Blocks, data: DataParser) -> None:
+        self.expressions = expressions
+        self.blocks = blocks
+        self.data = data
+        self.kinds = expressions.kinds
+        self.texts = expressions.texts
+        self.open = expressions.open
+        self.fault = expressions.fault
+        self.expression = expressions.expression
+        self.identifier = expressions.identifier
+        self.after = 0
+        """Index of what ended the last list."""
+        self.late_data: list[DataDeclaration] = []
+        """Data declared among statements of the present routine; kept, and reported."""
         self.nested = -1
         """An IF, FOR, WHILE or TEST that stands where a compact IF has its statement."""
-        self.handlers |= {
+        self.handlers: dict[str, Callable[[int], Statement]] = {
             NAME: self._named_statement,
             HOLDER: self._placeholder,
             "IF": self._if,
@@ -57,6 +72,71 @@ class StatementParser(BlockParser):
             "CONNECT": self._connect,
             "%": self._late_call,
         }
+        """What parses a statement, by the kind of its first token."""
+
+    # -- lists ---------------------------------------------------------------------------
+
+    def statements(self, i: int) -> list[Statement]:
+        """Statements up to what ends the innermost open block; its index is left in `after`."""
+        kinds, texts, handlers = self.kinds, self.texts, self.handlers
+        ends = ENDS[self.open[-1][0]]
+        body: list[Statement] = []
+        append = body.append
+        node: Statement
+        while True:
+            kind = kinds[i]
+            try:
+                if kind is NAME:
+                    following = kinds[i + 1]
+                    if following == ":=":
+                        value = self.expression(i + 2)
+                        end = value.last + 1
+                        if kinds[end] != ";":
+                            raise SyntaxFault(end, "';' or an operator")
+                        append(Assignment(i, end, Name(i, i, texts[i]), value))
+                        i = end + 1
+                        continue
+                    if following == ";":
+                        append(ProcedureCall(i, i + 1, texts[i], []))
+                        i += 2
+                        continue
+                    node = handlers[NAME](i)
+                elif kind in ends:
+                    self.after = i
+                    return body
+                else:
+                    handler = handlers.get(kind)
+                    if handler is None:
+                        late = kind in DATA and self.open[-1][1] >= 0
+                        here = self._late_datum(i) if late else self.blocks.misplaced(i, kind)
+                        if here < 0:
+                            self.after = i
+                            return body
+                        i = here
+                        continue
+                    node = handler(i)
+                append(node)
+                i = node.last + 1
+            except SyntaxFault as found:
+                self.fault(found)
+                i = self.blocks.resume(i, found.at, found.expected)
+
+    def _late_datum(self, i: int) -> int:
+        """Data among statements: kept, so that nothing follows from it. The index behind it."""
+        declaration = self.data.data_declaration(i)
+        self.late_data.append(declaration)
+        source = self.expressions.source
+        self.expressions.report(
+            error(
+                "RG213",
+                source.span(i, i),
+                f"the declaration of '{declaration.name}' stands behind a statement",
+                "move it to the head of the routine",
+                label="data come first in a routine",
+                notes=("data declarations come before the statements [K §5.3]",),
+            )
+        )
+        return declaration.last + 1
 
     # -- simple statements ---------------------------------------------------------------
 
@@ -69,7 +149,7 @@ class StatementParser(BlockParser):
         kinds = self.kinds
         following = kinds[i + 1]
         if following == ":=" or following == "{" or following == ".":
-            target = self.reference(i)
+            target = self.expressions.reference(i)
             at = target.last + 1
             if kinds[at] != ":=":
                 raise SyntaxFault(at, "':='")
@@ -82,8 +162,8 @@ class StatementParser(BlockParser):
             raise SyntaxFault(
                 i + 2, "an argument", "a procedure is called without parentheses: Name a, b;"
             )
-        arguments = self.arguments(i + 1, ";")
-        return ProcedureCall(i, self.after, self.texts[i], arguments)
+        arguments = self.expressions.arguments(i + 1, ";")
+        return ProcedureCall(i, self.expressions.after, self.texts[i], arguments)
 
     def _placeholder(self, i: int) -> Statement:
         text = self.texts[i].upper()
@@ -96,8 +176,8 @@ class StatementParser(BlockParser):
         if text == "<ID>":
             if kinds[i + 1] == ":":
                 return Label(i, i + 1, text)
-            arguments: list[Argument] = self.arguments(i + 1, ";")
-            return ProcedureCall(i, self.after, text, arguments)
+            arguments: list[Argument] = self.expressions.arguments(i + 1, ";")
+            return ProcedureCall(i, self.expressions.after, text, arguments)
         fits = {"<SMT>": True, "<EIT>": inner == "IF", "<CSE>": inner == "TEST"}
         if not fits.get(text, False):
             raise SyntaxFault(i, "a statement or <SMT>")
@@ -109,8 +189,8 @@ class StatementParser(BlockParser):
         at = procedure.last + 1
         if self.kinds[at] != "%":
             raise SyntaxFault(at, "'%' or an operator")
-        arguments = self.arguments(at + 1, ";")
-        return LateCall(i, self.after, procedure, arguments)
+        arguments = self.expressions.arguments(at + 1, ";")
+        return LateCall(i, self.expressions.after, procedure, arguments)
 
     def _return(self, i: int) -> Return:
         if self.kinds[i + 1] == ";":
@@ -123,18 +203,6 @@ class StatementParser(BlockParser):
             return Raise(i, i + 1, None)
         number = self.expression(i + 1)
         return Raise(i, self._semicolon(number.last + 1, "';' or an operator"), number)
-
-    def identifier(self, i: int, expected: str) -> str:
-        """The name at token i, or the placeholder <ID>."""
-        if self.kinds[i] is NAME:
-            return self.texts[i]
-        if self.kinds[i] is HOLDER and self.texts[i].upper() == "<ID>":
-            return "<ID>"
-        if self.kinds[i] in KEYWORDS and self.kinds[i + 1] in _BEHIND_NAMES:
-            # Taken as the name that it was meant for, so that nothing follows from it.
-            self.fault(SyntaxFault(i, expected, f"{self.kinds[i]} is a reserved word"))
-            return self.texts[i]
-        raise SyntaxFault(i, expected)
 
     def _goto(self, i: int) -> Goto:
         name = self.identifier(i + 1, "a label")
@@ -155,7 +223,7 @@ class StatementParser(BlockParser):
         if kinds[i + 1] is HOLDER and self.texts[i + 1].upper() == "<VAR>":
             target = Placeholder(i + 1, i + 1, "<VAR>")
         elif kinds[i + 1] is NAME:
-            target = self.reference(i + 1)
+            target = self.expressions.reference(i + 1)
         else:
             raise SyntaxFault(i + 1, "an interrupt variable")
         at = target.last + 1
@@ -173,10 +241,10 @@ class StatementParser(BlockParser):
                 return self._compact_if(i, condition, at)
             except SyntaxFault:
                 missing = SyntaxFault(at, "THEN, an operator or a simple statement")
-                if not self._reaches(at, "THEN"):
+                if not self.blocks.reaches(at, "THEN"):
                     raise
-            at = self._header(i, missing, "THEN") - 1
-        self.enter("IF", i)
+            at = self.blocks.header(i, missing, "THEN") - 1
+        self.blocks.enter("IF", i)
         branches: list[Branch] = []
         otherwise: list[Statement] | None = None
         first = i
@@ -195,18 +263,18 @@ class StatementParser(BlockParser):
                     raise SyntaxFault(at, "THEN or an operator")
             except SyntaxFault as found:
                 condition = Placeholder(end, end, "<EXP>")
-                behind = self._header(end, found, "THEN")
-                at = (behind if behind >= 0 else self.resume(end, found.at)) - 1
+                behind = self.blocks.header(end, found, "THEN")
+                at = (behind if behind >= 0 else self.blocks.resume(end, found.at)) - 1
         if kind == "ELSE":
             otherwise = self.statements(end + 1)
             while self.kinds[self.after] in ("ELSE", "ELSEIF") and self.open[-1][1] >= 0:
                 self.fault(SyntaxFault(self.after, "ENDIF", "ELSE is the last branch of an IF"))
                 otherwise += self.statements(self._behind_branch(self.after))
-        return If(i, self.leave(), branches, otherwise)
+        return If(i, self.blocks.leave(self.after), branches, otherwise)
 
     def _behind_branch(self, i: int) -> int:
         """Index behind a wrong ELSE or ELSEIF ... THEN."""
-        if self.kinds[i] == "ELSE" or not self._reaches(i + 1, "THEN"):
+        if self.kinds[i] == "ELSE" or not self.blocks.reaches(i + 1, "THEN"):
             return i + 1
         return self.kinds.index("THEN", i) + 1
 
@@ -216,7 +284,7 @@ class StatementParser(BlockParser):
             condition = self.expression(i + 1)
             return condition, condition.last + 1
         except SyntaxFault as found:
-            behind = self._header(i, found, wanted)
+            behind = self.blocks.header(i, found, wanted)
             if behind < 0:
                 raise
             return Placeholder(i, i, "<EXP>"), behind - 1
@@ -230,7 +298,7 @@ class StatementParser(BlockParser):
             fault.reported = i == self.nested
             self.nested = at
             raise fault
-        self.suspect = (i, at)
+        self.blocks.suspect = (i, at)
         statement = handler(at)
         if isinstance(statement, Label):
             raise SyntaxFault(at, "THEN, an operator or a simple statement")
@@ -239,15 +307,15 @@ class StatementParser(BlockParser):
     def _while(self, i: int) -> While:
         condition, at = self._condition(i, "DO")
         at = self._keyword(i, at, "DO")
-        self.enter("WHILE", i)
+        self.blocks.enter("WHILE", i)
         body = self.statements(at)
-        return While(i, self.leave(), condition, body)
+        return While(i, self.blocks.leave(self.after), condition, body)
 
     def _keyword(self, i: int, at: int, wanted: str) -> int:
         """Index behind DO; a missing one is reported and taken as if it were there."""
         if self.kinds[at] == wanted:
             return at + 1
-        behind = self._header(i, SyntaxFault(at, f"{wanted} or an operator"), wanted)
+        behind = self.blocks.header(i, SyntaxFault(at, f"{wanted} or an operator"), wanted)
         return behind if behind >= 0 else at
 
     def _for(self, i: int) -> For:
@@ -274,12 +342,12 @@ class StatementParser(BlockParser):
                 raise SyntaxFault(at, "DO or an operator" if step else "DO, STEP or an operator")
             at += 1
         except SyntaxFault as found:
-            at = self._header(i, found, "DO")
+            at = self.blocks.header(i, found, "DO")
             if at < 0:
-                at = self.resume(i, found.at)
-        self.enter("FOR", i)
+                at = self.blocks.resume(i, found.at)
+        self.blocks.enter("FOR", i)
         body = self.statements(at)
-        return For(i, self.leave(), variable, start, end, step, body)
+        return For(i, self.blocks.leave(self.after), variable, start, end, step, body)
 
     def _test(self, i: int) -> Test:
         kinds = self.kinds
@@ -291,11 +359,14 @@ class StatementParser(BlockParser):
             if kinds[at] not in ("CASE", "DEFAULT", "ENDTEST") and kinds[at] is not HOLDER:
                 raise SyntaxFault(at, "CASE, DEFAULT, ENDTEST or an operator")
         except SyntaxFault as found:
-            self.depth = 0
             self.fault(found)
             subject = Placeholder(i, i, "<EXP>")
-            told = at = found.at if self._starts_line(found.at) else self.resume(i, found.at)
-        self.enter("TEST", i)
+            told = at = (
+                found.at
+                if self.expressions.starts_line(found.at)
+                else self.blocks.resume(i, found.at)
+            )
+        self.blocks.enter("TEST", i)
         cases: list[Case] = []
         default: list[Statement] | None = None
         self.after = at
@@ -326,7 +397,7 @@ class StatementParser(BlockParser):
                 self.statements(at + 1 if kind is HOLDER else at)
                 if self.after == at:
                     break
-        return Test(i, self.leave(), subject, cases, default)
+        return Test(i, self.blocks.leave(self.after), subject, cases, default)
 
     def _case(self, i: int) -> Case:
         kinds = self.kinds
@@ -343,7 +414,6 @@ class StatementParser(BlockParser):
                 raise SyntaxFault(at, "':', ',' or an operator")
             at += 1
         except SyntaxFault as found:
-            self.depth = 0
             self.fault(found)
             at = found.at
             while kinds[at] != ":" and kinds[at] != ";" and kinds[at] not in STARTERS:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from math import isinf
 from typing import Final
 
-from rapidgen.diagnostics import Diagnostic, Severity, Span
+from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 from rapidgen.rapid.syntax import faults
 from rapidgen.rapid.syntax.lexer import (
     BAD_RADIX,
@@ -30,20 +30,16 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
     """The one diagnostic of a text that is not worth reading, or None."""
     span = Span(path, 1, 1)
     if len(source) > MAX_BYTES:
-        return faults.error(
+        return error(
             "RG209",
-            f"the file has {len(source):,} bytes; {MAX_BYTES:,} is the limit",
             span,
-            help="split the module, or keep positions in a file that the program reads",
+            f"the file has {len(source):,} bytes; {MAX_BYTES:,} is the limit",
+            "split the module, or keep positions in a file that the program reads",
         )
     if not source.strip():
-        return faults.error(
-            "RG208", "the file is empty", span, help="a module is MODULE name ... ENDMODULE"
-        )
+        return error("RG208", span, "the file is empty", "a module is MODULE name ... ENDMODULE")
     if isinstance(source, bytes) and source.startswith(_UTF16):
-        return faults.error(
-            "RG218", "the file is UTF-16 text", span, help="save it as UTF-8 or Latin-1"
-        )
+        return error("RG218", span, "the file is UTF-16 text", "save it as UTF-8 or Latin-1")
     # Binary files show it early, or have a zero byte somewhere; other control characters in
     # the midst of a text are errors of their own places.
     if isinstance(source, bytes):
@@ -53,31 +49,31 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
     if not binary:
         return None
     if isinstance(source, bytes) and source[0] in _ENCODED:
-        return faults.error(
+        return error(
             "RG219",
-            "the module is encoded: only a controller can read it",
             span,
-            help="ask its maker for the source, or leave it out",
+            "the module is encoded: only a controller can read it",
+            "ask its maker for the source, or leave it out",
             severity=Severity.WARNING,
         )
-    return faults.error("RG218", "the file is binary, not RAPID text", span)
+    return error("RG218", span, "the file is binary, not RAPID text")
 
 
 def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:
     """The text does not start with MODULE."""
     if not source.tokens:
-        return faults.error(
+        return error(
             "RG208",
-            "the file has no module, only comments",
             faults.place(source, 0),
-            help="a module is MODULE name ... ENDMODULE",
+            "the file has no module, only comments",
+            "a module is MODULE name ... ENDMODULE",
         )
-    return faults.error(
+    return error(
         "RG208",
-        f"met {faults.met(source, kinds, 0)}, expected MODULE",
         faults.place(source, 0),
+        f"met {faults.met(source, kinds, 0)}, expected MODULE",
+        "a module is MODULE name ... ENDMODULE",
         label="expected MODULE",
-        help="a module is MODULE name ... ENDMODULE",
     )
 
 
@@ -89,22 +85,22 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
         if kind in (NUMBER, BAD_RADIX) and isinf(number_value(text)):
             at = tokens.source.tokens.index(text)
             found.append(
-                faults.error(
+                error(
                     "RG205",
-                    f"no type holds {faults.met(tokens.source, tokens.kinds, at)}",
                     tokens.source.span(at, at),
-                    help="num ends at 3.4E38, dnum at 1.79E308",
+                    f"no type holds {faults.met(tokens.source, tokens.kinds, at)}",
+                    "num ends at 3.4E38, dnum at 1.79E308",
                     notes=("an exponent out of range is an error of the text [K §1.4, 2.5]",),
                 )
             )
         if kind is STRING and "\t" in text:
             at = tokens.source.tokens.index(text)
             found.append(
-                faults.error(
+                error(
                     "RG206",
-                    "a tab in a string is written as the code \\09",
                     tokens.source.span(at, at),
-                    help="write \\09 in its place",
+                    "a tab in a string is written as the code \\09",
+                    "write \\09 in its place",
                     notes=("the characters of a string [K §2.1, 2.7]",),
                     severity=Severity.WARNING,
                 )
@@ -113,12 +109,12 @@ def spellings(tokens: Tokens) -> list[Diagnostic]:
             folded.add(text.lower())
             at = tokens.source.tokens.index(text)
             found.append(
-                faults.error(
+                error(
                     "RG220",
+                    tokens.source.span(at, at),
                     f"the name {faults.met(tokens.source, tokens.kinds, at)} has {len(text)} "
                     f"characters; {MAX_NAME} is the limit",
-                    tokens.source.span(at, at),
-                    help="shorten it",
+                    "shorten it",
                     notes=("all characters of a name count [K §2.3]",),
                 )
             )

@@ -5,10 +5,11 @@ of GetSysInfo's texts is remembered only [mem].
 """
 
 from rapidgen.machine.calendar import date_time
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import register_type, single
+from rapidgen.runtime.values import register_type
 
 _MS = 1_000_000
 _US = 1_000
@@ -17,8 +18,8 @@ _LONGEST = 4_294_967
 """Seconds that a clock can hold, about 49 days."""
 
 
-class Clock:
-    """A `clock` datum: what it has measured, and since when it runs (ns), if it does."""
+class StopWatch:
+    """A `clock`: what it has measured, and since when it runs (ns), if it does."""
 
     __slots__ = ("measured", "started")
 
@@ -34,18 +35,18 @@ class Clock:
         return total
 
 
-register_type("clock", Clock)
+register_type("clock", StopWatch)
 
 
 @builtin("ClkReset")
-def clk_reset(_task: Task, clock: Clock) -> None:
+def clk_reset(_task: Task, clock: StopWatch) -> None:
     """Stop and set to 0."""
     clock.measured = 0
     clock.started = None
 
 
 @builtin("ClkStart")
-def clk_start(task: Task, clock: Clock) -> None:
+def clk_start(task: Task, clock: StopWatch) -> None:
     """Run on from where it stands."""
     clock.read(task.scheduler.now)
     if clock.started is None:
@@ -53,14 +54,14 @@ def clk_start(task: Task, clock: Clock) -> None:
 
 
 @builtin("ClkStop")
-def clk_stop(task: Task, clock: Clock) -> None:
+def clk_stop(task: Task, clock: StopWatch) -> None:
     """Stop; the value stays."""
     clock.measured = clock.read(task.scheduler.now)
     clock.started = None
 
 
 @builtin("ClkRead")
-def clk_read(task: Task, clock: Clock, high_resolution: bool | None) -> float:
+def clk_read(task: Task, clock: StopWatch, high_resolution: bool | None) -> float:
     """Seconds, in steps of 1 ms (1 µs with \\HighRes)."""
     step = _US if high_resolution else _MS
     return single(clock.read(task.scheduler.now) // step * step / _S)

@@ -5,14 +5,14 @@ instances that a path stands for (`/EIO/EIO_CROSS`: they have no names); behind 
 of the next one. How they are counted: switch `list_number`.
 """
 
-from rapidgen.machine.configuration import Configuration
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import EndOfRun, RapidError
 from rapidgen.runtime.loading import words_of
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import STRING_LIMIT, Ref
+from rapidgen.runtime.values import Ref
 
 
 def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | int | float | bool]:
@@ -20,7 +20,7 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
 
     ERR_CFG_NOTFND, ERR_CFG_OUTOFBND: the list has no such instance.
     """
-    configuration: Configuration = task.controller.configuration
+    configuration = task.controller.configuration
     found = configuration.find(path)
     hidden = path.strip("/").lower().startswith("moc/arm/")
     if not found or (hidden and not task.controller.dialect.axis_limits_told):
@@ -36,9 +36,11 @@ def _attributes(task: Task, path: str, number: Ref | None) -> dict[str, str | in
 
 
 @builtin("ReadCfgData", cost="socket")
-def read_cfg_data(task: Task, path: str, attribute: str, datum: object, number: Ref | None) -> None:
+def read_cfg_data(
+    task: Task, path: str, attribute: str, argument: object, number: Ref | None
+) -> None:
     """A system parameter; an absent flag is FALSE."""
-    target = target_of(datum)
+    target = target_of(argument)
     value = _attributes(task, path, number).get(attribute.lower())
     kind = target.type.kind
     if kind == "bool" and value is None:
@@ -48,7 +50,7 @@ def read_cfg_data(task: Task, path: str, attribute: str, datum: object, number: 
     elif kind == "bool":
         target.set(value is True or value == 1)
     elif kind == "string" and isinstance(value, str):
-        target.set(value[:STRING_LIMIT])
+        target.set(value[:MAX_STRING])
     elif kind in ("num", "dnum") and isinstance(value, int | float):
         target.set(value)
     else:
@@ -57,12 +59,12 @@ def read_cfg_data(task: Task, path: str, attribute: str, datum: object, number: 
 
 @builtin("WriteCfgData", cost="socket")
 def write_cfg_data(
-    task: Task, path: str, attribute: str, datum: object, number: Ref | None
+    task: Task, path: str, attribute: str, argument: object, number: Ref | None
 ) -> None:
     """Change a system parameter; only ReadCfgData sees it."""
     attributes = _attributes(task, path, number)
     before = attributes.get(attribute.lower())
-    value, _ = value_of(datum)
+    value, _ = value_of(argument)
     if before is not None and isinstance(before, str) is not isinstance(value, str):
         raise RapidError("ERR_CFG_ILLTYPE", f"{path} {attribute}")
     attributes[attribute.lower()] = value
@@ -71,7 +73,7 @@ def write_cfg_data(
 @builtin("SaveCfgData", cost="socket")
 def save_cfg_data(task: Task, path: str, file: str | None, domain: str) -> None:
     """Write a domain to a file."""
-    configuration: Configuration = task.controller.configuration
+    configuration = task.controller.configuration
     if domain.upper() not in configuration.domains:
         raise RapidError("ERR_CFG_ILL_DOMAIN", domain)
     text = configuration.text(domain.upper())

@@ -3,9 +3,8 @@
 from rapidgen.runtime.compiler.runtime import Condition
 from rapidgen.runtime.errors import FIRST_BOOKED_ERROR, ExitCycle, FatalError, RapidError
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.task.raise_to_user import give_to_user
-from rapidgen.runtime.task.recovery import RETRIES
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.errors import RETRIES
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Type
 
 POLL_RATE = 0.1
@@ -14,27 +13,27 @@ LONGEST_WAIT = 9_999_999
 
 
 @builtin("Stop")
-def stop(task: RapidTask, no_regain: bool | None, all_move_tasks: bool | None) -> None:
+def stop(task: Task, no_regain: bool | None, all_move_tasks: bool | None) -> None:
     """Stop: the movement in progress ends first, then the program stands [S4 2-Stop-1]."""
     wait_standing(task)
     task.stop_here()
 
 
 @builtin("Break")
-def break_(task: RapidTask) -> None:
+def break_(task: Task) -> None:
     """Break: stops at once, not waiting for the movement [S4 2-Break-1]."""
     task.stop_here()
 
 
 @builtin("ExitCycle")
-def exit_cycle(task: RapidTask) -> None:
+def exit_cycle(task: Task) -> None:
     """ExitCycle: back to main's first statement; data and interrupts stay."""
     raise ExitCycle
 
 
 @builtin("SystemStopAction")
 def system_stop_action(
-    task: RapidTask, stop: bool | None, stop_block: bool | None, halt: bool | None
+    task: Task, stop: bool | None, stop_block: bool | None, halt: bool | None
 ) -> None:
     """SystemStopAction: all NORMAL tasks stop; \\Halt switches the motors off, too."""
     if halt:
@@ -47,44 +46,44 @@ def system_stop_action(
 
 
 @builtin("BookErrNo")
-def book_err_no(task: RapidTask, name: Ref) -> None:
+def book_err_no(task: Task, name: Ref) -> None:
     """BookErrNo: a free error number above the system's own."""
-    booked: set[int] = task.controller.booked
+    booked = task.controller.booked
     number = FIRST_BOOKED_ERROR + len(booked)
     booked.add(number)
     name.set(number)
 
 
 @builtin("SkipWarn")
-def skip_warn(task: RapidTask) -> None:
+def skip_warn(task: Task) -> None:
     """SkipWarn: the handled error leaves no warning in the log [K §7.5]."""
-    task.skip_warning = True
+    task.errors.skip_warning = True
 
 
 @builtin("ResetRetryCount")
-def reset_retry_count(task: RapidTask) -> None:
+def reset_retry_count(task: Task) -> None:
     """ResetRetryCount: in a handler, gives the statement all its retries again."""
-    task.retry_base = task.retry_number
+    task.errors.retry_base = task.errors.retry_number
 
 
 @builtin("RemainingRetries")
-def remaining_retries(task: RapidTask) -> int:
+def remaining_retries(task: Task) -> int:
     """RemainingRetries: of the statement whose error is being handled."""
-    return RETRIES - (task.retry_number - task.retry_base)
+    return RETRIES - (task.errors.retry_number - task.errors.retry_base)
 
 
 @builtin("RaiseToUser")
 def raise_to_user(
-    task: RapidTask, go_on: bool | None, break_off: bool | None, number: float | None
+    task: Task, go_on: bool | None, break_off: bool | None, number: float | None
 ) -> None:
     """RaiseToUser: the error at hand goes to the nearest handler outside NOSTEPIN [K §7.3]."""
     error = RapidError(int(number) if number is not None else task.errno)
     error.raised = True
-    give_to_user(task, error, resume=bool(go_on))
+    task.errors.give_to_user(error, resume=bool(go_on))
 
 
 @builtin("ErrRaise")
-def err_raise(task: RapidTask, name: str, number: float, *arguments: str) -> None:
+def err_raise(task: Task, name: str, number: float, *arguments: str) -> None:
     """ErrRaise: an error of the program's own, with texts for the log."""
     task.controller.log.error(
         80_000 + int(number) % 10_000, name, *[a for a in arguments if a], task=task.name
@@ -97,7 +96,7 @@ def err_raise(task: RapidTask, name: str, number: float, *arguments: str) -> Non
 
 
 @builtin("CallByVar")
-def call_by_var(task: RapidTask, name: str, number: float) -> None:
+def call_by_var(task: Task, name: str, number: float) -> None:
     """CallByVar: procedure `name` + number, without arguments [S4 2-CallByVar-1]."""
     if number != int(number) or number < 0:
         raise RapidError("ERR_ARGVALERR")
@@ -105,46 +104,47 @@ def call_by_var(task: RapidTask, name: str, number: float) -> None:
 
 
 @builtin("EventType")
-def event_type(task: RapidTask) -> int:
+def event_type(task: Task) -> int:
     """EventType: which event routine is being executed."""
     names = ("", "POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP")
-    return names.index(task.event) if task.event in names else 0
+    event = task.events.running
+    return names.index(event) if event in names else 0
 
 
 @builtin("ExecLevel")
-def exec_level(task: RapidTask) -> int:
+def exec_level(task: Task) -> int:
     """ExecLevel: 0 normal, 1 trap, 2 event routine."""
-    if task.event:
+    if task.events.running:
         return 2
     return int(task.in_trap)
 
 
 @builtin("ExecHandler")
-def exec_handler(task: RapidTask) -> int:
+def exec_handler(task: Task) -> int:
     """ExecHandler: 2 inside an ERROR handler, 3 inside UNDO, else 0."""
-    if task.undo_level:
+    if task.errors.undo_level:
         return 3
-    return 2 if task.handler_level else 0
+    return 2 if task.errors.handler_level else 0
 
 
 @builtin("IsStopStateEvent")
-def is_stop_state_event(task: RapidTask, pp_moved: bool | None, pp_to_main: bool | None) -> bool:
+def is_stop_state_event(task: Task, pp_moved: bool | None, pp_to_main: bool | None) -> bool:
     """IsStopStateEvent: whether PP was moved; here only a RESET event says so."""
-    return task.event == "RESET"
+    return task.events.running == "RESET"
 
 
 # -- waiting -------------------------------------------------------------------------------------
 
 
-def wait_standing(task: RapidTask) -> None:
+def wait_standing(task: Task) -> None:
     """Wait until the task's robot stands; at once for a task without one."""
-    motion = task.controller.motion
-    if motion.is_motion_task(task.name):
-        motion.of_task(task.name).wait_standing(task)
+    group = task.controller.motion.moved_by(task.name)
+    if group is not None:
+        group.wait_standing(task)
 
 
 @builtin("WaitTime")
-def wait_time(task: RapidTask, in_pos: bool | None, seconds: float) -> None:
+def wait_time(task: Task, in_pos: bool | None, seconds: float) -> None:
     """WaitTime: \\InPos counts from standstill; 0 gives the other tasks a turn."""
     if in_pos:
         wait_standing(task)
@@ -158,7 +158,7 @@ def wait_time(task: RapidTask, in_pos: bool | None, seconds: float) -> None:
 
 @builtin("WaitUntil")
 def wait_until(
-    task: RapidTask,
+    task: Task,
     in_pos: bool | None,
     condition: Condition,
     max_time: float | None,
@@ -193,7 +193,7 @@ def wait_until(
 
 
 @builtin("TestAndSet")
-def test_and_set(task: RapidTask, flag: Ref) -> bool:
+def test_and_set(task: Task, flag: Ref) -> bool:
     """TestAndSet: TRUE and set, when it was FALSE; nothing can come between."""
     taken: bool = flag.get()
     if taken:
@@ -203,7 +203,7 @@ def test_and_set(task: RapidTask, flag: Ref) -> bool:
 
 
 @builtin("WaitTestAndSet")
-def wait_test_and_set(task: RapidTask, flag: Ref) -> None:
+def wait_test_and_set(task: Task, flag: Ref) -> None:
     """WaitTestAndSet: waits for FALSE, then sets TRUE in the same step."""
     watched = (flag.cell,) if flag.cell is not None else ()
     task.wait_for(lambda: not flag.get(), on=watched)
@@ -214,7 +214,7 @@ def wait_test_and_set(task: RapidTask, flag: Ref) -> None:
 
 
 @builtin("Type")
-def type_(task: RapidTask, data: Ref, base_name: bool | None) -> str:
+def type_(task: Task, data: Ref, base_name: bool | None) -> str:
     """Type: name of a datum's type; aliases are told by their base here."""
     kind: Type = data.type
     return kind.name

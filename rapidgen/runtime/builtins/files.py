@@ -7,21 +7,23 @@ is the string EOF, 9.999E36 or -1. \\Line, \\Status and the layout of WriteAnyBi
 
 import os
 import struct
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO
 
 from rapidgen.machine.calendar import date_time
 from rapidgen.machine.files import CAPACITY as DISK
 from rapidgen.machine.files import Directory, IODevice
+from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.builtins.operator import appended
-from rapidgen.runtime.disks import disks_of, file_path, hold, spend
+from rapidgen.runtime.disks import file_path, hold, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import NotALiteral, parse_value
-from rapidgen.runtime.values import NUM, STRING_LIMIT, Record, Ref, Type, dimensions, single
+from rapidgen.runtime.values import NUM, Record, Ref, Type, Value, dimensions
 
 _EOF_TEXT = "EOF"
 _EOF_NUM = 9.999e36
@@ -44,7 +46,7 @@ def open_file(
 ) -> None:
     """Open a file."""
     path = file_path(task, object_, file or "")
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     if path.exists() and not path.is_file():
         raise RapidError("ERR_FILEOPEN", f"{object_} {file or ''} is no regular file")
     if read:
@@ -67,7 +69,7 @@ def open_file(
     except RapidError:
         opened.close()
         raise
-    device.file = opened  # type: ignore[assignment]
+    device.file = opened
     device.path = path
     device.binary = bool(binary)
     device.readable = opened.readable()
@@ -79,7 +81,7 @@ def open_file(
 def close_file(task: Task, device: IODevice) -> None:
     """Close a file; nothing when it is closed."""
     was_written = device.file is not None and device.writable
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     _stamp(task, device.path, written=was_written)
 
 
@@ -102,13 +104,13 @@ def _stamp(task: Task, path: Path, *, written: bool) -> None:
         os.utime(path, (time, time))
 
 
-def _opened(device: IODevice) -> BinaryIO:
+def _opened(device: IODevice) -> IO[bytes]:
     if device.file is None:
         raise RapidError("ERR_FILEACC", "the file is not open")
     return device.file
 
 
-def _reader(device: IODevice, *, binary: bool = False) -> BinaryIO:
+def _reader(device: IODevice, *, binary: bool = False) -> IO[bytes]:
     file = _opened(device)
     if not device.readable or (binary and not device.binary):
         raise RapidError("ERR_FILEACC", "the file is not open for this kind of reading")
@@ -173,18 +175,18 @@ def write_raw_bytes(task: Task, device: IODevice, raw: RawBytes, count: float | 
 
 
 @builtin("WriteAnyBin", cost="socket")
-def write_any_bin(task: Task, device: IODevice, datum: object) -> None:
+def write_any_bin(task: Task, device: IODevice, argument: object) -> None:
     """Write a value of any type so that ReadAnyBin reads it back."""
-    value, kind = value_of(datum)
+    value, kind = value_of(argument)
     body = _encoded(value, kind)
     label = _label(kind, dimensions(value)).encode("latin-1")
     _put(task, device, struct.pack("<BI", len(label), len(body)) + label + body, binary=True)
 
 
 @builtin("ReadAnyBin", cost="socket")
-def read_any_bin(_task: Task, device: IODevice, datum: object, _time: float | None) -> None:
+def read_any_bin(_task: Task, device: IODevice, argument: object, _time: float | None) -> None:
     """Read a value that WriteAnyBin wrote; ERR_RANYBIN_CHK when it is of another type."""
-    target = target_of(datum)
+    target = target_of(argument)
     file = _reader(device, binary=True)
     head = file.read(5)
     if len(head) < 5:
@@ -203,7 +205,7 @@ def _label(type_: Type, dims: tuple[int, ...]) -> str:
     return type_.name + "".join(f"{{{size}}}" for size in dims)
 
 
-def _encoded(value: Any, type_: Type) -> bytes:  # noqa: ANN401
+def _encoded(value: Value, type_: Type) -> bytes:
     if value.__class__ is dict:
         return b"".join(_encoded(part, type_) for part in value.values())
     if isinstance(value, Record):
@@ -216,7 +218,7 @@ def _encoded(value: Any, type_: Type) -> bytes:  # noqa: ANN401
     return struct.pack("<d", value)
 
 
-def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Any, int]:
+def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tuple[Value, int]:
     if dims:
         array = {}
         for i in range(1, dims[0] + 1):
@@ -241,10 +243,10 @@ def _decoded(data: bytes, place: int, type_: Type, dims: tuple[int, ...]) -> tup
 # -- reading ------------------------------------------------------------------------------------
 
 
-def _line(file: BinaryIO, delimiters: bytes, *, skip: bool = False) -> str | None:
+def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | None:
     """Through the next delimiter, at most 80 characters; None at the end of the file."""
     text = bytearray()
-    while len(text) < STRING_LIMIT:
+    while len(text) < MAX_STRING:
         byte = file.read(1)
         if not byte:
             return text.decode("latin-1") if text else None
@@ -307,7 +309,7 @@ def read_bin(_task: Task, device: IODevice, _time: float | None) -> int:
 def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | None) -> str:
     """The next so many bytes as a string, or the string EOF."""
     number = whole(count, "ERR_ARGVALERR")
-    if not 0 <= number <= STRING_LIMIT:
+    if not 0 <= number <= MAX_STRING:
         raise RapidError("ERR_ARGVALERR", f"{number} characters")
     data = _reader(device, binary=True).read(number)
     return data.decode("latin-1") if data or not number else _EOF_TEXT
@@ -332,7 +334,7 @@ def make_dir(task: Task, path: str) -> None:
 def remove_dir(task: Task, path: str) -> None:
     """Remove an empty folder; a disk itself stays."""
     place = file_path(task, path)
-    if place.parent == disks_of(task).folder:
+    if place.parent == task.controller.files.folder:
         raise RapidError("ERR_FILEACC", f"{path} is a disk")
     _disk(place.rmdir, path)
 
@@ -372,7 +374,7 @@ def _pair(task: Task, old: str, new: str) -> tuple[Path, Path]:
     return source, target
 
 
-def _disk(action: Any, path: str) -> None:  # noqa: ANN401 - a bound method of Path
+def _disk(action: Callable[[], object], path: str) -> None:
     try:
         action()
     except OSError as error:
@@ -417,7 +419,7 @@ def fs_size(
 ) -> float:
     """Size of a disk, or what is free on it."""
     file_path(task, name)
-    size = DISK if total else disks_of(task).room
+    size = DISK if total else task.controller.files.room
     return single(size / (1_048_576 if megabytes else 1024 if kilobytes else 1))
 
 
@@ -451,7 +453,7 @@ def _status(task: Task, path: str) -> os.stat_result:
 @builtin("OpenDir", cost="socket")
 def open_dir(task: Task, device: Directory, path: str) -> None:
     """Begin to read a folder's names."""
-    disks_of(task).release(device)
+    task.controller.files.release(device)
     place = file_path(task, path)
     if not place.is_dir():
         raise RapidError("ERR_FILEACC", f"there is no folder {path}")
@@ -459,7 +461,7 @@ def open_dir(task: Task, device: Directory, path: str) -> None:
     try:
         names = sorted(os.listdir(place))
     except OSError as error:
-        disks_of(task).release(device)
+        task.controller.files.release(device)
         raise RapidError("ERR_FILEACC", f"{path}: {error.strerror}") from error
     shown = [name.encode("latin-1", "replace").decode("latin-1") for name in names]
     device.names = [".", "..", *shown]
@@ -472,11 +474,11 @@ def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
         raise RapidError("ERR_FILEACC", "the folder is not open")
     if not device.names:
         return False
-    name.set(device.names.pop(0)[:STRING_LIMIT])
+    name.set(device.names.pop(0)[:MAX_STRING])
     return True
 
 
 @builtin("CloseDir", cost="socket")
 def close_dir(task: Task, device: Directory) -> None:
     """End reading a folder."""
-    disks_of(task).release(device)
+    task.controller.files.release(device)

@@ -7,7 +7,7 @@ from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.interrupts import Interrupt
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import PersistentCell, Ref, copy_value, register_type
 
 SHORTEST_TIMER = 0.1
@@ -31,7 +31,7 @@ register_type("trapdata", TrapData)
 
 
 @builtin("ISleep")
-def i_sleep(task: RapidTask, interrupt: Ref) -> None:
+def i_sleep(task: Task, interrupt: Ref) -> None:
     """ISleep: events are ignored for good until IWatch; not for safe interrupts."""
     found = task.interrupts.find(interrupt.get())
     if found.safe:
@@ -40,26 +40,26 @@ def i_sleep(task: RapidTask, interrupt: Ref) -> None:
 
 
 @builtin("IWatch")
-def i_watch(task: RapidTask, interrupt: Ref) -> None:
+def i_watch(task: Task, interrupt: Ref) -> None:
     """IWatch: events count again."""
     task.interrupts.find(interrupt.get()).asleep = False
 
 
 @builtin("IDelete")
-def i_delete(task: RapidTask, interrupt: Ref) -> None:
+def i_delete(task: Task, interrupt: Ref) -> None:
     """IDelete: order and connection go; a number that is not connected is left alone."""
     task.interrupts.delete(interrupt.get())
     interrupt.set(0)
 
 
 @builtin("IDisable")
-def i_disable(task: RapidTask) -> None:
+def i_disable(task: Task) -> None:
     """IDisable: events of the task queue."""
     task.interrupts.disabled = True
 
 
 @builtin("IEnable")
-def i_enable(task: RapidTask) -> None:
+def i_enable(task: Task) -> None:
     """IEnable: what queued runs at once, in order."""
     task.interrupts.disabled = False
     task.attend()
@@ -67,7 +67,7 @@ def i_enable(task: RapidTask) -> None:
 
 @builtin("ITimer")
 def i_timer(
-    task: RapidTask, single: bool | None, safe: bool | None, seconds: float, interrupt: Ref
+    task: Task, single: bool | None, safe: bool | None, seconds: float, interrupt: Ref
 ) -> None:
     """ITimer: first after one period; the next is counted from the event, not from the trap."""
     shortest = SHORTEST_SINGLE_TIMER if single or safe else SHORTEST_TIMER
@@ -95,9 +95,7 @@ def i_timer(
 
 
 @builtin("IPers")
-def i_pers(
-    task: RapidTask, single: bool | None, safe: bool | None, name: Ref, interrupt: Ref
-) -> None:
+def i_pers(task: Task, single: bool | None, safe: bool | None, name: Ref, interrupt: Ref) -> None:
     """IPers: fires when the value changes, whoever writes it; storing the same is no change."""
     cell = name.cell
     if cell is None or not name.whole:
@@ -122,7 +120,7 @@ def _watch(cell: PersistentCell, order: Interrupt, fire: Callable[[], None]) -> 
 @builtin("ISignalDI")
 @builtin("ISignalDO")
 def i_signal_digital(
-    task: RapidTask,
+    task: Task,
     single: bool | None,
     safe: bool | None,
     signal: AnySignal,
@@ -139,7 +137,7 @@ def i_signal_digital(
 @builtin("ISignalGI")
 @builtin("ISignalGO")
 def i_signal_group(
-    task: RapidTask, single: bool | None, safe: bool | None, signal: AnySignal, interrupt: Ref
+    task: Task, single: bool | None, safe: bool | None, signal: AnySignal, interrupt: Ref
 ) -> None:
     """On every change."""
     order = _order(task, interrupt, single, safe)
@@ -147,7 +145,7 @@ def i_signal_group(
 
 
 def _on_change(
-    task: RapidTask, signal: AnySignal, order: Interrupt, wanted: Callable[[float], bool]
+    task: Task, signal: AnySignal, order: Interrupt, wanted: Callable[[float], bool]
 ) -> None:
     source = signal.signal
     seen = source.value
@@ -166,7 +164,7 @@ def _on_change(
 @builtin("ISignalAI")
 @builtin("ISignalAO")
 def i_signal_analogue(
-    task: RapidTask,
+    task: Task,
     single: bool | None,
     safe: bool | None,
     signal: AnySignal,
@@ -220,9 +218,7 @@ def i_signal_analogue(
 
 
 @builtin("IError")
-def i_error(
-    task: RapidTask, domain: float, number: float | None, kind: float, interrupt: Ref
-) -> None:
+def i_error(task: Task, domain: float, number: float | None, kind: float, interrupt: Ref) -> None:
     """IError: an event of a domain (0: any) and type (0: any) was logged."""
     order = _order(task, interrupt, None, None)
 
@@ -239,16 +235,16 @@ def i_error(
 
 
 @builtin("GetTrapData")
-def get_trap_data(task: RapidTask, data: TrapData) -> None:
+def get_trap_data(task: Task, data: TrapData) -> None:
     """GetTrapData: only in a trap."""
     if not task.in_trap:
         raise FatalError(40_304, "GetTrapData stands only in a trap")
-    data.event = task.trap_data if isinstance(task.trap_data, Event) else None
+    data.event = task.interrupts.trap_data
 
 
 @builtin("ReadErrData")
 def read_err_data(
-    task: RapidTask,
+    task: Task,
     data: TrapData,
     domain: Ref,
     number: Ref,
@@ -270,5 +266,5 @@ def read_err_data(
             text.set(event.texts[i][:80] if i < len(event.texts) else "")
 
 
-def _order(task: RapidTask, interrupt: Ref, single: bool | None, safe: bool | None) -> Interrupt:
+def _order(task: Task, interrupt: Ref, single: bool | None, safe: bool | None) -> Interrupt:
     return task.interrupts.order(interrupt.get(), single=bool(single), safe=bool(safe))

@@ -6,20 +6,16 @@ Sources: [manual] S4 reference (dionum is 0 or 1, pulses invert, time-outs and \
 
 from collections.abc import Callable
 
-from rapidgen.machine.io import IOSystem, Signal
+from rapidgen.machine.io import Signal
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal, SignalAlias
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, single
+from rapidgen.runtime.values import Ref
 
 _TIMES = {"irc5": (0.001, 2000.0), "s4": (0.1, 32.0)}
 _DEFAULT_PULSE = 0.2
-
-
-def _io(task: Task) -> IOSystem:
-    io: IOSystem = task.controller.io
-    return io
 
 
 def dionum(task: Task, value: float) -> int:
@@ -69,40 +65,40 @@ def set_do(
     task: Task, delay: float | None, _sync: bool | None, signal: AnySignal, value: float
 ) -> None:
     """Set a digital output, at once or after \\SDelay."""
-    _io(task).set(_writable(signal), dionum(task, value), delay=_delay(task, delay))
+    task.controller.io.set(_writable(signal), dionum(task, value), delay=_delay(task, delay))
 
 
 @builtin("Set")
 def set_high(task: Task, signal: AnySignal) -> None:
     """Set a digital output to 1."""
-    _io(task).set(_writable(signal), 1)
+    task.controller.io.set(_writable(signal), 1)
 
 
 @builtin("Reset")
 def set_low(task: Task, signal: AnySignal) -> None:
     """Set a digital output to 0."""
-    _io(task).set(_writable(signal), 0)
+    task.controller.io.set(_writable(signal), 0)
 
 
 @builtin("InvertDO")
 def invert_do(task: Task, signal: AnySignal) -> None:
     """Turn a digital output over."""
     target = _writable(signal)
-    _io(task).set(target, 1 - target.value)
+    task.controller.io.set(target, 1 - target.value)
 
 
 @builtin("PulseDO")
 def pulse_do(task: Task, high: bool | None, length: float | None, signal: AnySignal) -> None:
     """Invert a digital output for a while; the program goes on at once."""
     seconds = _DEFAULT_PULSE if length is None else _duration(task, length, "PLength")
-    _io(task).pulse(_writable(signal), seconds, high=bool(high))
+    task.controller.io.pulse(_writable(signal), seconds, high=bool(high))
 
 
 @builtin("SetAO")
 def set_ao(task: Task, signal: AnySignal, value: float) -> None:
     """Set an analogue output, in programmed units."""
     try:
-        _io(task).set(_writable(signal), value)
+        task.controller.io.set(_writable(signal), value)
     except ValueError as error:
         raise RapidError("ERR_AO_LIM", str(error)) from error
 
@@ -119,7 +115,7 @@ def set_go(
     number = value if value is not None else dnum_value
     assert number is not None
     try:
-        _io(task).set(_writable(signal), number, delay=_delay(task, delay))
+        task.controller.io.set(_writable(signal), number, delay=_delay(task, delay))
     except ValueError as error:
         raise RapidError("ERR_GO_LIM", str(error)) from error
 
@@ -164,7 +160,7 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     given: str | AnySignal = source if isinstance(source, Signal | SignalAlias) else source.get()
     if isinstance(given, str) and not task.controller.dialect.alias_by_name:
         raise FatalError(40_214, "AliasIO takes a signal", f"'{given}' is a text")
-    found = _io(task).get(given) if isinstance(given, str) else given.signal
+    found = task.controller.io.get(given) if isinstance(given, str) else given.signal
     if found is None:
         raise RapidError("ERR_ALIASIO_DEF", f"no signal '{given}'")
     if not isinstance(target, SignalAlias):

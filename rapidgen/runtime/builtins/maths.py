@@ -6,12 +6,13 @@ Sources: the S4 reference's page of each name [manual]; argument errors: switch 
 import math
 from collections.abc import Callable
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import to_places
-from rapidgen.runtime.values import Ref, single
+from rapidgen.runtime.values import Ref
 
 _LARGEST_NUM_INTEGER = 8_388_608
 _SMALLEST_NUM_INTEGER = -8_388_607

@@ -1,19 +1,20 @@
 """Load to ModTime: modules at run time. See `loading.py` for sources."""
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.loading import ModuleTable, words_of
+from rapidgen.runtime.loading import words_of
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, register_type, single
+from rapidgen.runtime.values import Ref, register_type
 
 _LOAD_RATE = 1_000_000
 """Bytes of a module that StartLoad reads in a second, while the program goes on."""
 
 
 class LoadSession:
-    """A `loadsession` datum: what StartLoad has ordered, if anything."""
+    """A `loadsession`: what StartLoad has ordered, if anything."""
 
     __slots__ = ("dynamic", "ready_at", "words")
 
@@ -26,15 +27,12 @@ class LoadSession:
 register_type("loadsession", LoadSession)
 
 
-def _modules(task: Task) -> ModuleTable:
-    modules: ModuleTable = task.controller.modules
-    return modules
-
-
 @builtin("Load", cost="socket")
 def load(task: Task, dynamic: bool | None, path: str, file: str | None, check: bool | None) -> None:
     """Load a module and link it."""
-    _modules(task).load(task, words_of(path, file), dynamic=bool(dynamic), check=bool(check))
+    task.controller.modules.load(
+        task, words_of(path, file), dynamic=bool(dynamic), check=bool(check)
+    )
 
 
 @builtin("UnLoad", cost="socket")
@@ -42,14 +40,14 @@ def unload(
     task: Task, _if_changed: bool | None, save: bool | None, path: str, file: str | None
 ) -> None:
     """Unload what the same words have loaded."""
-    _modules(task).unload(task, words_of(path, file), save=bool(save))
+    task.controller.modules.unload(task, words_of(path, file), save=bool(save))
 
 
 @builtin("StartLoad", cost="socket")
 def start_load(
     task: Task, dynamic: bool | None, path: str, file: str | None, session: LoadSession
 ) -> None:
-    """Order a module; whether its file exists is only told by WaitLoad [S4 WaitLoad]."""
+    """Order a module; whether its file exists only WaitLoad says [S4 WaitLoad]."""
     if session.words is not None:
         raise RapidError("ERR_LOADNO_INUSE")
     session.words = words_of(path, file)
@@ -74,7 +72,7 @@ def wait_load(
         raise RapidError("ERR_LOADNO_NOUSE")
     task.sleep(max(0, session.ready_at - task.scheduler.now) / 1e9)
     words, session.words = session.words, None
-    modules = _modules(task)
+    modules = task.controller.modules
     if unload_path is not None:
         modules.unload(task, words_of(unload_path, unload_file))
     modules.load(task, words, dynamic=session.dynamic, check=bool(check))
@@ -99,13 +97,13 @@ def save(
 ) -> None:
     """Save a module, of this task or another, with the present values of its persistents."""
     owner = task_named(task, reference, name)
-    _modules(task).save(owner, module, words_of(path or "", file))
+    task.controller.modules.save(owner, module, words_of(path or "", file))
 
 
 @builtin("EraseModule", cost="socket")
 def erase_module(task: Task, module: str) -> None:
     """Remove a module from the program."""
-    _modules(task).erase(task, module)
+    task.controller.modules.erase(task, module)
 
 
 @builtin("ModExist", cost="string")
@@ -117,7 +115,7 @@ def mod_exist(task: Task, module: str) -> bool:
 @builtin("ModTime", cost="string")
 def mod_time(task: Task, module: str, digits: Ref | None) -> float:
     """Time of a module's file; a num resolves 128 s today, \\StrDig every one."""
-    seconds = _modules(task).time(task, module)
+    seconds = task.controller.modules.time(task, module)
     if digits is not None:
         digits.set(str(seconds))
     return single(seconds)

@@ -7,17 +7,16 @@ number into \\BreakFlag and goes on. \\DefaultBtn is what such a message box the
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from rapidgen.machine.log import EventLog, EventType
-from rapidgen.machine.operator import Operator
+from rapidgen.machine.log import EventType
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import RapidError, errnum
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import DNUM_DIGITS, number_text, value_text
-from rapidgen.runtime.values import STRING_LIMIT, Ref
+from rapidgen.runtime.values import Ref, Value
 
 _RESULTS = {
     "OK": 1,
@@ -45,11 +44,6 @@ _EVENTS = {
     EventType.INFO: 80_003,
 }
 _PROCESS_DOMAIN = 110_000
-
-
-def _operator(task: Task) -> Operator:
-    operator: Operator = task.controller.operator
-    return operator
 
 
 # -- the window -----------------------------------------------------------------------------
@@ -87,13 +81,13 @@ def tp_write(
     dnum: float | None,
 ) -> None:
     """Show a text, with a value behind it if one is given."""
-    _operator(task).write(task.name, appended(task, text, num, boolean, pos, orient, dnum))
+    task.controller.operator.write(task.name, appended(task, text, num, boolean, pos, orient, dnum))
 
 
 @builtin("TPErase", cost="string")
 def tp_erase(task: Task) -> None:
     """Clear the window."""
-    _operator(task).erase()
+    task.controller.operator.erase()
 
 
 @builtin("TPShow", cost="string")
@@ -104,7 +98,7 @@ def tp_show(_task: Task, _window: float) -> None:
 @builtin("UIClientExist")
 def ui_client_exist(task: Task) -> bool:
     """Whether anybody can answer a dialog."""
-    return _operator(task).present
+    return task.controller.operator.present
 
 
 # -- dialogs ----------------------------------------------------------------------------------
@@ -148,11 +142,11 @@ def _ask(
     text: str,
     choices: Mapping[str, float],
     check: Callable[[str], object],
-    tail: tuple[Any, ...],
+    tail: tuple[Value, ...],
 ) -> object:
     """The answer to a dialog; None when it was broken off and \\BreakFlag tells."""
     breaks = _Breaks(*tail)
-    operator = _operator(task)
+    operator = task.controller.operator
     if not operator.present:
         _break_off(breaks, "ERR_TP_NO_CLIENT")
         return None
@@ -210,13 +204,13 @@ def _a_number(
 
 
 def _a_text(value: str) -> str:
-    if len(value) > STRING_LIMIT:
-        raise ValueError(f"at most {STRING_LIMIT} characters")
+    if len(value) > MAX_STRING:
+        raise ValueError(f"at most {MAX_STRING} characters")
     return value
 
 
 @builtin("TPReadNum", cost="string")
-def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
+def tp_read_num(task: Task, answer: Ref, text: str, *tail: Value) -> None:
     """Ask for a number."""
     value = _ask(task, "TPReadNum", text, {}, _a_number(), tail)
     if value is not None:
@@ -224,7 +218,7 @@ def tp_read_num(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa
 
 
 @builtin("TPReadDnum", cost="string")
-def tp_read_dnum(task: Task, answer: Ref, text: str, *tail: Any) -> None:  # noqa: ANN401
+def tp_read_dnum(task: Task, answer: Ref, text: str, *tail: Value) -> None:
     """Ask for a number, exactly."""
     value = _ask(task, "TPReadDnum", text, {}, _a_number(), tail)
     if value is not None:
@@ -241,7 +235,7 @@ def tp_read_fk(
     fk3: str,
     fk4: str,
     fk5: str,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> None:
     """Ask for one of five keys; one without a text is dead."""
     keys = {key: float(i) for i, key in enumerate((fk1, fk2, fk3, fk4, fk5), 1) if key.strip()}
@@ -280,7 +274,7 @@ def ui_msg_box(
     _icon: float | None,
     _image: str | None,
     result: Ref | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> None:
     """Show a box with buttons and wait for one."""
     choices = _buttons(buttons, None)
@@ -302,7 +296,7 @@ def ui_message_box(
     default: float | None,
     _icon: float | None,
     _image: str | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> float:
     """Show a box with buttons; which one was pressed."""
     choices = _buttons(buttons, array)
@@ -326,7 +320,7 @@ def _number_entry(name: str) -> None:
         low: float | None,
         high: float | None,
         integer: bool | None,
-        *tail: Any,  # noqa: ANN401
+        *tail: Value,
     ) -> float:
         if initial is not None and integer and initial != int(initial):
             raise RapidError("ERR_UI_NOTINT")
@@ -346,7 +340,7 @@ def _entered(
     low: float | None,
     high: float | None,
     integer: bool,
-    tail: tuple[Any, ...],
+    tail: tuple[Value, ...],
 ) -> float:
     if low is not None and high is not None and low > high:
         raise RapidError("ERR_UI_MAXMIN")
@@ -371,7 +365,7 @@ def ui_num_tune(
     _step: float,
     low: float | None,
     high: float | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> float:
     """Ask for a number that is tuned from an initial one."""
     return _entered(
@@ -388,7 +382,7 @@ def ui_alpha_entry(
     _wrap: bool | None,
     _icon: float | None,
     initial: str | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> str:
     """Ask for a text."""
     value = _ask(task, "UIAlphaEntry", _lines(header, message, lines), {}, _a_text, tail)
@@ -400,12 +394,12 @@ def ui_list_view(
     task: Task,
     result: Ref | None,
     header: str | None,
-    items: Mapping[int, Any],
+    items: Mapping[int, Value],
     buttons: float | None,
     array: Mapping[int, str] | None,
     _icon: float | None,
     default: float | None,
-    *tail: Any,  # noqa: ANN401
+    *tail: Value,
 ) -> float:
     """Ask for one of a list's items."""
     choices = {item.text: float(i) for i, item in items.items() if item.text}
@@ -427,13 +421,13 @@ def ui_msg_write(
 ) -> None:
     """Show a message without waiting."""
     for line in _lines(header, message, lines).split("\n"):
-        _operator(task).write(task.name, line)
+        task.controller.operator.write(task.name, line)
 
 
 @builtin("UIShow", cost="string")
 def ui_show(task: Task, assembly: str, *_arguments: object) -> None:
     """Start an application on the FlexPendant: there is none here that could."""
-    if not _operator(task).present:
+    if not task.controller.operator.present:
         raise RapidError("ERR_TP_NO_CLIENT")
     raise RapidError("ERR_UISHOW_FATAL", f"{assembly} cannot run on a virtual controller")
 
@@ -454,7 +448,7 @@ def err_write(
 ) -> None:
     """Write a message of the user's own: 80001 error, 80002 \\W, 80003 \\I."""
     kind = EventType.WARNING if warning else EventType.INFO if info else EventType.ERROR
-    log: EventLog = task.controller.log
+    log = task.controller.log
     texts = [text for text in (reason, rl2, rl3, rl4) if text]
     log.write(_EVENTS[kind], kind, header, *texts, task=task.name)
 
@@ -471,6 +465,6 @@ def err_log(
     kind = EventType.WARNING if warning else EventType.INFO if info else EventType.ERROR
     if not (4800 <= number <= 4814 or 5000 <= number <= 9999):
         raise RapidError("ERR_ARGVALERR", f"{number:g} is no ErrorId")
-    log: EventLog = task.controller.log
+    log = task.controller.log
     texts = [text for text in arguments if text]
     log.write(_PROCESS_DOMAIN + int(number), kind, "ErrLog", *texts, task=task.name)

@@ -8,30 +8,29 @@ from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.queues import Message, MessageBox, Queue, QueueSystem, Slot
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.task.running import RapidTask
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, RmqHeader, copy_value, dimensions
 
 _DEFAULT_TIME = 60.0
 _WAIT_MAX = 9_999_999
 
 
-def _queues(task: RapidTask) -> QueueSystem:
-    queues: QueueSystem = task.controller.queues
-    return queues
+def _queues(task: Task) -> QueueSystem:
+    return task.controller.queues
 
 
-def _own(task: RapidTask) -> Queue:
+def _own(task: Task) -> Queue:
     return _queues(task).queue(task.name)
 
 
-def _message(task: RapidTask, datum: object, user: float | None) -> Message:
-    value, kind = value_of(datum)
+def _message(task: Task, argument: object, user: float | None) -> Message:
+    value, kind = value_of(argument)
     name = QueueSystem.slot_name(task.name)
     return Message(kind, dimensions(value), copy_value(value), name, user or 0)
 
 
 @builtin("RMQFindSlot", cost="string")
-def rmq_find_slot(task: RapidTask, slot: Slot, name: str) -> None:
+def rmq_find_slot(task: Task, slot: Slot, name: str) -> None:
     """The queue of a name; ERR_RMQ_NAME when no task has it, or its RmqType is None."""
     for other in task.controller.rapid_tasks.values():
         if QueueSystem.slot_name(other.name).lower() == name.lower() and other.spec.queue.open:
@@ -41,7 +40,7 @@ def rmq_find_slot(task: RapidTask, slot: Slot, name: str) -> None:
 
 
 @builtin("RMQGetSlotName", cost="string")
-def rmq_get_slot_name(_task: RapidTask, slot: Slot) -> str:
+def rmq_get_slot_name(_task: Task, slot: Slot) -> str:
     """Name of a queue; ERR_RMQ_INVALID when the slot was never found."""
     if not slot.name:
         raise RapidError("ERR_RMQ_INVALID")
@@ -49,16 +48,16 @@ def rmq_get_slot_name(_task: RapidTask, slot: Slot) -> str:
 
 
 @builtin("RMQSendMessage", cost="string")
-def rmq_send_message(task: RapidTask, slot: Slot, datum: object, user: float | None) -> None:
+def rmq_send_message(task: Task, slot: Slot, argument: object, user: float | None) -> None:
     """Send a value; does not wait."""
-    _queues(task).send(slot.name, _message(task, datum, user))
+    _queues(task).send(slot.name, _message(task, argument, user))
 
 
 @builtin("RMQSendWait", cost="string")
 def rmq_send_wait(
-    task: RapidTask,
+    task: Task,
     slot: Slot,
-    datum: object,
+    argument: object,
     user: float | None,
     box: MessageBox,
     wanted: object,
@@ -68,7 +67,7 @@ def rmq_send_wait(
     value, kind = value_of(wanted)
     dims = dimensions(value)
     own = _own(task)
-    _queues(task).send(slot.name, _message(task, datum, user))
+    _queues(task).send(slot.name, _message(task, argument, user))
 
     def answer() -> Message | None:
         for message in own.messages:
@@ -94,7 +93,7 @@ def _time(timeout: float | None, default: float | None) -> float | None:
 
 
 @builtin("RMQGetMessage", cost="string")
-def rmq_get_message(task: RapidTask, box: MessageBox) -> None:
+def rmq_get_message(task: Task, box: MessageBox) -> None:
     """The first message, taken out of the queue; ERR_RMQ_NOMSG."""
     messages = _own(task).messages
     if not messages:
@@ -103,7 +102,7 @@ def rmq_get_message(task: RapidTask, box: MessageBox) -> None:
 
 
 @builtin("RMQReadWait", cost="string")
-def rmq_read_wait(task: RapidTask, box: MessageBox, timeout: float | None) -> None:
+def rmq_read_wait(task: Task, box: MessageBox, timeout: float | None) -> None:
     """Wait for a message."""
     own = _own(task)
     if not task.wait_for(
@@ -121,7 +120,7 @@ def _held(box: MessageBox) -> Message:
 
 @builtin("RMQGetMsgHeader", cost="string")
 def rmq_get_msg_header(
-    _task: RapidTask, box: MessageBox, header: Ref | None, sender: Slot | None, user: Ref | None
+    _task: Task, box: MessageBox, header: Ref | None, sender: Slot | None, user: Ref | None
 ) -> None:
     """Type and dimensions, sender and user number of a message."""
     message = _held(box)
@@ -135,9 +134,9 @@ def rmq_get_msg_header(
 
 
 @builtin("RMQGetMsgData", cost="string")
-def rmq_get_msg_data(_task: RapidTask, box: MessageBox, datum: object) -> None:
+def rmq_get_msg_data(_task: Task, box: MessageBox, argument: object) -> None:
     """The value of a message; ERR_RMQ_VALUE or ERR_RMQ_DIM when it does not fit."""
-    message, target = _held(box), target_of(datum)
+    message, target = _held(box), target_of(argument)
     if message.type.name != target.type.name:
         raise RapidError("ERR_RMQ_VALUE", f"the message is a {message.type.name}")
     if message.dims != target.dims:
@@ -146,15 +145,15 @@ def rmq_get_msg_data(_task: RapidTask, box: MessageBox, datum: object) -> None:
 
 
 @builtin("RMQEmptyQueue", cost="string")
-def rmq_empty_queue(task: RapidTask) -> None:
+def rmq_empty_queue(task: Task) -> None:
     """Throw all messages away."""
     _own(task).messages.clear()
 
 
 @builtin("IRMQMessage", cost="string")
-def i_rmq_message(task: RapidTask, datum: object, interrupt: Ref) -> None:
+def i_rmq_message(task: Task, argument: object, interrupt: Ref) -> None:
     """Order an interrupt for messages of a type."""
-    value, kind = value_of(datum)
+    value, kind = value_of(argument)
     order = task.interrupts.order(interrupt.get(), single=False, safe=False)
     own = _own(task)
     entry = (kind, dimensions(value), lambda: task.interrupts.happen(order))

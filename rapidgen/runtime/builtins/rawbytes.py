@@ -6,6 +6,7 @@ empty container, motion_program_exec [code] for \\ASCII:=0.
 
 from collections.abc import Callable
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import (
@@ -20,7 +21,7 @@ from rapidgen.runtime.rawbytes import (
 )
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, single
+from rapidgen.runtime.values import Ref
 
 DNUM_BITS = 52
 _MASK = (1 << DNUM_BITS) - 1
@@ -30,7 +31,7 @@ _ULINT = 8
 @builtin("PackRawBytes", cost="string")
 def pack_raw_bytes(
     task: Task,
-    datum: object,
+    argument: object,
     raw: RawBytes,
     network: bool | None,
     start: float,
@@ -40,7 +41,7 @@ def pack_raw_bytes(
     ascii_: bool | None,
 ) -> None:
     """Write one value into a container."""
-    value, _ = value_of(datum)
+    value, _ = value_of(argument)
     index = whole(start, "ERR_OUTOFBND")
     if index > len(raw.data) + 1 and task.controller.dialect.pack_beyond == "error":
         raise RapidError("ERR_OUTOFBND", f"{index} lies behind a gap after {len(raw.data)} bytes")
@@ -64,14 +65,14 @@ def unpack_raw_bytes(
     raw: RawBytes,
     network: bool | None,
     start: float,
-    datum: object,
+    argument: object,
     hex1: bool | None,
     int_type: float | None,
     float4: bool | None,
     ascii_: float | None,
 ) -> None:
     """Read one value out of a container."""
-    value = target_of(datum)
+    value = target_of(argument)
     index = whole(start, "ERR_OUTOFBND")
     if task.controller.dialect.unpack_beyond == "zero":
         raw = RawBytes(bytes(raw.data).ljust(CAPACITY, b"\0"))

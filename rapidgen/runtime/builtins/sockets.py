@@ -9,16 +9,16 @@ finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switc
 from rapidgen.machine.network.interface import (
     BUFFER,
     Endpoint,
-    Network,
     NetworkFault,
     NetworkReason,
 )
+from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.sockets import SocketDevice, SocketStatus, SocketTable
+from rapidgen.runtime.sockets import SocketDevice, SocketStatus
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import STRING_LIMIT, Ref
+from rapidgen.runtime.values import Ref
 
 DEFAULT_TIME = 60.0
 WAIT_MAX = 9_999_999
@@ -40,16 +40,6 @@ _ERRORS = {
 }
 
 
-def _network(task: Task) -> Network:
-    network: Network = task.controller.network
-    return network
-
-
-def _table(task: Task) -> SocketTable:
-    table: SocketTable = task.controller.sockets
-    return table
-
-
 def _error(fault: NetworkFault) -> RapidError:
     return RapidError(_ERRORS[fault.reason], str(fault))
 
@@ -57,7 +47,7 @@ def _error(fault: NetworkFault) -> RapidError:
 def _lost(task: Task, socket: SocketDevice, fault: NetworkFault) -> RapidError:
     """The connection is gone: from now on the program sees a closed socket."""
     if fault.reason in (NetworkReason.RESET, NetworkReason.CLOSED):
-        _table(task).release(socket, abort=True)
+        task.controller.sockets.release(socket, abort=True)
     return _error(fault)
 
 
@@ -97,7 +87,7 @@ def socket_create(task: Task, socket: SocketDevice, udp: bool | None) -> None:
     """A fresh socket; ERR_SOCK_UNSPEC when it is in use or all are."""
     if socket.status is not SocketStatus.CLOSED:
         raise RapidError("ERR_SOCK_UNSPEC", "the socket is in use")
-    table = _table(task)
+    table = task.controller.sockets
     if table.full:
         raise RapidError("ERR_SOCK_UNSPEC", "all sockets of the controller are in use")
     socket.udp = bool(udp)
@@ -112,7 +102,7 @@ def socket_bind(task: Task, socket: SocketDevice, address: str, port: float) -> 
     if socket.status is not SocketStatus.CREATED:
         raise RapidError("ERR_SOCK_IS_BOUND")
     try:
-        socket.endpoint = _network(task).bind(address, _port(port), datagram=socket.udp)
+        socket.endpoint = task.controller.network.bind(address, _port(port), datagram=socket.udp)
     except NetworkFault as fault:
         raise _error(fault) from fault
     socket.status = SocketStatus.BOUND
@@ -127,7 +117,7 @@ def socket_listen(task: Task, socket: SocketDevice) -> None:
     if socket.endpoint is None or socket.status is SocketStatus.CREATED:
         raise RapidError("ERR_SOCK_NOT_BOUND")
     try:
-        _network(task).listen(socket.endpoint)
+        task.controller.network.listen(socket.endpoint)
     except NetworkFault as fault:
         raise _error(fault) from fault
     socket.status = SocketStatus.LISTENING
@@ -148,7 +138,7 @@ def socket_accept(
     listener = socket.endpoint
     if listener is None or socket.status is not SocketStatus.LISTENING:
         raise RapidError("ERR_SOCK_NOT_BOUND")
-    network, table = _network(task), _table(task)
+    network, table = task.controller.network, task.controller.sockets
     accepted: list[Endpoint] = []
 
     def try_it() -> bool:
@@ -180,13 +170,13 @@ def socket_accept(
 def socket_connect(
     task: Task, socket: SocketDevice, address: str, port: float, time: float | None
 ) -> None:
-    """Connect to a server. For what a failure leaves see `Dialect.failed_connect`."""
+    """Connect to a server. For what a failure leaves see `Switches.failed_connect`."""
     _require(socket)
     if socket.status is SocketStatus.CONNECTED:
         raise RapidError("ERR_SOCK_IS_CONN")
     if socket.status is not SocketStatus.CREATED or socket.endpoint is not None:
         raise RapidError("ERR_SOCK_UNSPEC", "close the socket and create it again")
-    network = _network(task)
+    network = task.controller.network
     again = task.controller.dialect.failed_connect == "again"
     try:
         endpoint = socket.endpoint = network.connect(address, _port(port))
@@ -213,7 +203,7 @@ def socket_connect(
 @builtin("SocketClose", cost="socket")
 def socket_close(task: Task, socket: SocketDevice) -> None:
     """Close; no error when it is closed already."""
-    _table(task).release(socket)
+    task.controller.sockets.release(socket)
 
 
 @builtin("SocketGetStatus", cost="socket")
@@ -258,7 +248,7 @@ def socket_send(
     """Send bytes; waits while the connection has no room for them."""
     payload = _payload(text, raw, data, count)
     endpoint = _stream(socket)
-    network = _network(task)
+    network = task.controller.network
     left = payload
 
     def some_go() -> bool:
@@ -311,7 +301,7 @@ def _wait_for_bytes(
     exact: bool,
     time: float | None,
 ) -> bytes:
-    network = _network(task)
+    network = task.controller.network
     result: bytes | None = None
 
     def try_it() -> bool:
@@ -336,7 +326,7 @@ def _limit(
     text: Ref | None, raw: RawBytes | None, data: Ref | None, read_count: float | None
 ) -> int:
     if text is not None:
-        room = STRING_LIMIT
+        room = MAX_STRING
     elif raw is not None:
         room = CAPACITY
     elif data is not None:
@@ -373,7 +363,7 @@ def socket_peek(task: Task, socket: SocketDevice) -> int:
     """Number of bytes that wait."""
     endpoint = _stream(socket) if not socket.udp else _datagrams(task, socket)
     try:
-        waiting = _network(task).receive(endpoint, BUFFER, peek=True)
+        waiting = task.controller.network.receive(endpoint, BUFFER, peek=True)
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if waiting == b"" and not socket.udp:
@@ -388,7 +378,9 @@ def _datagrams(task: Task, socket: SocketDevice) -> Endpoint:
     _require(socket, udp=True)
     if socket.endpoint is None:
         try:
-            socket.endpoint = _network(task).bind(_network(task).address, 0, datagram=True)
+            socket.endpoint = task.controller.network.bind(
+                task.controller.network.address, 0, datagram=True
+            )
         except NetworkFault as fault:
             raise _error(fault) from fault
     return socket.endpoint
@@ -409,7 +401,7 @@ def socket_send_to(
     payload = _payload(text, raw, data, count)
     endpoint = _datagrams(task, socket)
     try:
-        _network(task).send(endpoint, payload, (address, _port(port)))
+        task.controller.network.send(endpoint, payload, (address, _port(port)))
     except NetworkFault as fault:
         raise _error(fault) from fault
 

@@ -4,6 +4,7 @@ Sources: the S4 reference's page of each name for the edges (positions from 1, a
 outside is an error); which error that is: switch `argument_error`.
 """
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import byte_value, whole
@@ -17,7 +18,6 @@ from rapidgen.runtime.text import (
     parse_value,
     value_text,
 )
-from rapidgen.runtime.values import single
 
 _LARGEST_STRDIG = 4_294_967_295
 _LARGEST_DECIMAL = 9_223_372_036_854_775_807
@@ -32,7 +32,7 @@ def _place(text: str, position: float) -> int:
 
 
 def _search_place(task: Task, text: str, position: float) -> int:
-    """Where a search begins; see `Dialect.find_behind`."""
+    """Where a search begins; see `Switches.find_behind`."""
     behind = task.controller.dialect.find_behind == "none" and position == len(text) + 1
     return len(text) + 1 if behind else _place(text, position)
 
@@ -95,9 +95,9 @@ def str_order(_task: Task, one: str, two: str, order: str) -> bool:
 
 
 @builtin("StrToVal", cost="string")
-def str_to_val(_task: Task, text: str, datum: object) -> bool:
+def str_to_val(_task: Task, text: str, argument: object) -> bool:
     """Read a literal of the target's type; FALSE leaves the target as it was [S4 StrToVal]."""
-    target = target_of(datum)
+    target = target_of(argument)
     try:
         value = parse_value(text, target.type, target.dims)
     except NotALiteral:
@@ -107,9 +107,11 @@ def str_to_val(_task: Task, text: str, datum: object) -> bool:
 
 
 @builtin("ValToStr", cost="string")
-def val_to_str(task: Task, datum: object) -> str:
+def val_to_str(task: Task, argument: object) -> str:
     """The text of any value; ERR_STRTOOLNG over 80 characters."""
-    return limited(value_text(*value_of(datum), whole=task.controller.dialect.whole_text == "all"))
+    return limited(
+        value_text(*value_of(argument), whole=task.controller.dialect.whole_text == "all")
+    )
 
 
 @builtin("StrFormat", cost="string", pure=True)
@@ -175,7 +177,7 @@ def str_to_byte(
     binary: bool | None,
     char: bool | None,
 ) -> int:
-    """A byte from its text: decimal unless told."""
+    """A byte from its text: decimal by default."""
     if char:
         if len(text) != 1:
             raise RapidError("ERR_ARGVALERR", "\\Char takes one character")
@@ -195,7 +197,7 @@ def byte_to_str(
     binary: bool | None,
     char: bool | None,
 ) -> str:
-    """A byte's text: decimal unless told. For \\Char see `Dialect.byte_to_str`."""
+    """A byte's text: decimal by default. For \\Char see `Switches.byte_to_str`."""
     byte = byte_value(data)
     if hexadecimal:
         return f"{byte:02X}"

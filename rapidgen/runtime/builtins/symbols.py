@@ -14,10 +14,9 @@ from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import frame
-from rapidgen.runtime.compiler.program import LoadedModule
+from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Box, PersistentCell, Ref, copy_value, register_type
@@ -26,7 +25,7 @@ _ELEMENT = re.compile(r"(\w+)\{([\d,\s]+)\}")
 
 
 class DataPosition:
-    """A `datapos` datum: the module in which a found datum lies."""
+    """A `datapos`: the module in which what was found lies."""
 
     __slots__ = ("module",)
 
@@ -37,16 +36,13 @@ class DataPosition:
 register_type("datapos", DataPosition)
 
 
-def _modules(task: Task) -> ModuleTable:
-    modules: ModuleTable = task.controller.modules
-    return modules
+# -- by name ------------------------------------------------------------------------------------
 
 
-# -- one datum ----------------------------------------------------------------------------------
-
-
-def _datum(task: Task, module: LoadedModule | None, name: str) -> tuple[Data, Ref | PersistentCell]:
-    """A datum of a task by name, or ERR_SYM_ACCESS."""
+def _data_ref(
+    task: Task, module: LoadedModule | None, name: str
+) -> tuple[Data, Ref | PersistentCell]:
+    """Data of a task by name, or ERR_SYM_ACCESS."""
     program = task.program
     data = program.find_data(module, name.lower())
     if data is None:
@@ -81,13 +77,13 @@ def get_data_val(
     block: DataPosition | None,
     reference: object,
     task_name: str | None,
-    datum: object,
+    argument: object,
 ) -> None:
-    """The value of a datum whose name is a string; an element as `name{i}`."""
-    target = target_of(datum)
+    """The value of data whose name is a string; an element as `name{i}`."""
+    target = target_of(argument)
     owner = task_named(task, reference, task_name)
     plain, indices = _indices(name)
-    _, source = _datum(owner, block.module if block is not None else None, plain)
+    _, source = _data_ref(owner, block.module if block is not None else None, plain)
     _check_type(source, len(indices), target)
     value = source.get()
     for index in indices:
@@ -102,13 +98,13 @@ def set_data_val(
     block: DataPosition | None,
     reference: object,
     task_name: str | None,
-    datum: object,
+    argument: object,
 ) -> None:
-    """Give a datum whose name is a string a value; constants are ERR_SYM_ACCESS."""
-    value = target_of(datum)
+    """Give data whose name is a string a value; constants are ERR_SYM_ACCESS."""
+    value = target_of(argument)
     owner = task_named(task, reference, task_name)
     plain, indices = _indices(name)
-    data, target = _datum(owner, block.module if block is not None else None, plain)
+    data, target = _data_ref(owner, block.module if block is not None else None, plain)
     if data.readonly:
         raise RapidError("ERR_SYM_ACCESS", f"{name} is a constant")
     _check_type(target, len(indices), value)
@@ -150,12 +146,12 @@ def _declared(
 
 def _predefined(task: Task, type_: str, pattern: str, kinds: set[str]) -> Iterator[Data]:
     """Predefined data of a type (all for an empty one) that nothing in the program hides."""
-    for key, datum in signatures.predefined().items():
-        if type_ and datum.type.lower() != type_.lower():
+    for key, known in signatures.predefined().items():
+        if type_ and known.type.lower() != type_.lower():
             continue
-        if (kinds and datum.kind not in kinds) or key in task.program.globals:
+        if (kinds and known.kind not in kinds) or key in task.program.names.globals:
             continue
-        if pattern and re.fullmatch(pattern, datum.name, re.IGNORECASE) is None:
+        if pattern and re.fullmatch(pattern, known.name, re.IGNORECASE) is None:
             continue
         data = task.program.find_data(None, key)
         if data is not None:
@@ -190,13 +186,13 @@ def set_data_search(
     ]
     if not (in_task or in_module or local):
         found += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
-    _modules(task).searches[task.name] = iter(found)
+    task.controller.modules.searches[task.name] = iter(found)
 
 
 @builtin("GetNextSym", cost="string")
 def get_next_sym(task: Task, name: Ref, block: DataPosition, _recursive: bool | None) -> bool:
-    """The next datum of the search; FALSE when there is none left."""
-    following = next(_modules(task).searches.get(task.name, iter(())), None)
+    """The next find of the search; FALSE when there is none left."""
+    following = next(task.controller.modules.searches.get(task.name, iter(())), None)
     if following is None:
         return False
     module, data = following
@@ -212,12 +208,12 @@ def set_all_data_val(
     _type_module: str | None,
     pattern: str | None,
     _hidden: bool | None,
-    datum: object,
+    argument: object,
 ) -> None:
     """Give all module data of a type (and name) one value; constants stay."""
-    value = target_of(datum)
+    value = target_of(argument)
     for module, _, data in list(_declared(task, type_, "", pattern or "")):
-        _, target = _datum(task, module, data.name)
+        _, target = _data_ref(task, module, data.name)
         if not data.readonly and target.dims == value.dims:
             target.set(copy_value(value.get()))
 
@@ -241,7 +237,7 @@ def get_sys_data(
     if group is not None and kind != "loaddata":
         data = data_of(owner, group)
         active = data.tool if kind == "tooldata" else data.work_object
-    _, default = _datum(owner, None, _ACTIVE[kind])
+    _, default = _data_ref(owner, None, _ACTIVE[kind])
     value = default.get() if active is None else active
     target.set(copy_value(value))
     if name is not None:
@@ -253,10 +249,10 @@ def _name_of(task: Task, kind: str, value: object) -> str:
     """Name of the persistent that holds a value: the very one, else one that is equal."""
     equal = ""
     for module, _, data in _declared(task, kind, "", ""):
-        kept = _datum(task, module, data.name)[1].get()
-        if kept is value:
+        held = _data_ref(task, module, data.name)[1].get()
+        if held is value:
             return data.name
-        if not equal and kept == value:
+        if not equal and held == value:
             equal = data.name
     return equal
 
@@ -267,7 +263,7 @@ def set_sys_data(task: Task, source: Ref, name: str | None) -> None:
     kind = source.type.name
     if kind not in _ACTIVE:
         raise RapidError("ERR_SYMBOL_TYPE", kind)
-    chosen = source if name is None else _datum(task, None, name)[1]
+    chosen = source if name is None else _data_ref(task, None, name)[1]
     group = task.controller.motion.of_task(task.name)
     if group is None:
         return

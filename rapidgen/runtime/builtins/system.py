@@ -11,8 +11,6 @@ from rapidgen.runtime.rawbytes import whole
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import limited
-from rapidgen.runtime.texts import TextTables
-from rapidgen.system.model import System
 
 _SERIAL = "00-00000"
 
@@ -34,7 +32,7 @@ def get_sys_info(
     Forms of versions as backups keep what controllers answered (COMPAS RRC [code]):
     `ROBOTWARE_6.04.1027` and `6.04.01.00`; there is no build number here.
     """
-    system: System = task.controller.system
+    system = task.controller.system
     major, minor = system.robotware
     if serial:
         return _SERIAL
@@ -76,16 +74,11 @@ def rob_os(_task: Task) -> bool:
 # -- text tables ----------------------------------------------------------------------------
 
 
-def _tables(task: Task) -> TextTables:
-    tables: TextTables = task.controller.texts
-    return tables
-
-
 @builtin("TextTabInstall", cost="socket")
 def text_tab_install(task: Task, file: str) -> None:
     """Install the tables of a file."""
     try:
-        _tables(task).install(file_path(task, file).read_text(encoding="latin-1"))
+        task.controller.texts.install(file_path(task, file).read_text(encoding="latin-1"))
     except OSError as error:
         raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
     except ValueError as error:
@@ -95,13 +88,13 @@ def text_tab_install(task: Task, file: str) -> None:
 @builtin("TextTabFreeToUse", cost="string")
 def text_tab_free_to_use(task: Task, name: str) -> bool:
     """Whether a table's name is not taken yet."""
-    return _tables(task).number(name) is None
+    return task.controller.texts.number(name) is None
 
 
 @builtin("TextTabGet", cost="string")
 def text_tab_get(task: Task, name: str) -> int:
     """A table's number; ERR_TXTNOEXIST when there is none."""
-    number = _tables(task).number(name)
+    number = task.controller.texts.number(name)
     if number is None:
         raise RapidError("ERR_TXTNOEXIST", f"no text table '{name}'")
     return number
@@ -111,7 +104,7 @@ def text_tab_get(task: Task, name: str) -> int:
 def text_get(task: Task, table: float, index: float) -> str:
     """A text of a table; ERR_TXTNOEXIST when there is none."""
     wanted = whole(index, "ERR_ARGVALERR")
-    text = _tables(task).text(whole(table, "ERR_ARGVALERR"), wanted)
+    text = task.controller.texts.text(whole(table, "ERR_ARGVALERR"), wanted)
     if text is None:
         raise RapidError("ERR_TXTNOEXIST", f"no text {wanted} in table {table:g}")
     return limited(text)

@@ -1,56 +1,19 @@
 """One walk over a routine before it is compiled: what is passed by reference, what is whole."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 
+from rapidgen.rapid.binding.arguments import match
+from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.symbols import Routine
-
-WHOLE_FUNCTIONS = frozenset({"strlen", "dim", "strfind", "strmatch"})
-"""Built-ins that become code and give whole numbers from 0."""
-
-
-def children(node: n.Node) -> Iterator[n.Node]:
-    """Direct parts of a node."""
-    for name in _slots(type(node)):
-        value = getattr(node, name)
-        if isinstance(value, n.Node):
-            yield value
-        elif value.__class__ is list:
-            for item in value:
-                if isinstance(item, n.Node):
-                    yield item
-
-
-_SLOTS: dict[type, tuple[str, ...]] = {}
-
-
-def _slots(kind: type) -> tuple[str, ...]:
-    found = _SLOTS.get(kind)
-    if found is None:
-        names: list[str] = []
-        for base in kind.__mro__:
-            names += [s for s in getattr(base, "__slots__", ()) if s not in ("first", "last")]
-        found = _SLOTS[kind] = tuple(names)
-    return found
-
-
-def walk(node: n.Node) -> Iterator[n.Node]:
-    """A node and everything below it."""
-    stack = [node]
-    while stack:
-        at = stack.pop()
-        yield at
-        stack.extend(children(at))
 
 
 class Facts:
     """What a routine's text says about its own variables."""
 
     def __init__(
-        self,
-        routine: n.RoutineDeclaration,
-        find: Callable[[str], Routine | None],
-        never_boxes: frozenset[str],
+        self, routine: n.RoutineDeclaration, find: Callable[[str], Routine | None]
     ) -> None:
         self.by_reference: set[str] = set()
         """Locals that are arguments of reference parameters, lower case."""
@@ -60,16 +23,14 @@ class Facts:
         self.goto: set[str] = set()
         self.assigned_in_handlers: set[str] = set()
         for at in walk(routine):
-            self._look(at, find, never_boxes)
+            self._look(at, find)
 
-    def _look(
-        self, at: n.Node, find: Callable[[str], Routine | None], never_boxes: frozenset[str]
-    ) -> None:
+    def _look(self, at: n.Node, find: Callable[[str], Routine | None]) -> None:
         match at:
             case n.Assignment(target=n.Name(name=name)):
                 self.stores.setdefault(name.lower(), []).append(at.value)
             case n.ProcedureCall() | n.FunctionCall():
-                self._call(at, find(at.name), never_boxes)
+                self._call(at, find(at.name))
             case n.LateCall():
                 for argument in at.arguments:
                     self._by_reference(argument.value)
@@ -80,42 +41,27 @@ class Facts:
             case n.Goto():
                 self.goto.add(at.name.lower())
 
-    def _call(
-        self,
-        at: n.ProcedureCall | n.FunctionCall,
-        routine: Routine | None,
-        never_boxes: frozenset[str],
-    ) -> None:
+    def _call(self, at: n.ProcedureCall | n.FunctionCall, routine: Routine | None) -> None:
         key = at.name.lower()
-        if routine is None or (routine.node is None and key in never_boxes):
+        unboxed = key in marked("inplace") or key in marked("steps")
+        if routine is None or (routine.node is None and unboxed):
             self._step(at, key)
             return
-        required = [p for p in routine.parameters if not p.optional]
-        at_required = 0
-        for argument in at.arguments:
-            index = routine.by_name.get(argument.name.lower()) if argument.name else None
-            if index is not None:
-                parameter = routine.parameters[index]
-            elif argument.name is None and at_required < len(required):
-                parameter = required[at_required]
-                at_required += 1
-                while (
-                    parameter.group >= 0
-                    and at_required < len(required)
-                    and required[at_required].group == parameter.group
-                ):
-                    # Alternatives of one position: any of them may be meant.
-                    if required[at_required].mode:
-                        parameter = required[at_required]
-                    at_required += 1
-            else:
-                continue
-            if parameter.mode:
-                self._by_reference(argument.value)
+        if not routine.refers:
+            return
+        parameters = routine.parameters
+
+        def by_reference(_argument: n.Argument, among: Sequence[int]) -> int:
+            """Any of the alternatives may be meant."""
+            return next((i for i in among if parameters[i].mode), among[0])
+
+        for pair in match(parameters, at.arguments, by_reference).pairs:
+            if pair.parameter >= 0 and parameters[pair.parameter].mode:
+                self._by_reference(pair.argument.value)
 
     def _step(self, at: n.ProcedureCall | n.FunctionCall, key: str) -> None:
         """Incr and its kin are assignments."""
-        if key not in ("incr", "decr", "add", "clear") or not at.arguments:
+        if key not in marked("steps") or not at.arguments:
             return
         target = at.arguments[0].value
         if isinstance(target, n.Name):
@@ -192,7 +138,7 @@ class Whole:
             case n.Binary(operator="+" | "-" | "*"):
                 return self._is_whole(node.left) and self._is_whole(node.right)
             case n.FunctionCall():
-                return node.name.lower() in WHOLE_FUNCTIONS
+                return node.name.lower() in marked("whole")
         return False
 
     def _is_natural(self, node: n.Expression | None) -> bool:
@@ -207,5 +153,5 @@ class Whole:
             case n.Binary(operator="+" | "*" | "DIV" | "MOD"):
                 return self._is_natural(node.left) and self._is_natural(node.right)
             case n.FunctionCall():
-                return node.name.lower() in WHOLE_FUNCTIONS
+                return node.name.lower() in marked("whole")
         return False

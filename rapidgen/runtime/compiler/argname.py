@@ -8,27 +8,29 @@ from collections.abc import Iterator
 from types import FrameType
 from typing import TYPE_CHECKING
 
+from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.task.recovery import Recovery
+    from rapidgen.runtime.compiler.program import Program
     from rapidgen.runtime.values import Ref
 
 Call = n.ProcedureCall | n.FunctionCall | n.LateCall
 
 
-def arg_name(task: "Recovery", parameter: str, number: "Ref | None" = None) -> str:
+def arg_name(program: "Program", parameter: str, number: "Ref | None" = None) -> str:
     """Name of the datum behind `parameter` of the routine that asks [S4 datasys 3-ArgName].
 
     For an element or a component the whole datum's; ERR_ARGNAME for an expression. With
     `number` that gets the error instead, and the name is empty.
     """
     try:
-        return _named(task, parameter)
+        return _named(program, parameter)
     except RapidError as error:
         if number is None:
             raise
@@ -36,8 +38,8 @@ def arg_name(task: "Recovery", parameter: str, number: "Ref | None" = None) -> s
         return ""
 
 
-def _named(task: "Recovery", name: str) -> str:
-    places = _places(task, sys._getframe(2))
+def _named(program: "Program", name: str) -> str:
+    places = _places(program, sys._getframe(2))
     routine, _ = next(places)
     while (at := routine.by_name.get(name.lower())) is not None:
         caller, token = next(places, (None, 0))
@@ -49,24 +51,22 @@ def _named(task: "Recovery", name: str) -> str:
         if not isinstance(value, n.Name):
             raise RapidError("ERR_ARGNAME")
         routine, name = caller, value.name
-    data = (
-        None if _is_local(routine, name) else task.program.find_data(routine.module, name.lower())
-    )
+    data = None if _is_local(routine, name) else program.find_data(routine.module, name.lower())
     return data.name if data is not None else name
 
 
-def _places(task: "Recovery", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
+def _places(program: "Program", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
     """Routines of the call stack, innermost first, and the token at which each is."""
-    codes = task.program.codes
+    codes = program.codes
     inside: Routine | None = None
     while frame is not None:
         compiled = codes.get(frame.f_code.co_filename)
         if compiled is not None:
-            part = frame.f_code.co_name.startswith(("_a", "_h", "_u"))
+            inner = compiled.role(frame.f_code) is not CodeRole.ROUTINE
             if inside is not compiled.routine:
                 yield compiled.routine, compiled.tokens[frame.f_lineno]
             # A handler's or a deep part's own frame comes before that of its routine.
-            inside = compiled.routine if part else None
+            inside = compiled.routine if inner else None
         frame = frame.f_back
 
 
@@ -75,11 +75,10 @@ def _argument(caller: Routine, token: int, routine: Routine, at: int) -> n.Expre
     for call in _calls(caller, token):
         if not isinstance(call, n.LateCall) and call.name.lower() != routine.name.lower():
             continue
-        required = iter([i for i, p in enumerate(routine.parameters) if not p.optional])
-        for argument in call.arguments:
-            named = routine.by_name.get(argument.name.lower()) if argument.name else None
-            if (named if argument.name else next(required, None)) == at:
-                return argument.value
+        matching = match(routine.parameters, call.arguments, lambda _, among: among[0])
+        for pair in matching.pairs:
+            if pair.parameter == at:
+                return pair.argument.value
     return None
 
 

@@ -1,94 +1,73 @@
 """Calls: matching arguments to parameters, and passing them by value or by reference [K §5.1]."""
 
+from collections.abc import Sequence
+
+from rapidgen.rapid.binding.arguments import Misfit, match
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.context import (
-    CALLS,
-    CannotCompile,
-    E,
-    RoutineScope,
-    calling,
-    same_type,
-)
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime.compiler.context import CALLS, CannotCompile, E, Unit, calling, same_type
 from rapidgen.runtime.compiler.references import place_of, reference
 from rapidgen.runtime.compiler.storing import by_value
-from rapidgen.runtime.compiler.symbols import Parameter, Routine
+from rapidgen.runtime.compiler.symbols import FormalParameter, Routine
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.values import NUM
 
+_FAULTS = {
+    Misfit.SURPLUS: "too many arguments for {0}",
+    Misfit.UNKNOWN: "{0} has no parameter {1}",
+    Misfit.TWICE: "{1} is given twice",
+}
 
-def match(
-    scope: RoutineScope, routine: Routine, arguments: list[n.Argument], node: n.Node
+
+def _matched(
+    unit: Unit, routine: Routine, arguments: list[n.Argument], node: n.Node
 ) -> list[n.Argument | None]:
-    """Arguments in the order of the parameters; None where a parameter gets none."""
+    """Arguments in the order of the parameters; None where a parameter gets none.
+
+    An order that only the checker minds is taken; of alternatives run time finds two.
+    """
     parameters = routine.parameters
-    found: list[n.Argument | None] = [None] * len(parameters)
-    required = [i for i, p in enumerate(parameters) if not p.optional]
-    at = 0
-    for argument in arguments:
-        if argument.name is not None:
-            index = routine.by_name.get(argument.name.lower())
-            if index is None:
-                raise CannotCompile(f"{routine.name} has no parameter {argument.name}", node)
-            if not parameters[index].optional and index in required:
-                at = required.index(index) + 1
-        else:
-            if at >= len(required):
-                raise CannotCompile(f"too many arguments for {routine.name}", node)
-            index = _alternative(scope, routine, required, at, argument)
-            group = parameters[index].group
-            at += 1
-            while group >= 0 and at < len(required) and parameters[required[at]].group == group:
-                at += 1
-        if found[index] is not None and argument.kind != "conditional":
-            raise CannotCompile(f"{parameters[index].name} is given twice", node)
-        found[index] = argument
-    for i in required:
-        group = parameters[i].group
-        given = found[i] is not None or (
-            group >= 0
-            and any(
-                f is not None and p.group == group for f, p in zip(found, parameters, strict=True)
-            )
-        )
-        if not given:
-            raise CannotCompile(f"{routine.name} needs {parameters[i].name}", node)
-    return found
+    found = match(parameters, arguments, lambda a, among: _meant(unit, parameters, a, among))
+    for pair in found.pairs:
+        argument = pair.argument
+        for misfit in pair.misfits:
+            if misfit not in _FAULTS or argument.kind == "conditional":
+                continue
+            name = argument.name if pair.parameter < 0 else parameters[pair.parameter].name
+            raise CannotCompile(_FAULTS[misfit].format(routine.name, name), node)
+    if found.missing:
+        raise CannotCompile(f"{routine.name} needs {parameters[found.missing[0]].name}", node)
+    return found.in_order(len(parameters))
 
 
-def _alternative(
-    scope: RoutineScope, routine: Routine, required: list[int], at: int, argument: n.Argument
+def _meant(
+    unit: Unit, parameters: Sequence[FormalParameter], argument: n.Argument, among: Sequence[int]
 ) -> int:
     """Which of several required alternatives a positional argument means: by its type."""
-    first = required[at]
-    group = routine.parameters[first].group
-    if group < 0 or argument.value is None:
-        return first
-    for index in required[at:]:
-        parameter = routine.parameters[index]
-        if parameter.group != group:
-            break
-        place = place_of(scope, argument.value)
-        kind = place.e.type if place else scope.expression(argument.value).type
-        if parameter.type is None or same_type(kind, parameter.type):
-            return index
-    return first
+    if argument.value is None:
+        return among[0]
+    place = place_of(unit, argument.value)
+    kind = place.e.type if place else unit.expression(argument.value).type
+    types = [parameters[i].type for i in among]
+    return next(
+        (i for i, t in zip(among, types, strict=True) if t is None or same_type(kind, t)), among[0]
+    )
 
 
 def pass_argument(
-    scope: RoutineScope, parameter: Parameter, argument: n.Argument, *, builtin: bool
+    unit: Unit, parameter: FormalParameter, argument: n.Argument, *, builtin: bool
 ) -> E:
     """Compile one argument."""
     if argument.kind == "conditional":
-        return _conditional(scope, parameter, argument, builtin=builtin)
+        return _conditional(unit, parameter, argument, builtin=builtin)
     if parameter.switch:
         return E("True", NUM)
     node = argument.value
     if node is None:
         raise CannotCompile(f"{parameter.name} needs a value", argument)
     if parameter.mode or parameter.type is None:
-        return reference(scope, node, parameter, builtin=builtin)
-    e = scope.value_of(node, parameter.type, (0,) * parameter.dims, parameter.name)
+        return reference(unit, node, parameter, builtin=builtin)
+    e = unit.value_of(node, parameter.type, (0,) * parameter.dims, parameter.name)
     code = e.code if builtin and not e.type.is_value else by_value(e, parameter.type)
     if builtin and (e.dims or e.type.kind == "record"):
         code = e.code
@@ -96,16 +75,16 @@ def pass_argument(
 
 
 def _conditional(
-    scope: RoutineScope, parameter: Parameter, argument: n.Argument, *, builtin: bool
+    unit: Unit, parameter: FormalParameter, argument: n.Argument, *, builtin: bool
 ) -> E:
     """`\\Opt?par`: passes the caller's optional parameter on, or its absence."""
     node = argument.value
-    data = scope.locals.get(node.name.lower()) if isinstance(node, n.Name) else None
+    data = unit.data(node.name) if isinstance(node, n.Name) else None
     if data is None or not data.optional:
         raise CannotCompile("a conditional argument names an optional parameter", argument)
     if parameter.switch or data.storage == "ref" or parameter.mode:
         if builtin and parameter.mode and data.storage not in ("ref", "box"):
-            t = scope.program.type_code(data.type)
+            t = unit.program.keep(data.type)
             code = f"(None if {data.code} is None else BOX({data.code}, {t}, {data.dims!r}))"
             return E(code, data.type, data.dims)
         if data.storage == "ref" and not parameter.mode:
@@ -117,14 +96,13 @@ def _conditional(
     return E(f"COPY({data.code})" if copied else data.code, data.type, data.dims)
 
 
-def call(scope: RoutineScope, routine: Routine, node: n.FunctionCall | n.ProcedureCall) -> E:
+def call(unit: Unit, routine: Routine, node: n.FunctionCall | n.ProcedureCall) -> E:
     """Compile a call as a Python call."""
     if routine.missing:
-        scope.program.said_missing(routine.name)
         return calling(f"R.missing({routine.name!r})", routine.type or NUM)
-    found = match(scope, routine, node.arguments, node)
+    found = _matched(unit, routine, node.arguments, node)
     if routine.builtin is not None:
-        return _builtin_call(scope, routine, found)
+        return _builtin_call(unit, routine, found)
     codes, parts = [], []
     absent = False
     groups: dict[int, list[str]] = {}
@@ -132,7 +110,7 @@ def call(scope: RoutineScope, routine: Routine, node: n.FunctionCall | n.Procedu
         if argument is None:
             absent = True
             continue
-        e = pass_argument(scope, parameter, argument, builtin=False)
+        e = pass_argument(unit, parameter, argument, builtin=False)
         parts.append(e)
         code = e.code
         if parameter.group >= 0:
@@ -143,16 +121,16 @@ def call(scope: RoutineScope, routine: Routine, node: n.FunctionCall | n.Procedu
         prefix = f"v_{parameter.name.lower()}=" if parameter.optional or absent else ""
         codes.append(f"{prefix}{code}")
     code = f"{routine.code}({', '.join(codes)})"
-    result = calling(code, routine.type or NUM, *parts, cost=scope.options.call)
+    result = calling(code, routine.type or NUM, *parts, cost=unit.options.call)
     result.fresh = True
     return result
 
 
-def _condition_code(scope: RoutineScope, node: n.Expression | None, e: E) -> str:
+def _condition_code(unit: Unit, node: n.Expression | None, e: E) -> str:
     """WaitUntil looks at its condition again: it gets a function, and what it reads."""
     watched = []
     for part in walk(node) if node is not None else ():
-        data = scope.data(part.name) if isinstance(part, n.Name) else None
+        data = unit.data(part.name) if isinstance(part, n.Name) else None
         if data is None:
             continue
         if data.storage == "cell":
@@ -160,11 +138,11 @@ def _condition_code(scope: RoutineScope, node: n.Expression | None, e: E) -> str
         elif data.type.kind == "semivalue":
             watched.append(f"{data.code}.signal.changed")
     sets = "".join(f"{code}, " for code in dict.fromkeys(watched))
-    cost = e.ops * scope.options.operator + e.cost
+    cost = e.ops * unit.options.operator + e.cost
     return f"CONDITION(lambda: {e.code}, ({sets}), {cost})"
 
 
-def _builtin_call(scope: RoutineScope, routine: Routine, found: list[n.Argument | None]) -> E:
+def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) -> E:
     binding = routine.builtin
     assert binding is not None
     codes, parts = ["R"], []
@@ -172,20 +150,20 @@ def _builtin_call(scope: RoutineScope, routine: Routine, found: list[n.Argument 
         if argument is None:
             codes.append("None")
             continue
-        e = pass_argument(scope, parameter, argument, builtin=True)
+        e = pass_argument(unit, parameter, argument, builtin=True)
         parts.append(e)
-        if routine.name == "WaitUntil" and parameter.name == "Cond":
-            codes.append(_condition_code(scope, argument.value, e))
+        if parameter.name.lower() in routine.lazy:
+            codes.append(_condition_code(unit, argument.value, e))
         else:
             codes.append(e.code)
     cost = COSTS[binding.cost]
     if binding.cost != "call":
-        cost = int(cost * scope.options.builtin_scale)
+        cost = int(cost * unit.options.builtin_scale)
     kind = routine.type or NUM
     result = E(
         f"{routine.code}({', '.join(codes)})",
         kind,
-        cost=cost if binding.cost != "call" else scope.options.call,
+        cost=cost if binding.cost != "call" else unit.options.call,
         fresh=True,
         fails=True,
     ).take(*parts)

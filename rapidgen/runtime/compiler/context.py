@@ -4,16 +4,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
+from rapidgen.rapid.binding.names import RoutineScope
+from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.symbols import Data, Routine
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import BOOL, NUM, Type
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import LoadedModule, Program
-
-EXACT = 1 << 24
-"""IEEE single holds every whole number up to here."""
+    from rapidgen.runtime.compiler.linking import LoadedModule
+    from rapidgen.runtime.compiler.program import Program
 
 UNBOUNDED = 1 << 60
 """Upper end of the range of a whole number of which only the lower end is known."""
@@ -92,7 +92,7 @@ class Options:
     """A switch point at every access to a PERS."""
     tracing: bool = False
     """Report every statement (trace, profile, coverage)."""
-    dialect: Dialect = field(default_factory=Dialect)
+    dialect: Switches = field(default_factory=Switches)
 
 
 def same_type(a: Type, b: Type) -> bool:
@@ -100,11 +100,11 @@ def same_type(a: Type, b: Type) -> bool:
     return a is b or a.name == b.name
 
 
-Compile: TypeAlias = "Callable[[RoutineScope, n.Expression, Type | None, tuple[int, ...]], E]"
+Compile: TypeAlias = "Callable[[Unit, n.Expression, Type | None, tuple[int, ...]], E]"
 
 
 @dataclass(slots=True, eq=False)
-class RoutineScope:
+class Unit:
     """The routine that is being compiled, and what names in it stand for."""
 
     program: "Program"
@@ -114,9 +114,12 @@ class RoutineScope:
     options: Options
     compile: Compile
     """expressions.compile_expression: operands are compiled by way of it."""
+    names: RoutineScope
+    """What names stand for where the compiler is: in the routine, or in a FOR of it."""
     boxed: set[str]
     """Locals that are passed by reference, lower case."""
-    locals: dict[str, Data] = field(default_factory=dict)
+    locals: dict[Symbol, Data] = field(default_factory=dict)
+    """How parameters, data and loop variables are kept."""
     globals_written: set[str] = field(default_factory=set)
     temporaries: int = 0
 
@@ -127,12 +130,14 @@ class RoutineScope:
 
     def data(self, name: str) -> Data | None:
         """What a name stands for when it is a datum."""
-        key = name.lower()
-        return self.locals.get(key) or self.program.find_data(self.module, key)
+        symbol = self.names.find(name)
+        if symbol is None:
+            return None
+        return self.locals.get(symbol) or self.program.datum(symbol)
 
-    def known_routine(self, name: str) -> Routine | None:
-        """A routine by name, as seen from this routine's module."""
-        return self.program.find_routine(self.module, name.lower())
+    def routine_named(self, name: str) -> Routine | None:
+        """What a name stands for when it is a routine."""
+        return self.program.routine(self.names.find(name))
 
     def expression(
         self, node: n.Expression, want: Type | None = None, dims: tuple[int, ...] = ()

@@ -5,9 +5,9 @@ from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.compiled import Role
-from rapidgen.runtime.compiler.context import CALLS, SILENT, CannotCompile, E, RoutineScope
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.context import CALLS, SILENT, CannotCompile, E, Unit
 from rapidgen.runtime.compiler.writer import CodeLine, Writer
 from rapidgen.runtime.values import NUM
 
@@ -23,7 +23,7 @@ class PythonFunction:
 
     depth: int
     """Indentation of its own statements."""
-    handler: Role
+    handler: CodeRole
     """HANDLER or UNDO inside a handler, ROUTINE in the body."""
     guarded: bool
     """The routine has an ERROR clause, and this is not one of its handlers."""
@@ -46,13 +46,13 @@ Compile: TypeAlias = "Callable[[Emitter, n.Statement], None]"
 class Emitter:
     """Writes the statements of one routine."""
 
-    def __init__(self, scope: RoutineScope, compile: Compile, goto: set[str]) -> None:
+    def __init__(self, unit: Unit, compile: Compile, goto: set[str]) -> None:
         """`compile` is statements.compile_statement; `goto` are labels that a GOTO names."""
-        self.scope = scope
-        self.options = scope.options
-        self.w = Writer(scope.options.accounting)
-        self.function = PythonFunction(1, Role.ROUTINE, scope.node.error is not None)
-        self.roles: dict[str, Role] = {}
+        self.unit = unit
+        self.options = unit.options
+        self.w = Writer(unit.options.accounting)
+        self.function = PythonFunction(1, CodeRole.ROUTINE, unit.node.error is not None)
+        self.roles: dict[str, CodeRole] = {}
         self.resumed: set[int] = set()
         """Tokens of FORs that go on behind the value that their variable has."""
         self._compile = compile
@@ -65,9 +65,9 @@ class Emitter:
         w = self.w
         w.token = node.first
         if self.options.tracing and not isinstance(node, n.Label):
-            point = self.scope.program.trace_point(self.scope.routine, node)
+            point = self.unit.program.trace_point(self.unit.routine, node)
             w.close()
-            w.emit(f"R.b = b; TRACE(R, {point}); b = R.b")
+            w.emit(f"R.b = b; R.trace({point}); b = R.b")
         if self._too_deep(node):
             self._set_apart(node)
             return
@@ -201,7 +201,7 @@ class Emitter:
 
     def _state_machine(self, body: Sequence[n.Statement], labels: list[str]) -> None:
         w, function = self.w, self.function
-        state = self.scope.temporary()
+        state = self.unit.temporary()
         numbers = {label: i for i, label in enumerate(labels, start=1)}
         for label, number in numbers.items():
             function.label_states[label] = (state, number)
@@ -270,9 +270,9 @@ class Emitter:
 
     # -- functions inside ------------------------------------------------------------------------
 
-    def handler(self, name: str, body: Sequence[n.Statement], role: Role) -> list[CodeLine]:
+    def handler(self, name: str, body: Sequence[n.Statement], role: CodeRole) -> list[CodeLine]:
         """A handler as a nested function that shares the routine's variables."""
-        w, node = self.w, self.scope.node
+        w, node = self.w, self.unit.node
         w.token = body[0].first if body else node.name_token
         inner = PythonFunction(self.function.depth + 1, role, False, self.function)
         lines = self._written(inner, lambda: self.statements(body))
@@ -297,9 +297,9 @@ class Emitter:
         inner = PythonFunction(outer.depth + 1, outer.handler, outer.guarded, outer)
         lines = self._written(inner, lambda: self._compile(self, node))
         w.leave = leave
-        name = f"_a{self.scope.temporary()}"
+        name = f"_a{self.unit.temporary()}"
         w.token = node.first
-        outer.apart += self._defined(name, Role.PART, inner, lines, node.first)
+        outer.apart += self._defined(name, CodeRole.PART, inner, lines, node.first)
         w.depth = depth
         w.emit("R.b = b")
         w.emit(f"_k = {name}()")
@@ -319,7 +319,7 @@ class Emitter:
         return w.cut(mark)
 
     def _defined(
-        self, name: str, role: Role, inner: PythonFunction, body: list[CodeLine], last: int
+        self, name: str, role: CodeRole, inner: PythonFunction, body: list[CodeLine], last: int
     ) -> list[CodeLine]:
         """A function that returns 4 at its end, where the token is `last`."""
         w = self.w
@@ -327,9 +327,9 @@ class Emitter:
         self.roles[name] = role
         w.emit(f"def {name}():")
         w.depth += 1
-        if names := sorted(inner.stored & {d.code for d in self.scope.locals.values()}):
+        if names := sorted(inner.stored & {d.code for d in self.unit.locals.values()}):
             w.emit(f"nonlocal {', '.join(names)}")
-        if names := sorted(inner.stored & self.scope.globals_written):
+        if names := sorted(inner.stored & self.unit.globals_written):
             w.emit(f"global {', '.join(names)}")
         w.emit("b = R.b")
         if inner.uses_jump:

@@ -1,47 +1,48 @@
 """Expressions: typed Python source, with what it costs and touches."""
 
+from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CannotCompile, E, RoutineScope, failing
+from rapidgen.runtime.compiler.context import CannotCompile, E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
 from rapidgen.runtime.compiler.references import read
 from rapidgen.runtime.compiler.storing import by_value
-from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute, single
+from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
 
 
 def compile_expression(
-    scope: RoutineScope, node: n.Expression, want: Type | None, dims: tuple[int, ...]
+    unit: Unit, node: n.Expression, want: Type | None, dims: tuple[int, ...]
 ) -> E:
     """Compile any expression; a signal comes as the signal itself."""
     match node:
         case n.NumberLiteral():
-            return _number(scope, node, want)
+            return _number(unit, node, want)
         case n.StringLiteral():
             return E(repr(node.value), STRING, literal=True)
         case n.BoolLiteral():
             return E(repr(node.value), BOOL, literal=True)
         case n.Name():
-            return _name(scope, node, want)
+            return _name(unit, node, want)
         case n.Index():
-            return _index(scope, node)
+            return _index(unit, node)
         case n.Member():
-            return _member(scope, node)
+            return _member(unit, node)
         case n.FunctionCall():
-            return function_call(scope, node, want)
+            return function_call(unit, node, want)
         case n.Aggregate():
-            return _aggregate(scope, node, want, dims)
+            return _aggregate(unit, node, want, dims)
         case n.Unary():
-            return unary(scope, node, want)
+            return unary(unit, node, want)
         case n.Binary():
-            return binary(scope, node, want)
+            return binary(unit, node, want)
         case n.Parenthesis():
-            return compile_expression(scope, node.inner, want, dims)
+            return compile_expression(unit, node.inner, want, dims)
         case n.Placeholder():
             return failing("ERR_EXECPHR", kind=want or NUM, dims=dims)
     raise CannotCompile("an inlined position stands only for a target", node)
 
 
-def _number(scope: RoutineScope, node: n.NumberLiteral, want: Type | None) -> E:
+def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> E:
     value = node.value
     if want is not None and want.kind == "dnum":
         code = repr(value)
@@ -55,40 +56,38 @@ def _number(scope: RoutineScope, node: n.NumberLiteral, want: Type | None) -> E:
     return E(repr(value), NUM, literal=True, exact=True)
 
 
-def _name(scope: RoutineScope, node: n.Name, want: Type | None) -> E:
-    data = scope.data(node.name)
+def _name(unit: Unit, node: n.Name, want: Type | None) -> E:
+    data = unit.data(node.name)
     if data is None:
         return failing("ERR_REFUNKDAT", node.name, want or NUM)
-    return read(scope, data)
+    return read(unit, data)
 
 
-def _index(scope: RoutineScope, node: n.Index) -> E:
-    base = compile_expression(scope, node.base, None, ())
+def _index(unit: Unit, node: n.Index) -> E:
+    base = compile_expression(unit, node.base, None, ())
     if len(base.dims) != len(node.indices):
         raise CannotCompile("the number of indices is not the number of dimensions", node)
-    indices = [scope.value_of(i, NUM, (), "index") for i in node.indices]
+    indices = [unit.value_of(i, NUM, (), "index") for i in node.indices]
     code = base.code + "".join(f"[{i.code}]" for i in indices)
     e = E(code, base.type, ops=len(indices), fails=True, exact=True)
     return e.take(base, *indices)
 
 
-def _member(scope: RoutineScope, node: n.Member) -> E:
-    base = compile_expression(scope, node.base, None, ())
+def _member(unit: Unit, node: n.Member) -> E:
+    base = compile_expression(unit, node.base, None, ())
     kind = base.type.component(node.component.lower())
     if kind is None or base.dims:
         raise CannotCompile(f"{base.type.name} has no component {node.component}", node)
     return E(f"{base.code}.{attribute(node.component)}", kind, ops=1, exact=True).take(base)
 
 
-def _aggregate(
-    scope: RoutineScope, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]
-) -> E:
+def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int, ...]) -> E:
     if want is None:
         raise CannotCompile("an aggregate has no type here", node)
     if dims:
         if dims[0] not in (0, len(node.members)):
             raise CannotCompile(f"{len(node.members)} members for {dims[0]} elements", node)
-        parts = [scope.value_of(m, want, dims[1:], "member") for m in node.members]
+        parts = [unit.value_of(m, want, dims[1:], "member") for m in node.members]
         inside = ", ".join(f"{i}: {by_value(p, want)}" for i, p in enumerate(parts, start=1))
         return E(f"{{{inside}}}", want, (len(parts), *dims[1:]), fresh=True).take(*parts)
     if want.kind != "record" or want.make is None:
@@ -96,11 +95,11 @@ def _aggregate(
     if len(want.components) != len(node.members):
         raise CannotCompile(f"{want.name} has {len(want.components)} components", node)
     parts = [
-        scope.value_of(m, kind, (), "component")
+        unit.value_of(m, kind, (), "component")
         for m, (_, kind) in zip(node.members, want.components, strict=True)
     ]
     inside = ", ".join(
         by_value(p, kind) for p, (_, kind) in zip(parts, want.components, strict=True)
     )
-    cls = scope.program.record_code(want)
+    cls = unit.program.keep(want.make)
     return E(f"{cls}({inside})", want, fresh=True).take(*parts)

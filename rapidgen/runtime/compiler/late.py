@@ -1,7 +1,7 @@
 """`%name% arguments;` [K §4.5]: what is called is known when it is; arguments are thunks."""
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CannotCompile, E, RoutineScope, calling
+from rapidgen.runtime.compiler.context import CannotCompile, E, Unit, calling
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.references import DataPlace, place_of
 from rapidgen.runtime.compiler.storing import by_value
@@ -10,44 +10,45 @@ from rapidgen.runtime.values import NUM, STRING
 
 def late_call(emitter: Emitter, node: n.LateCall) -> None:
     """`%name% arguments;` [K §4.5]: arguments are thunks, by value and by reference."""
-    scope = emitter.scope
-    name = scope.value_of(node.procedure, STRING)
+    unit = emitter.unit
+    name = unit.value_of(node.procedure, STRING)
     parts, codes = [name], []
     for argument in node.arguments:
-        code, part = _argument(scope, argument)
+        code, part = _argument(unit, argument)
         codes.append(code)
         parts += part
-    module = scope.program.module_code(scope.module)
+    module = unit.program.keep(unit.module)
     inside = "".join(c + ", " for c in codes)
     code = f"R.late({name.code}, {module}, ({inside}))"
     emitter.simple(calling(code, NUM, *parts, cost=emitter.options.call))
 
 
-def _argument(scope: RoutineScope, argument: n.Argument) -> tuple[str, list[E]]:
+def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
     name = repr(argument.name.lower() if argument.name else None)
     if argument.kind == "switch":
         return f"LATE({name}, None, None)", []
     node = argument.value
     assert node is not None
     if argument.kind == "conditional" and isinstance(node, n.Name):
-        data = scope.locals.get(node.name.lower())
+        data = unit.data(node.name)
         if data is None or not data.optional:
             raise CannotCompile("a conditional argument names an optional parameter", argument)
         value = f"{data.code}.v" if data.storage in ("box", "ref") else data.code
         code = f"LATE({name}, lambda: {value}, lambda: {data.code})"
         return f"(None if {data.code} is None else {code})", []
-    place = place_of(scope, node)
+    last = ", required=True" if argument.name and argument.kind == "required" else ""
+    place = place_of(unit, node)
     if place is None:
-        e = scope.expression(node)
-        t = scope.program.type_code(e.type)
-        return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t})", [e]
-    t = scope.program.type_code(place.e.type)
+        e = unit.expression(node)
+        t = unit.program.keep(e.type)
+        return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t}{last})", [e]
+    t = unit.program.keep(place.e.type)
     read = by_value(place.e, place.e.type)
-    ref = _reference(scope, place)
-    return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code})", [place.e]
+    ref = _reference(unit, place)
+    return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code}{last})", [place.e]
 
 
-def _reference(scope: RoutineScope, place: DataPlace) -> str:
+def _reference(unit: Unit, place: DataPlace) -> str:
     """A lambda that makes a Ref to a place, or None for what cannot be one."""
     data, e = place.data, place.e
     if data.kind == "CONST" or data.readonly or e.type.kind in ("nonvalue", "semivalue"):
@@ -55,8 +56,8 @@ def _reference(scope: RoutineScope, place: DataPlace) -> str:
     if not place.holder and data.storage in ("box", "cell", "ref"):
         return f"lambda: {data.code}"
     if not place.holder and data.storage == "global":
-        return f"lambda: {scope.program.global_ref(data)}"
-    t, cell = scope.program.type_code(e.type), place.cell or "None"
+        return f"lambda: {unit.program.global_ref(data)}"
+    t, cell = unit.program.keep(e.type), place.cell or "None"
     if place.holder and place.atomic:
         maker = "MEMBER" if place.member else "ITEM"
         key = repr(place.key) if place.member else place.key

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CALLS, SILENT, E, RoutineScope
+from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.storing import rounded
 from rapidgen.runtime.compiler.symbols import Data
@@ -20,17 +20,19 @@ def if_statement(
     branches: Sequence[tuple[n.Expression, Sequence[n.Statement]]],
     otherwise: Sequence[n.Statement] | None,
 ) -> None:
-    conditions = [emitter.scope.condition(c) for c, _ in branches]
+    """IF: also the compact one."""
+    conditions = [emitter.unit.condition(c) for c, _ in branches]
     _select(emitter, [c.code for c in conditions], conditions, [b for _, b in branches], otherwise)
 
 
 def test_statement(emitter: Emitter, node: n.Test) -> None:
-    subject = emitter.scope.expression(node.subject)
-    name = emitter.scope.temporary()
+    """TEST: its subject is looked at once."""
+    subject = emitter.unit.expression(node.subject)
+    name = emitter.unit.temporary()
     codes, parts = [], []
     for case in node.cases:
         values = [
-            emitter.scope.value_of(v, subject.type, subject.dims, "CASE value") for v in case.values
+            emitter.unit.value_of(v, subject.type, subject.dims, "CASE value") for v in case.values
         ]
         codes.append(" or ".join(f"{name} == {v.code}" for v in values))
         part = E("", BOOL, ops=len(values)).take(*values)
@@ -63,7 +65,7 @@ def _select(
     later = [c.ops * emitter.options.operator + c.cost for c in conditions]
     chosen = ""
     if everything.effect == CALLS or (emitter.function.guarded and everything.fails):
-        chosen = emitter.scope.temporary()
+        chosen = emitter.unit.temporary()
         chain = " else ".join(f"{i} if {c}" for i, c in enumerate(codes, start=1))
         emitter.guard(everything, [f"{chosen} = {chain} else 0"], skip=f"{chosen} = -1")
     w.close()
@@ -89,8 +91,9 @@ def _branch(emitter: Emitter, body: Sequence[n.Statement], looked: int) -> None:
 
 
 def while_loop(emitter: Emitter, node: n.While) -> None:
+    """WHILE."""
     w = emitter.w
-    condition = emitter.scope.condition(node.condition)
+    condition = emitter.unit.condition(node.condition)
     if condition.effect == SILENT and not condition.fails:
         _silent_while(emitter, node, condition)
         return
@@ -101,7 +104,7 @@ def while_loop(emitter: Emitter, node: n.While) -> None:
         w.emit(f"while {condition.code}:")
         w.depth += 1
     else:
-        name = emitter.scope.temporary()
+        name = emitter.unit.temporary()
         w.close()
         w.emit("while True:")
         w.depth += 1
@@ -125,10 +128,11 @@ def _silent_while(emitter: Emitter, node: n.While, condition: E) -> None:
 
 
 def for_loop(emitter: Emitter, node: n.For) -> None:
+    """FOR: limits and step are worked out once [K §4.15]."""
     w = emitter.w
-    start = emitter.scope.value_of(node.start, NUM, (), "start")
-    end = emitter.scope.value_of(node.end, NUM, (), "end")
-    step = emitter.scope.value_of(node.step, NUM, (), "step") if node.step is not None else None
+    start = emitter.unit.value_of(node.start, NUM, (), "start")
+    end = emitter.unit.value_of(node.end, NUM, (), "end")
+    step = emitter.unit.value_of(node.step, NUM, (), "step") if node.step is not None else None
     parts = [start, end] + ([step] if step else [])
     total = E("", NUM).take(*parts)
     name = loop_variable(node)
@@ -140,7 +144,7 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
         codes = [rounded(p, NUM) for p in parts] + ([] if step else ["None"])
         code = f"STEPS({', '.join(codes)})"
     if total.effect == CALLS or (emitter.function.guarded and total.fails):
-        values = emitter.scope.temporary()
+        values = emitter.unit.temporary()
         emitter.pay(total)
         emitter.guard(total, [f"{values} = {code}"], skip=f"{values} = ()")
         code = values
@@ -153,7 +157,7 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
     w.emit(f"for {name} in {code}:")
     w.depth += 1
     whole = start.whole and (step is None or step.whole)
-    with loop_bound(emitter.scope, node, whole=whole, limits=limits):
+    with loop_bound(emitter.unit, node, whole=whole, limits=limits):
         w.token = node.first
         w.cost(emitter.options.statement)
         if emitter.options.accounting == "statement":
@@ -163,12 +167,12 @@ def for_loop(emitter: Emitter, node: n.For) -> None:
 
 @contextmanager
 def loop_bound(
-    scope: RoutineScope, node: n.For, *, whole: bool, limits: tuple[int, int] | None
+    unit: Unit, node: n.For, *, whole: bool, limits: tuple[int, int] | None
 ) -> Iterator[None]:
     """The variable of a FOR stands for a Python local, and hides what has its name."""
-    key = node.variable.lower()
-    hidden = scope.locals.get(key)
-    scope.locals[key] = Data(
+    outer, unit.names = unit.names, unit.names.loop(node)
+    variable = unit.names.names[node.variable.lower()]
+    unit.locals[variable] = Data(
         node.variable,
         "LOOP",
         NUM,
@@ -180,10 +184,8 @@ def loop_bound(
         readonly=True,
     )
     yield
-    if hidden is None:
-        del scope.locals[key]
-    else:
-        scope.locals[key] = hidden
+    del unit.locals[variable]
+    unit.names = outer
 
 
 def loop_variable(node: n.For) -> str:

@@ -4,12 +4,13 @@ Trees of large systems are not walked for it: only names that are no known routi
 the tokens, where a call stands are looked for in the tree.
 """
 
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS
+from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.analysis import walk
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.program import Program
 
 _BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
 _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})
@@ -64,19 +65,19 @@ def _diagnostic(
 ) -> Diagnostic:
     routine = program.find_routine(module, node.name.lower())
     if routine is not None:
-        return Diagnostic(
+        return error(
             "RG403",
-            Severity.WARNING,
-            f"{routine.name} is not available on the virtual controller",
             module.span(node),
+            f"{routine.name} is not available on the virtual controller",
             label="the task stops here",
             notes=(unsupported.reason(routine.name),),
+            severity=Severity.WARNING,
         )
-    return Diagnostic(
+    return error(
         "RG404",
-        Severity.WARNING,
-        f"{node.name} is not declared in any module of {program.task.name}",
         module.span(node),
+        f"{node.name} is not declared in any module of {program.name}",
+        "load the module that declares it",
         label="ERR_REFUNKPRC when it is reached",
-        help="load the module that declares it",
+        severity=Severity.WARNING,
     )

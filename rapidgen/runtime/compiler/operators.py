@@ -1,25 +1,20 @@
 """Operators: what they take, what they cost, how large their results may be [K §3.11]."""
 
+from rapidgen.rapid.numbers import EXACT
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import (
-    EXACT,
-    UNBOUNDED,
-    CannotCompile,
-    E,
-    RoutineScope,
-    same_type,
-)
+from rapidgen.runtime.compiler.context import UNBOUNDED, CannotCompile, E, Unit, same_type
 from rapidgen.runtime.values import BOOL, DNUM, STRING, TYPES, Type
 
 _COMPARE = {"=": "==", "<>": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
 POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
-def unary(scope: RoutineScope, node: n.Unary, want: Type | None) -> E:
+def unary(unit: Unit, node: n.Unary, want: Type | None) -> E:
+    """NOT, + and -."""
     if node.operator == "NOT":
-        inner = scope.value_of(node.operand, BOOL, (), "operand of NOT")
+        inner = unit.value_of(node.operand, BOOL, (), "operand of NOT")
         return E(f"(not {inner.code})", BOOL, ops=1).take(inner)
-    inner = scope.expression(node.operand, want)
+    inner = unit.expression(node.operand, want)
     if inner.type.kind in ("num", "dnum"):
         if node.operator == "+":
             return inner
@@ -42,21 +37,22 @@ def unary(scope: RoutineScope, node: n.Unary, want: Type | None) -> E:
     raise CannotCompile(f"{node.operator} takes num, dnum or pos, not {inner.type.name}", node)
 
 
-def binary(scope: RoutineScope, node: n.Binary, want: Type | None) -> E:
+def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
+    """Compile an operator between two operands; `want` types literals."""
     operator = node.operator
     if operator in ("AND", "OR", "XOR"):
-        left = scope.value_of(node.left, BOOL, (), f"left operand of {operator}")
-        right = scope.value_of(node.right, BOOL, (), f"right operand of {operator}")
+        left = unit.value_of(node.left, BOOL, (), f"left operand of {operator}")
+        right = unit.value_of(node.right, BOOL, (), f"right operand of {operator}")
         word = {"AND": "and", "OR": "or", "XOR": "is not"}[operator]
         return E(f"({left.code} {word} {right.code})", BOOL, ops=1).take(left, right)
     if operator in _COMPARE:
-        return _comparison(scope, node)
-    left, right = _operands(scope, node, want)
+        return _comparison(unit, node)
+    left, right = _operands(unit, node, want)
     a, b = left.type, right.type
     if left.dims or right.dims:
         raise CannotCompile(f"{operator} does not take arrays", node)
     if a.kind == b.kind and a.kind in ("num", "dnum"):
-        return _arithmetic(scope, node, left, right)
+        return _arithmetic(unit, node, left, right)
     if a.kind == b.kind == "string" and operator == "+":
         return E(f"CAT({left.code}, {right.code})", STRING, ops=1, fails=True).take(left, right)
     function = {
@@ -75,39 +71,36 @@ def binary(scope: RoutineScope, node: n.Binary, want: Type | None) -> E:
     return E(code, kind, ops=1, fails=True, fresh=True).take(left, right)
 
 
-def _operands(scope: RoutineScope, node: n.Binary, want: Type | None) -> tuple[E, E]:
+def _operands(unit: Unit, node: n.Binary, want: Type | None) -> tuple[E, E]:
     """Both operands; a literal takes the type of the other one."""
     wanted = want if want is not None and want.kind in ("num", "dnum") else None
     if isinstance(node.left, n.Aggregate):
-        right = scope.expression(node.right, wanted)
-        return scope.expression(node.left, right.type), right
+        right = unit.expression(node.right, wanted)
+        return unit.expression(node.left, right.type), right
     if isinstance(node.right, n.Aggregate):
-        left = scope.expression(node.left, wanted)
-        return left, scope.expression(node.right, left.type)
-    left = scope.expression(node.left, wanted)
-    right = scope.expression(node.right, wanted)
-    if left.type.kind != right.type.kind and {left.type.kind, right.type.kind} == {
-        "num",
-        "dnum",
-    }:
+        left = unit.expression(node.left, wanted)
+        return left, unit.expression(node.right, left.type)
+    left = unit.expression(node.left, wanted)
+    right = unit.expression(node.right, wanted)
+    if left.type.kind != right.type.kind and {left.type.kind, right.type.kind} == {"num", "dnum"}:
         # A literal, or an operator on literals, adapts to its partner.
-        left = scope.expression(node.left, right.type if right.type.kind == "dnum" else DNUM)
-        right = scope.expression(node.right, left.type if left.type.kind == "dnum" else DNUM)
+        left = unit.expression(node.left, right.type if right.type.kind == "dnum" else DNUM)
+        right = unit.expression(node.right, left.type if left.type.kind == "dnum" else DNUM)
         if left.type.kind != right.type.kind:
             raise CannotCompile("num and dnum do not mix: use NumToDnum or DnumToNum", node)
     return left, right
 
 
-def _comparison(scope: RoutineScope, node: n.Binary) -> E:
+def _comparison(unit: Unit, node: n.Binary) -> E:
     word = _COMPARE[node.operator]
     if isinstance(node.left, n.Aggregate):
-        right = scope.expression(node.right)
-        left = scope.expression(node.left, right.type, right.dims)
+        right = unit.expression(node.right)
+        left = unit.expression(node.left, right.type, right.dims)
     else:
-        left = scope.expression(node.left)
-        right = scope.expression(node.right, left.type, left.dims)
+        left = unit.expression(node.left)
+        right = unit.expression(node.right, left.type, left.dims)
         if left.type.kind == "num" and right.type.kind == "dnum":
-            left = scope.expression(node.left, DNUM)
+            left = unit.expression(node.left, DNUM)
     if not same_type(left.type, right.type) or len(left.dims) != len(right.dims):
         raise CannotCompile(
             f"{node.operator} compares {left.type.name} with {right.type.name}", node
@@ -119,11 +112,11 @@ def _comparison(scope: RoutineScope, node: n.Binary) -> E:
     return E(f"({left.code} {word} {right.code})", BOOL, ops=1).take(left, right)
 
 
-def _arithmetic(scope: RoutineScope, node: n.Binary, left: E, right: E) -> E:
+def _arithmetic(unit: Unit, node: n.Binary, left: E, right: E) -> E:
     operator, kind = node.operator, left.type
-    dialect = scope.options.dialect
+    dialect = unit.options.dialect
     if operator in ("DIV", "MOD"):
-        e = E(_integer(scope, operator, left, right), kind, ops=1, fails=True, whole=True)
+        e = E(_integer(unit, operator, left, right), kind, ops=1, fails=True, whole=True)
         if operator == "MOD" and right.range is not None:
             e.range = (-right.range[1], right.range[1])
         elif left.range is not None:
@@ -148,9 +141,9 @@ def _arithmetic(scope: RoutineScope, node: n.Binary, left: E, right: E) -> E:
     return e
 
 
-def _integer(scope: RoutineScope, operator: str, left: E, right: E) -> str:
+def _integer(unit: Unit, operator: str, left: E, right: E) -> str:
     """DIV or MOD; a whole left and a positive literal right side need no call."""
-    dialect = scope.options.dialect
+    dialect = unit.options.dialect
     plain = dialect.integer_division == "truncate" and dialect.negative_mod == "allow"
     if plain and left.whole and right.range is not None and right.range[0] > 0 and right.whole:
         python = "//" if operator == "DIV" else "%"

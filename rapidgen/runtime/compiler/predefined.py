@@ -3,25 +3,10 @@
 from functools import cache
 
 from rapidgen.rapid.builtins import signatures
-from rapidgen.runtime.compiler.symbols import Data, Parameter, Routine
+from rapidgen.runtime.compiler.evaluate import build
+from rapidgen.runtime.compiler.symbols import Data, Routine, formal
 from rapidgen.runtime.registry import bound
-from rapidgen.runtime.values import TYPES, Type, Value, make_record, register_type, single
-
-COMPILED = frozenset(
-    {
-        "present",
-        "dim",
-        "abs",
-        "strlen",
-        "strpart",
-        "strfind",
-        "strmatch",
-        "ispers",
-        "isvar",
-        "argname",
-    }
-)
-"""Built-ins that the compiler turns into code: see inline.py."""
+from rapidgen.runtime.values import TYPES, Type, Value, make_record, register_type
 
 
 class Opaque:
@@ -65,29 +50,27 @@ def _needed(name: str) -> Type:
     return found
 
 
-def build(kind: Type, value: Value) -> Value:
-    """A value of the signature data (nested tuples) as a RAPID value."""
-    if value is None:
-        return kind.default()
-    if isinstance(value, tuple):
-        assert kind.make is not None
-        return kind.make(*[build(t, v) for (_, t), v in zip(kind.components, value, strict=True)])
-    if kind.kind == "num":
-        return single(value)
-    return value
-
-
 @cache
-def constant(name: str) -> Data | None:
-    """A predefined constant that stands in the code, by lower-case name."""
-    datum = signatures.constant(name)
-    if datum is None or datum.kind != "CONST":
+def datum(key: str) -> Data | None:
+    """How a predefined datum is kept, by lower-case name: an atomic constant in the code."""
+    found = signatures.constant(key)
+    if found is None:
         return None
-    kind = _needed(datum.type)
-    value = build(kind, datum.value)
-    if kind.kind == "record":
-        return None
-    return Data(datum.name, "CONST", kind, (), "inline", "", value=value, readonly=True)
+    kind = _needed(found.type)
+    if found.kind == "PERS":
+        return Data(found.name, "PERS", kind, (), "cell", f"p_{key}")
+    readonly = found.kind == "CONST"
+    if readonly and kind.kind != "record":
+        return Data(
+            found.name, "CONST", kind, (), "inline", "", value=value(key), readonly=readonly
+        )
+    return Data(found.name, found.kind, kind, (), "global", f"p_{key}", readonly=readonly)
+
+
+def value(key: str) -> Value:
+    """The value that a predefined datum has at first."""
+    found = signatures.predefined()[key]
+    return build(_needed(found.type), found.value)
 
 
 @cache
@@ -97,16 +80,7 @@ def routine(name: str) -> Routine | None:
     if signature is None:
         return None
     parameters = tuple(
-        Parameter(
-            p.name,
-            p.mode,
-            None if p.type.lower() in ("anytype", "switch") else _needed(p.type),
-            p.type,
-            p.dimensions,
-            p.optional,
-            p.group,
-            p.type.lower() == "switch",
-        )
+        formal(p, None if p.type.lower() in ("anytype", "switch") else _needed(p.type))
         for p in signature.parameters
     )
     binding = bound(name)
@@ -117,6 +91,6 @@ def routine(name: str) -> Routine | None:
         parameters,
         f"B_{name}",
         builtin=binding,
-        missing=binding is None and name not in COMPILED,
-        type_name=signature.type or "",
+        missing=binding is None and name not in signatures.marked("inline"),
+        lazy=signature.marks.get("lazy", ()),
     )

@@ -3,16 +3,9 @@
 from dataclasses import dataclass
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import (
-    CALLS,
-    SHARED,
-    CannotCompile,
-    E,
-    RoutineScope,
-    same_type,
-)
+from rapidgen.runtime.compiler.context import CALLS, SHARED, CannotCompile, E, Unit, same_type
 from rapidgen.runtime.compiler.storing import by_value
-from rapidgen.runtime.compiler.symbols import Data, Parameter
+from rapidgen.runtime.compiler.symbols import Data, FormalParameter
 from rapidgen.runtime.values import NUM, attribute
 
 
@@ -39,7 +32,7 @@ class DataPlace:
         return not self.e.dims and self.e.type.kind in ("num", "dnum", "bool", "string")
 
 
-def read(scope: RoutineScope, data: Data) -> E:
+def read(unit: Unit, data: Data) -> E:
     """Read a whole datum."""
     code, effect, fails = _kept(data)
     kind, dims = data.type, data.dims
@@ -47,26 +40,15 @@ def read(scope: RoutineScope, data: Data) -> E:
         value = data.value
         whole = isinstance(value, int) and not isinstance(value, bool)
         return E(
-            repr(value),
-            kind,
-            whole=whole,
-            exact=True,
-            range=(value, value) if whole else None,
+            repr(value), kind, whole=whole, exact=True, range=(value, value) if whole else None
         )
     if data.storage in ("box", "ref", "cell"):
         code = f"{code}.v"
-    if data.storage == "cell" and scope.options.switching:
+    if data.storage == "cell" and unit.options.switching:
         code = f"R.touch({data.code}.v)"
         effect = CALLS
     return E(
-        code,
-        kind,
-        dims,
-        effect=effect,
-        fails=fails,
-        exact=True,
-        whole=data.whole,
-        range=data.range,
+        code, kind, dims, effect=effect, fails=fails, exact=True, whole=data.whole, range=data.range
     )
 
 
@@ -80,21 +62,21 @@ def _kept(data: Data) -> tuple[str, int, bool]:
     return data.code, effect, False
 
 
-def place_of(scope: RoutineScope, node: n.Expression) -> DataPlace | None:
+def place_of(unit: Unit, node: n.Expression) -> DataPlace | None:
     """The data reference that `node` is; None for any other expression."""
     match node:
         case n.Parenthesis():
             return None
         case n.Name():
-            data = scope.data(node.name)
+            data = unit.data(node.name)
             if data is None or data.storage == "inline":
                 return None
-            return DataPlace(data, read(scope, data), "", "", False, _cell(data))
+            return DataPlace(data, read(unit, data), "", "", False, _cell(data))
         case n.Index():
-            base = place_of(scope, node.base)
+            base = place_of(unit, node.base)
             if base is None or len(base.e.dims) != len(node.indices):
                 return None
-            indices = [scope.value_of(i, NUM, (), "index") for i in node.indices]
+            indices = [unit.value_of(i, NUM, (), "index") for i in node.indices]
             holder = base.e.code + "".join(f"[{i.code}]" for i in indices[:-1])
             key = indices[-1].code
             e = E(f"{holder}[{key}]", base.e.type, ops=len(indices), fails=True, exact=True)
@@ -102,7 +84,7 @@ def place_of(scope: RoutineScope, node: n.Expression) -> DataPlace | None:
             limits = indices[-1].range if indices[-1].whole else None
             return DataPlace(base.data, e, holder, key, False, base.cell, limits)
         case n.Member():
-            base = place_of(scope, node.base)
+            base = place_of(unit, node.base)
             kind = base.e.type.component(node.component.lower()) if base else None
             if base is None or kind is None or base.e.dims:
                 return None
@@ -120,13 +102,13 @@ def _cell(data: Data) -> str:
     return ""
 
 
-def reference(scope: RoutineScope, node: n.Expression, parameter: Parameter, *, builtin: bool) -> E:
+def reference(unit: Unit, node: n.Expression, parameter: FormalParameter, *, builtin: bool) -> E:
     """Pass `node` to a VAR, PERS, INOUT or REF parameter."""
-    place = place_of(scope, node)
+    place = place_of(unit, node)
     mode = parameter.mode
     if place is None:
         if mode in ("REF", ""):
-            return _boxed(scope, node, parameter)
+            return _boxed(unit, node, parameter)
         if isinstance(node, n.Name):
             raise CannotCompile(f"{node.name} is not declared ({parameter.type_name})", node)
         raise CannotCompile(f"parameter {parameter.name} takes a datum, not an expression", node)
@@ -139,7 +121,7 @@ def reference(scope: RoutineScope, node: n.Expression, parameter: Parameter, *, 
         if len(place.e.dims) != parameter.dims:
             raise CannotCompile(f"parameter {parameter.name} has {parameter.dims} dimensions", node)
     _check_mode(data, mode, node)
-    code = _reference_code(scope, place, parameter, builtin=builtin)
+    code = _reference_code(unit, place, parameter, builtin=builtin)
     result = E(code, kind, place.e.dims, effect=place.e.effect, fails=place.e.fails)
     result.ops = place.e.ops
     return result
@@ -159,7 +141,7 @@ def _check_mode(data: Data, mode: n.Mode, node: n.Expression) -> None:
 
 
 def _reference_code(
-    scope: RoutineScope, place: DataPlace, parameter: Parameter, *, builtin: bool
+    unit: Unit, place: DataPlace, parameter: FormalParameter, *, builtin: bool
 ) -> str:
     data, e, kind = place.data, place.e, place.e.type
     if kind.kind in ("nonvalue", "semivalue") and not e.dims:
@@ -167,7 +149,7 @@ def _reference_code(
     as_object = not builtin and parameter.mode == "VAR" and not place.atomic
     if as_object:
         return e.code
-    t, cell = scope.program.type_code(kind), place.cell or "None"
+    t, cell = unit.program.keep(kind), place.cell or "None"
     if place.holder:
         if not place.atomic:
             return f"PART({e.code}, {t}, {data.name!r}, {cell})"
@@ -184,14 +166,14 @@ def _reference_code(
             return f"ASPERS({code})"
         return code
     if data.storage == "global" and not data.readonly:
-        return scope.program.global_ref(data)
+        return unit.program.global_ref(data)
     return f"BOX({e.code}, {t}, {e.dims!r}, {data.name!r})"
 
 
-def _boxed(scope: RoutineScope, node: n.Expression, parameter: Parameter) -> E:
+def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> E:
     """A value for a REF or anytype parameter that is no datum."""
-    e = scope.expression(node, parameter.type)
-    t = scope.program.type_code(e.type)
+    e = unit.expression(node, parameter.type)
+    t = unit.program.keep(e.type)
     name = node.name if isinstance(node, n.Name) else ""
     code = f"BOX({by_value(e, e.type)}, {t}, {e.dims!r}, {name!r})"
     return E(code, e.type, e.dims).take(e)

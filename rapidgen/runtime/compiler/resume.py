@@ -84,7 +84,7 @@ class _Rest:
     ) -> None:
         if compiler.facts.goto:
             raise CannotCompile(
-                "a routine with GOTO cannot go on in the middle", compiler.scope.node
+                "a routine with GOTO cannot go on in the middle", compiler.unit.node
             )
         self._emitter = compiler.emitter
         self._standing = standing
@@ -101,7 +101,7 @@ class _Rest:
         mark = len(emitter.w.lines)
         declare()
         emitter.w.cut(mark)
-        for name in sorted({d.code for d in emitter.scope.locals.values()} & values.keys()):
+        for name in sorted({d.code for d in emitter.unit.locals.values()} & values.keys()):
             emitter.w.emit(f"{name} = F[{name!r}]")
 
     def _rest(self, path: Path) -> None:
@@ -135,7 +135,7 @@ class _Rest:
         if name not in self._standing.values:
             raise CannotCompile("a FOR whose variable is lost cannot go on", node)
         emitter.w.emit(f"{name} = F[{name!r}]")
-        with loop_bound(emitter.scope, node, whole=False, limits=None):
+        with loop_bound(emitter.unit, node, whole=False, limits=None):
             self._rest(deeper)
         if not self._alone:
             emitter.w.close()

@@ -6,11 +6,10 @@ from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts
-from rapidgen.runtime.compiler.compiled import HANDLER, LISTED, UNDO, Compiled, Role
-from rapidgen.runtime.compiler.context import CannotCompile, Options, RoutineScope
+from rapidgen.runtime.compiler.compiled import HANDLER, LISTED, UNDO, CodeRole, Compiled
+from rapidgen.runtime.compiler.context import CannotCompile, Options, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.expressions import compile_expression
-from rapidgen.runtime.compiler.inline import NEVER_BOXES
 from rapidgen.runtime.compiler.statements import compile_statement
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.compiler.variables import declare, header
@@ -18,7 +17,8 @@ from rapidgen.runtime.compiler.writer import CodeLine
 from rapidgen.runtime.values import NUM
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import LoadedModule, Program
+    from rapidgen.runtime.compiler.linking import LoadedModule
+    from rapidgen.runtime.compiler.program import Program
 
 
 class RoutineCompiler:
@@ -41,24 +41,24 @@ class RoutineCompiler:
         assert node is not None
         self.entry = entry
         self.file = file
-        self.scope = RoutineScope(
-            program, module, routine, node, options, compile_expression, set()
-        )
-        self.facts = Facts(node, self.scope.known_routine, NEVER_BOXES)
-        self.scope.boxed = self.facts.by_reference
-        self.emitter = Emitter(self.scope, compile_statement, self.facts.goto)
-        self.parameters = header(self.scope)
-        self.variables: Callable[[], None] = lambda: declare(self.scope, self.emitter.w, self.facts)
+        names = module.scope.routine(node)
+        self.facts = Facts(node, lambda name: program.routine(names.find(name)))
+        boxed = self.facts.by_reference
+        self.unit = Unit(program, module, routine, node, options, compile_expression, names, boxed)
+        self.emitter = Emitter(self.unit, compile_statement, self.facts.goto)
+        self.parameters = header(self.unit)
+        self.variables: Callable[[], None] = lambda: declare(self.unit, self.emitter.w, self.facts)
         self.body: Callable[[], None] = lambda: self.emitter.statements(node.body)
 
     def compile(self) -> tuple[CodeType, Compiled]:
         """Code of a module that defines the function. CannotCompile."""
-        scope, emitter, w = self.scope, self.emitter, self.emitter.w
-        node = scope.node
+        unit, emitter, w = self.unit, self.emitter, self.emitter.w
+        node = unit.node
         w.token = node.name_token
         w.emit(f"def {self.entry}({self.parameters}):")
         w.depth = 1
-        written = w.reserve()
+        w.emit("")
+        written = w.lines[-1]
         w.emit("b = R.b")
         self.variables()
         top = w.cut(0)
@@ -79,10 +79,10 @@ class RoutineCompiler:
             self._append(body, 0)
         w.token = node.last
         w.emit("R.b = b")
-        if scope.routine.kind == "FUNC":
+        if unit.routine.kind == "FUNC":
             w.emit("FAIL('ERR_FNCNORET')")
-        if scope.globals_written:
-            written.text = f"global {', '.join(sorted(scope.globals_written))}"
+        if unit.globals_written:
+            written.text = f"global {', '.join(sorted(unit.globals_written))}"
         text, tokens, refunds, synced = w.render()
         try:
             code = compile(text, self.file, "exec", dont_inherit=True)
@@ -91,13 +91,11 @@ class RoutineCompiler:
             raise CannotCompile(
                 f"statements are nested too deeply ({error.args[0]})", node
             ) from error
-        compiled = Compiled(
-            scope.routine, scope.module, text, tokens, refunds, synced, emitter.roles
-        )
+        compiled = Compiled(unit.routine, unit.module, text, tokens, refunds, synced, emitter.roles)
         return code, compiled
 
     def _statements(self) -> list[CodeLine]:
-        w, error = self.emitter.w, self.scope.node.error
+        w, error = self.emitter.w, self.unit.node.error
         w.leave = "return R.ret" if error is not None and error.numbers is not None else ""
         self.body()
         w.close()
@@ -118,7 +116,7 @@ class RoutineCompiler:
         """Functions of ERROR and UNDO; one that is made once goes before `top`."""
         lines: list[CodeLine] = []
         if node.error is not None:
-            handler = self.emitter.handler(HANDLER, node.error.body, Role.HANDLER)
+            handler = self.emitter.handler(HANDLER, node.error.body, CodeRole.HANDLER)
             if any("v_" in line.text for line in handler):
                 lines += handler
             else:  # it uses none of the routine's variables: made once, not at each call
@@ -129,7 +127,7 @@ class RoutineCompiler:
                 lines.append(CodeLine(1, f"{HANDLER} = {apart}", node.error.first))
             lines += self._recovery_list(node.error)
         if node.undo is not None:
-            lines += self.emitter.handler(UNDO, node.undo.body, Role.UNDO)
+            lines += self.emitter.handler(UNDO, node.undo.body, CodeRole.UNDO)
         return lines
 
     def _recovery_list(self, handler: n.ErrorHandler) -> list[CodeLine]:
@@ -139,7 +137,7 @@ class RoutineCompiler:
         if handler.numbers is None:
             w.emit(f"{LISTED} = None")
         else:
-            codes = "".join(f"{self.scope.value_of(x, NUM).code}, " for x in handler.numbers)
+            codes = "".join(f"{self.unit.value_of(x, NUM).code}, " for x in handler.numbers)
             w.emit(f"def {LISTED}(): return ({codes})")
         return w.cut(0)
 

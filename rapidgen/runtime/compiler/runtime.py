@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.numbers import EXACT, MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import (
-    STRING_LIMIT,
     Box,
     Orient,
     PersistentCell,
@@ -18,10 +18,7 @@ from rapidgen.runtime.values import (
     Value,
     assign_array,
     copy_value,
-    single,
 )
-
-_LARGEST_EXACT = 1 << 24
 
 
 def fail(error: str, name: str = "") -> NoReturn:
@@ -77,7 +74,7 @@ def mod_strict(left: float, right: float) -> int:
 def concat(left: str, right: str) -> str:
     """`+` on strings: at most 80 characters [S4 overview 4-28]."""
     joined = left + right
-    if len(joined) > STRING_LIMIT:
+    if len(joined) > MAX_STRING:
         raise RapidError("ERR_STRTOOLNG")
     return joined
 
@@ -105,9 +102,7 @@ def pos_scale(a: Value, k: float) -> Value:
 def pos_cross(a: Value, b: Value) -> Value:
     """pos * pos, the cross product [S4 overview 4-26]."""
     return Pos(
-        single(a.y * b.z - a.z * b.y),
-        single(a.z * b.x - a.x * b.z),
-        single(a.x * b.y - a.y * b.x),
+        single(a.y * b.z - a.z * b.y), single(a.z * b.x - a.x * b.z), single(a.x * b.y - a.y * b.x)
     )
 
 
@@ -142,7 +137,7 @@ def part_of(text: str, position: float, length: float) -> str:
 
 
 def _search_at(text: str, position: float) -> int:
-    """The same for a search, which may begin right behind the text (`Dialect.find_behind`)."""
+    """The same for a search, which may begin right behind the text (`Switches.find_behind`)."""
     return len(text) if position == len(text) + 1 else _at(text, position)
 
 
@@ -167,7 +162,7 @@ def find_set(text: str, position: float, characters: str) -> int:
 
 
 def _as_int(value: float) -> float:
-    if value.__class__ is float and abs(value) <= _LARGEST_EXACT and value == int(value):
+    if value.__class__ is float and abs(value) <= EXACT and value == int(value):
         return int(value)
     return value
 
@@ -353,6 +348,15 @@ class LateArgument:
     type: Type | None = None
     itself: Callable[[], Value] | None = None
     """The object itself, for VAR parameters of record, array and non-value types."""
+    required: bool = False
+    """Named without a backslash."""
+
+    @property
+    def kind(self) -> str:
+        """As of an argument of a call that is known."""
+        if self.name is None or self.required:
+            return "required"
+        return "switch" if self.read is None else "optional"
 
 
 @dataclass(slots=True)

@@ -1,8 +1,9 @@
 """Statements: which part writes which; procedure calls, and what leaves a routine."""
 
+from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.calls import call
-from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.context import CALLS, CannotCompile, E, calling, failing
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.late import late_call
@@ -54,28 +55,27 @@ def compile_statement(emitter: Emitter, node: n.Statement) -> None:
 
 
 def _procedure(emitter: Emitter, node: n.ProcedureCall) -> None:
-    routine = emitter.scope.known_routine(node.name)
+    routine = emitter.unit.routine_named(node.name)
     key = node.name.lower()
     if routine is None or routine.kind != "PROC":
-        emitter.scope.program.said_missing(node.name)
         emitter.simple(failing("ERR_REFUNKPRC", node.name))
         return
-    if routine.node is None and key in ("incr", "decr", "add", "clear"):
+    if routine.node is None and key in marked("steps"):
         step(emitter, key, node)
         return
-    e = call(emitter.scope, routine, node)
+    e = call(emitter.unit, routine, node)
     emitter.simple(e)
 
 
 def _return(emitter: Emitter, node: n.Return) -> None:
     w = emitter.w
-    kind = emitter.scope.routine.type
-    if emitter.function.handler is Role.UNDO:
+    kind = emitter.unit.routine.type
+    if emitter.function.handler is CodeRole.UNDO:
         raise CannotCompile("RETURN may not stand in UNDO", node)
     if kind is not None:
         if node.value is None:
             raise CannotCompile("RETURN of a function needs a value", node)
-        e = emitter.scope.value_of(node.value, kind)
+        e = emitter.unit.value_of(node.value, kind)
         apart = emitter.function.outer is not None
         target = "R.ret" if apart else "_r"
         lines = [f"{target} = {by_value(e, kind)}"]
@@ -104,27 +104,27 @@ def _return(emitter: Emitter, node: n.Return) -> None:
 def _raise(emitter: Emitter, node: n.Raise) -> None:
     w = emitter.w
     if node.number is None:
-        if emitter.function.handler is not Role.HANDLER:
+        if emitter.function.handler is not CodeRole.HANDLER:
             raise CannotCompile("RAISE without a number stands only in an error handler", node)
         emitter.pay(E("", NUM))
         w.emit("R.b = b")
         w.emit("return 3")
         w.close()
         return
-    if emitter.function.handler is Role.HANDLER:
-        number = emitter.scope.value_of(node.number, NUM)
+    if emitter.function.handler is CodeRole.HANDLER:
+        number = emitter.unit.value_of(node.number, NUM)
         emitter.simple(calling(f"R.instead({number.code})", NUM, number))
         w.emit("return 3")
         w.close()
         return
     if emitter.function.handler.is_handler:
         raise CannotCompile("RAISE with a number may not stand in a handler", node)
-    number = emitter.scope.value_of(node.number, NUM)
+    number = emitter.unit.value_of(node.number, NUM)
     emitter.simple(calling(f"R.throw({number.code})", NUM, number))
 
 
 def _recover(emitter: Emitter, node: n.Retry | n.TryNext) -> None:
-    if emitter.function.handler is not Role.HANDLER:
+    if emitter.function.handler is not CodeRole.HANDLER:
         raise CannotCompile("RETRY and TRYNEXT stand only in an error handler", node)
     emitter.pay(E("", NUM))
     emitter.w.emit("R.b = b")

@@ -7,7 +7,7 @@ from rapidgen.runtime.compiler.context import (
     SILENT,
     CannotCompile,
     E,
-    RoutineScope,
+    Unit,
     calling,
     failing,
 )
@@ -18,13 +18,13 @@ from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.values import NUM, Type
 
 
-def _target(scope: RoutineScope, node: n.Expression) -> DataPlace:
+def _target(unit: Unit, node: n.Expression) -> DataPlace:
     """A datum that may be assigned."""
     if isinstance(node, n.Placeholder):
         raise CannotCompile("a placeholder is no datum", node)
-    place = place_of(scope, node)
+    place = place_of(unit, node)
     if place is None:
-        if isinstance(node, n.Name) and scope.data(node.name) is None:
+        if isinstance(node, n.Name) and unit.data(node.name) is None:
             raise CannotCompile(f"{node.name} is not declared", node)
         raise CannotCompile("only variables, persistents and parameters can be assigned", node)
     if place.data.kind == "CONST" or place.data.readonly:
@@ -37,10 +37,10 @@ def assignment(emitter: Emitter, node: n.Assignment) -> None:
     if isinstance(node.target, n.Placeholder):
         emitter.simple(failing("ERR_EXECPHR"))
         return
-    place = _target(emitter.scope, node.target)
+    place = _target(emitter.unit, node.target)
     if not place.e.type.is_value:
         raise CannotCompile(f"{place.e.type.name} cannot be assigned", node)
-    value = emitter.scope.value_of(node.value, place.e.type, place.e.dims)
+    value = emitter.unit.value_of(node.value, place.e.type, place.e.dims)
     _store(emitter, place, value)
 
 
@@ -85,7 +85,7 @@ def _wake(emitter: Emitter, place: DataPlace) -> None:
 def _store_lines(emitter: Emitter, place: DataPlace, value: E) -> list[str]:
     data, kind = place.data, place.e.type
     if data.storage == "global":
-        emitter.scope.globals_written.add(data.code)
+        emitter.unit.globals_written.add(data.code)
     if place.e.dims:
         return _array_lines(emitter, place, value)
     if kind.kind == "record":
@@ -143,7 +143,7 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
     arguments = [a.value for a in node.arguments if a.value is not None]
     if not arguments:
         raise CannotCompile(f"{node.name} takes an argument", node)
-    place = _target(emitter.scope, arguments[0])
+    place = _target(emitter.unit, arguments[0])
     kind = place.e.type
     if kind.kind not in ("num", "dnum") or place.e.dims:
         raise CannotCompile(f"{node.name} takes num or dnum, not {kind.name}", node)
@@ -151,7 +151,7 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
         value = E("0", kind, whole=True, exact=True, range=(0, 0))
     else:
         by = (
-            emitter.scope.value_of(arguments[1], kind)
+            emitter.unit.value_of(arguments[1], kind)
             if key == "add" and len(arguments) > 1
             else E("1", kind, whole=True, exact=True, range=(1, 1), literal=True)
         )
@@ -169,18 +169,18 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
 
 def connect(emitter: Emitter, node: n.Connect) -> None:
     """CONNECT: the interrupt's number is stored in its variable."""
-    place = _target(emitter.scope, node.target)
-    trap = emitter.scope.known_routine(node.trap)
+    place = _target(emitter.unit, node.target)
+    trap = emitter.unit.routine_named(node.trap)
     if trap is None or trap.kind != "TRAP":
         emitter.simple(failing("ERR_REFUNKTRP", node.trap))
         return
     if place.e.type.kind != "num" or place.e.dims:
         raise CannotCompile("CONNECT takes an intnum", node)
-    code = f"R.connect({place.e.code}, {emitter.scope.program.trap_code(trap)})"
+    code = f"R.connect({place.e.code}, {emitter.unit.program.keep(trap)})"
     e = calling(code, NUM, place.e)
     lines = _through("_x", place.e.code, e, NUM)
     if place.data.storage == "global":
-        emitter.scope.globals_written.add(place.data.code)
+        emitter.unit.globals_written.add(place.data.code)
     if place.data.storage == "local" and not place.holder:
         emitter.function.stored.add(place.data.code)
     emitter.simple(e, *lines)

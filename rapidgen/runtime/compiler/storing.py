@@ -4,7 +4,8 @@ Rounding splits at 24 bits (Veltkamp), which is exact inside the normal range; w
 tested, and NaN takes the slow way, too.
 """
 
-from rapidgen.runtime.compiler.context import EXACT, E
+from rapidgen.rapid.numbers import EXACT
+from rapidgen.runtime.compiler.context import E
 from rapidgen.runtime.values import Type
 
 _LARGEST = "3.4028234663852886e+38"

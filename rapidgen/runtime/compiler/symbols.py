@@ -8,7 +8,7 @@ from rapidgen.runtime.registry import Builtin
 from rapidgen.runtime.values import Type, Value
 
 if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import LoadedModule
+    from rapidgen.runtime.compiler.linking import LoadedModule
 
 Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", "object"]
 """How a datum is kept:
@@ -46,7 +46,7 @@ class Data:
 
 
 @dataclass(slots=True, eq=False)
-class Parameter:
+class FormalParameter:
     """One formal parameter."""
 
     name: str
@@ -60,6 +60,12 @@ class Parameter:
     switch: bool
 
 
+def formal(p: n.Parameter, kind: Type | None) -> FormalParameter:
+    """A declared parameter with its type."""
+    switch = p.type.lower() == "switch"
+    return FormalParameter(p.name, p.mode, kind, p.type, p.dimensions, p.optional, p.group, switch)
+
+
 @dataclass(slots=True, eq=False)
 class Routine:
     """A routine of the program, or a built-in."""
@@ -67,7 +73,7 @@ class Routine:
     name: str
     kind: Literal["PROC", "FUNC", "TRAP"]
     type: Type | None
-    parameters: tuple[Parameter, ...]
+    parameters: tuple[FormalParameter, ...]
     code: str
     """Python expression of the function."""
     node: n.RoutineDeclaration | None = None
@@ -75,18 +81,13 @@ class Routine:
     builtin: Builtin | None = None
     missing: bool = False
     """A built-in that exists on controllers but not here."""
+    lazy: tuple[str, ...] = ()
+    """Parameters of a built-in that looks at their arguments again and again, lower case."""
     by_name: dict[str, int] = field(default_factory=dict)
-    type_name: str = ""
+
+    refers: bool = False
+    """Some argument is passed by reference."""
 
     def __post_init__(self) -> None:
+        self.refers = any(p.mode for p in self.parameters)
         self.by_name = {p.name.lower(): i for i, p in enumerate(self.parameters)}
-
-
-@dataclass(frozen=True, slots=True)
-class Pending:
-    """Module data that are not evaluated yet."""
-
-    module: "LoadedModule"
-
-
-Symbol: TypeAlias = Data | Routine | Type | Pending

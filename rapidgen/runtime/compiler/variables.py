@@ -2,51 +2,52 @@
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts, Whole
-from rapidgen.runtime.compiler.context import UNBOUNDED, RoutineScope
-from rapidgen.runtime.compiler.symbols import Data, Parameter, Storage
+from rapidgen.runtime.compiler.context import UNBOUNDED, Unit
+from rapidgen.runtime.compiler.symbols import Data, FormalParameter, Storage
 from rapidgen.runtime.compiler.writer import Writer
 from rapidgen.runtime.values import ATOMIC, Type, Value
 
 
-def header(scope: RoutineScope) -> str:
+def header(unit: Unit) -> str:
     """Parameters of the Python function."""
     absent = False
     names = []
-    for parameter in scope.routine.parameters:
+    for parameter in unit.routine.parameters:
         absent = absent or parameter.optional
         names.append(f"v_{parameter.name.lower()}" + ("=None" if absent else ""))
     return ", ".join(names)
 
 
-def declare(scope: RoutineScope, w: Writer, facts: Facts) -> None:
-    """Enter parameters and data into the scope, and write what makes them."""
-    for parameter in scope.routine.parameters:
-        _parameter(scope, w, parameter)
+def declare(unit: Unit, w: Writer, facts: Facts) -> None:
+    """Enter parameters and data into the unit, and write what makes them."""
+    for parameter in unit.routine.parameters:
+        _parameter(unit, w, parameter)
     candidates: dict[str, int] = {}
     values: list[tuple[n.DataDeclaration, Data, Value]] = []
-    for d in scope.node.data:
+    for d in unit.node.data:
         w.token = d.first
-        kind, dims, value = scope.program.evaluate_local(scope.module, scope.locals, d)
+        kind, dims, value = unit.program.evaluate(unit.module, unit.names, d)
         key = d.name.lower()
+        symbol = unit.names.names[key]
         if d.kind == "CONST" and not dims and kind.kind in ATOMIC:
-            scope.locals[key] = Data(
+            unit.locals[symbol] = Data(
                 d.name, "CONST", kind, (), "inline", "", value=value, readonly=True
             )
             continue
-        data = scope.locals[key] = Data(d.name, "VAR", kind, dims, "local", f"v_{key}")
+        data = unit.locals[symbol] = Data(d.name, "VAR", kind, dims, "local", f"v_{key}")
         values.append((d, data, value))
         if kind.kind == "num" and not dims and isinstance(value, int):
             candidates[key] = value
-    whole = Whole(candidates, facts, lambda name: _constant(scope, name))
+    whole = Whole(candidates, facts, lambda name: _constant(unit, name))
     for d, data, value in values:
         w.token = d.first
-        _variable(scope, w, d, data, value, whole)
+        _variable(unit, w, d, data, value, whole)
 
 
-def _parameter(scope: RoutineScope, w: Writer, parameter: Parameter) -> None:
+def _parameter(unit: Unit, w: Writer, parameter: FormalParameter) -> None:
     key = parameter.name.lower()
     code = f"v_{key}"
-    kind = parameter.type or scope.program.switch_type
+    kind = parameter.type or unit.program.switch_type
     dims = (0,) * parameter.dims
     atomic = kind.kind in ATOMIC and not dims
     storage: Storage = "local"
@@ -54,12 +55,12 @@ def _parameter(scope: RoutineScope, w: Writer, parameter: Parameter) -> None:
         storage = "ref"
     elif parameter.mode == "VAR":
         storage = "object"
-    elif key in scope.boxed and atomic and not parameter.switch:
+    elif key in unit.boxed and atomic and not parameter.switch:
         storage = "box"
-        t = scope.program.type_code(kind)
+        t = unit.program.keep(kind)
         box = f"{code} = BOX({code}, {t}, (), {parameter.name!r})"
         w.emit(f"if {code} is not None: {box}" if parameter.optional else box)
-    scope.locals[key] = Data(
+    unit.locals[unit.names.names[key]] = Data(
         parameter.name,
         "PARAMETER",
         kind,
@@ -71,28 +72,23 @@ def _parameter(scope: RoutineScope, w: Writer, parameter: Parameter) -> None:
     )
 
 
-def _constant(scope: RoutineScope, name: str) -> Value:
-    data = scope.data(name)
+def _constant(unit: Unit, name: str) -> Value:
+    data = unit.data(name)
     return data.value if data is not None and data.storage == "inline" else None
 
 
 def _variable(
-    scope: RoutineScope,
-    w: Writer,
-    d: n.DataDeclaration,
-    data: Data,
-    value: Value,
-    whole: Whole,
+    unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, whole: Whole
 ) -> None:
-    key, kind, dims, program = d.name.lower(), data.type, data.dims, scope.program
+    key, kind, dims, program = d.name.lower(), data.type, data.dims, unit.program
     if d.kind == "CONST":
         data.kind, data.readonly, data.storage = "CONST", True, "global"
         data.code = program.keep(value)
     elif dims or kind.kind not in ATOMIC:
-        w.emit(f"{data.code} = {_fresh(scope, d, kind, dims, value)}")
-    elif key in scope.boxed:
+        w.emit(f"{data.code} = {_fresh(unit, d, kind, dims, value)}")
+    elif key in unit.boxed:
         data.storage = "box"
-        w.emit(f"{data.code} = BOX({value!r}, {program.type_code(kind)}, (), {d.name!r})")
+        w.emit(f"{data.code} = BOX({value!r}, {program.keep(kind)}, (), {d.name!r})")
     else:
         data.whole = key in whole.whole and kind.kind == "num"
         if data.whole and key in whole.natural:
@@ -101,14 +97,14 @@ def _variable(
 
 
 def _fresh(
-    scope: RoutineScope, d: n.DataDeclaration, kind: Type, dims: tuple[int, ...], value: Value
+    unit: Unit, d: n.DataDeclaration, kind: Type, dims: tuple[int, ...], value: Value
 ) -> str:
     """What makes a record, an array or an object for each call."""
-    program = scope.program
+    program = unit.program
     if d.initial is None and not dims and kind.make is not None:
-        return f"{program.record_code(kind)}()"
+        return f"{program.keep(kind.make)}()"
     if d.initial is None and len(dims) == 1 and kind.kind in ATOMIC:
         return f"dict.fromkeys(range(1, {dims[0] + 1}), {kind.default()!r})"
     if kind.is_value:
         return f"COPY({program.keep(value)})"
-    return f"ARRAY({dims!r}, {program.record_code(kind)})"
+    return f"ARRAY({dims!r}, {program.keep(kind.make)})"

@@ -58,15 +58,9 @@ class Writer:
         """Add one line at the current depth."""
         if self._accounting == "none" and text in _BUDGET_LINES:
             return
-        self.reserve(text)
-
-    def reserve(self, text: str = "") -> CodeLine:
-        """Add one line whose text may be given later; left empty it vanishes."""
         block = self._block
         paid = len(block.costs) if block is not None else 0
-        line = CodeLine(self.depth, text, self.token, block, paid, synced=self.synced)
-        self.lines.append(line)
-        return line
+        self.lines.append(CodeLine(self.depth, text, self.token, block, paid, False, self.synced))
 
     def cut(self, mark: int) -> list[CodeLine]:
         """Take off the lines from a place on."""

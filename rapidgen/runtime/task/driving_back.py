@@ -7,12 +7,16 @@ stepped forward; what was executed otherwise in between makes all of them unknow
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, Posture
+from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move
+from rapidgen.runtime.errors import Location
 from rapidgen.runtime.motion_faults import planned
-from rapidgen.runtime.task.recovery import Place
-from rapidgen.runtime.task.task import Task
+
+if TYPE_CHECKING:
+    from rapidgen.runtime.task.task import Task
 
 MOST = 1000
 """Moves that are remembered."""
@@ -63,7 +67,7 @@ class StepHistory:
         self._begun.append((move, self._group.path_target))
 
     @planned
-    def drive(self, task: Task, statement: Place, start: Callable[[], None]) -> bool:
+    def drive(self, task: "Task", statement: Location, start: Callable[[], None]) -> bool:
         """Drive back over the move of a statement; False: not known, the robot stays.
 
         The way is that of the move, at its speed, to a stop point. `start` lets robots move.
@@ -93,12 +97,12 @@ class StepHistory:
         return replace(move, target=pose, external=one.origin, wanted=None)
 
 
-def _place(move: Move) -> Place | None:
+def _place(move: Move) -> Location | None:
     found = move.place() if move.place is not None else None
-    return found if isinstance(found, Place) else None
+    return found if isinstance(found, Location) else None
 
 
-def _same(one: Place | None, other: Place) -> bool:
+def _same(one: Location | None, other: Location) -> bool:
     return one is not None and (one.module, one.routine, one.span.line, one.span.column) == (
         other.module,
         other.routine,

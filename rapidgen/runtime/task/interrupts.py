@@ -7,8 +7,9 @@ a wait. While a trap runs, or between IDisable and IEnable, events queue, first 
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from rapidgen.machine.log import Event
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.task.process_errors import ProcessError
@@ -34,8 +35,6 @@ class Interrupt:
     asleep: bool = False
     single: bool = False
     safe: bool = False
-    data: Any = None
-    """What GetTrapData gives."""
 
 
 class Interrupts:
@@ -44,11 +43,13 @@ class Interrupts:
     def __init__(self, task: "Task") -> None:
         self.task = task
         self.connected: dict[int, Interrupt] = {}
-        self.queue: deque[tuple[Interrupt, Any]] = deque()
+        self.queue: deque[tuple[Interrupt, Event | None]] = deque()
         """Events whose delay has passed."""
         self.disabled = False
         self.process_error: ProcessError | None = None
         """What ProcerrRecovery ordered, until it is raised."""
+        self.trap_data: Event | None = None
+        """What the trap that is being executed is about (GetTrapData)."""
         self._underway = 0
         self._next = 1
         self._last_due = 0
@@ -110,7 +111,7 @@ class Interrupts:
 
     # -- events ----------------------------------------------------------------------------------
 
-    def happen(self, interrupt: Interrupt, data: Any = None) -> None:  # noqa: ANN401
+    def happen(self, interrupt: Interrupt, data: Event | None = None) -> None:
         """The event of an interrupt has come."""
         task = self.task
         if interrupt.asleep or self.connected.get(interrupt.number) is not interrupt:
@@ -142,7 +143,15 @@ class Interrupts:
         if len(self.queue) + self._underway > LARGEST_QUEUE:
             task.order(FatalError(40223, "Too many interrupts wait", f"{LARGEST_QUEUE} are queued"))
 
-    @property
-    def waiting(self) -> bool:
-        """Whether a trap may start now."""
-        return bool(self.queue) and not self.disabled
+    def serve(self) -> None:
+        """Execute the traps of what has come."""
+        task = self.task
+        while self.queue and not self.disabled:
+            interrupt, self.trap_data = self.queue.popleft()
+            task.in_trap = True
+            task.intno = interrupt.number
+            try:
+                task.errors.at_level(task.program.function(interrupt.trap))
+            finally:
+                task.in_trap = False
+                self.trap_data = None

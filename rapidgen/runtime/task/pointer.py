@@ -6,27 +6,36 @@ routine is compiled anew (compiler/resume.py). Routines that the error left are 
 UNDO handlers run when the program pointer is moved.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from types import FrameType, TracebackType
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from types import FrameType
+from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
+from rapidgen.rapid.syntax.walk import walk
+from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.compiler.symbols import Routine
-from rapidgen.runtime.errors import RECOVERABLE, FatalError
-from rapidgen.runtime.task.recovery import is_part
-from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.errors import FatalError, Location
+from rapidgen.runtime.task.call_stack import frames_of, outwards
+from rapidgen.runtime.task.errors import Handler
+from rapidgen.runtime.task.event_routines import EventRoutines
+from rapidgen.runtime.task.interrupts import Interrupts
+
+if TYPE_CHECKING:
+    from rapidgen.runtime.task.task import Task
 
 LARGEST_STACK = 100
 """Routines inside each other that are kept."""
-_OTHER_LEVELS = frozenset({"_serve_traps", "_run_event"})
+_OTHER_LEVELS = (Interrupts.serve.__code__, EventRoutines.execute.__code__)
+"""Below these, a trap or an event routine is being executed."""
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
 
 
-def frames_of(traceback: TracebackType | None) -> Iterator[tuple[FrameType, int]]:
-    """Frames and lines of a traceback, outermost first."""
-    while traceback is not None:
-        yield traceback.tb_frame, traceback.tb_lineno
-        traceback = traceback.tb_next
+class CannotStep(Exception):
+    """A step is not possible from where the program stands; the text says why."""
 
 
 def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[Standing] | None:
@@ -37,81 +46,123 @@ def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[
     """
     found: dict[int, Standing] = {}
     for frame, line in frames:
-        compiled = program.codes.get(frame.f_code.co_filename)
-        name = frame.f_code.co_name
-        if name in _OTHER_LEVELS or (compiled is not None and name in ("_h", "_u")):
+        code = frame.f_code
+        if any(code is other for other in _OTHER_LEVELS):
             return None
+        compiled = program.codes.get(code.co_filename)
         if compiled is None or not 0 <= line < len(compiled.tokens):
             continue
+        role = compiled.role(code)
+        if role.is_handler:
+            return None
         assert compiled.routine.node is not None
         path = find(compiled.routine.node.body, compiled.tokens[line])
         if path is None:
             return None
         key, values = id(frame), dict(frame.f_locals)
-        if is_part(frame):
+        if role is CodeRole.PART:
             key = list(found)[-1]
             values = {**found[key].values, **values}
         found[key] = Standing(compiled.routine, path, values)
     return list(found.values()) if 0 < len(found) <= LARGEST_STACK else None
 
 
-class Pointer(Task):
-    """The part of a task that keeps its place."""
+class Pointer:
+    """The program pointer of one task."""
 
-    def __init__(self, *arguments: Any) -> None:  # noqa: ANN401 - those of Task
-        super().__init__(*arguments)
+    def __init__(self, task: "Task") -> None:
+        self._task = task
         self.place: list[Standing] | None = None
         """Where an error stopped the program; None: it starts from main only."""
-        self._below: list[tuple[Standing, Callable[[dict[str, Any]], Any]]] = []
-        self._intercepted: tuple[str, Any] | None = None
-        self._kept_undo: list[Callable[[], int]] = []
+        self._below: list[tuple[Standing, Callable[[dict[str, object]], object]]] = []
+        self._intercepted: tuple[str, object] | None = None
+        self._kept_undo: list[Handler] = []
+
+    # -- keeping the place -----------------------------------------------------------------------
 
     @property
-    def keeps_place(self) -> bool:
+    def _keeps(self) -> bool:
         """Whether a start after an error tries the faulty statement again."""
-        raise NotImplementedError
+        task = self._task
+        return task.controller.dialect.after_error == "statement" and task.spec.type == "NORMAL"
 
-    def keep_undo(self, handler: Callable[[], int]) -> bool:
+    def keep_undo(self, handler: Handler) -> bool:
         """Leave an UNDO handler for later: the error that leaves its routine stops the program."""
-        if not self.keeps_place:
+        if not self._keeps:
             return False
         self._kept_undo.append(handler)
         return True
 
-    def keep_place(self, fatal: FatalError, raised: BaseException) -> None:
+    def keep(self, fatal: FatalError, raised: BaseException) -> None:
         """Remember where an error stopped the program, or leave all its routines for good."""
         self.not_below()
         self._below = []
         self.place = None
-        if self.keeps_place and fatal.restartable:
-            self.place = standing(self.program, frames_of(raised.__traceback__))
+        if self._keeps and fatal.restartable:
+            self.place = standing(self._task.program, frames_of(raised.__traceback__))
         if self.place is None:
-            self.leave_place()
+            self.leave()
 
-    def leave_place(self) -> None:
+    def leave(self) -> None:
         """The program pointer is moved: UNDO handlers of the routines, the innermost first."""
         self.place = None
         handlers, self._kept_undo = self._kept_undo, []
-        for handler in handlers:
-            self.undo_level += 1
-            try:
-                handler()
-            except FatalError as error:
-                self.undo_ended(error)
-                break
-            except RECOVERABLE as error:
-                self.undo_ended(self.unhandled(error))
-                if self.controller.dialect.undo_error == "stop":
-                    break
-            finally:
-                self.undo_level -= 1
+        self._task.errors.undo_late(handlers)
         self._kept_undo = []
+
+    # -- where it stands -------------------------------------------------------------------------
+
+    def stack(self) -> list[Standing]:
+        """Every routine of a stopped program. CannotStep: inside what cannot be left."""
+        if self.place is not None:
+            return self.place
+        frames = [(frame, frame.f_lineno) for frame in outwards(self._task.frame)]
+        found = standing(self._task.program, reversed(frames))
+        if found is None:
+            raise CannotStep("it stands in a handler, a trap or an event routine")
+        return found
+
+    def stands_before(self) -> Location | None:
+        """The statement that a start would execute next."""
+        if self.place is None and self._task.frame is None:
+            return None
+        try:
+            last = self.stack()[-1]
+        except CannotStep:
+            return None
+        body, i = last.path[-1]
+        module = last.routine.module
+        assert module is not None
+        return Location(module.name, last.routine.name, module.span(body[i]))
+
+    def move_to(self, line: int) -> None:
+        """Stand before another statement of the innermost routine (PP to cursor). CannotStep."""
+        places = self.stack()
+        last = places[-1]
+        module, node = last.routine.module, last.routine.node
+        assert module is not None
+        assert node is not None
+        source = module.tree.source
+        tokens = sorted(at.first for at in walk(node) if source.line(at.first) == line)
+        paths = (find(node.body, token) for token in tokens)
+        path = next((p for p in paths if p is not None), None)
+        if path is None:
+            raise CannotStep(f"no statement of {last.routine.name} begins in line {line}")
+        there = replace(last, path=path)
+        try:
+            self._task.program.rest(there)
+        except CannotCompile as error:
+            raise CannotStep(str(error)) from error
+        self.place = [*places[:-1], there]
+
+    # -- going on --------------------------------------------------------------------------------
 
     def go_on(self, places: Sequence[Standing]) -> None:
         """Try the statement again where the program stands. CannotCompile: not from there."""
         self._kept_undo = []
         last = len(places) - 1
-        rests = [(p, self.program.rest(p, calls=i < last)) for i, p in enumerate(places)]
+        rest = self._task.program.rest
+        rests = [(p, rest(p, calls=i < last)) for i, p in enumerate(places)]
         self._below = rests[1:]
         rests[0][1](places[0].values)
 
@@ -120,12 +171,12 @@ class Pointer(Task):
         place, rest = self._below.pop(0)
         self.intercept(place.routine, lambda *_, **__: rest(place.values))
 
-    def intercept(self, routine: Routine, instead: Callable[..., Any]) -> None:
+    def intercept(self, routine: Routine, instead: Callable[_P, _T]) -> None:
         """Let the next call of a routine do something else."""
-        space, code = self.program.space, routine.code
+        space, code = self._task.program.space, routine.code
         self._intercepted = (code, space[code])
 
-        def once(*arguments: Any, **named: Any) -> Any:  # noqa: ANN401
+        def once(*arguments: _P.args, **named: _P.kwargs) -> _T:
             self.not_below()
             return instead(*arguments, **named)
 
@@ -136,4 +187,4 @@ class Pointer(Task):
         if self._intercepted is not None:
             code, function = self._intercepted
             self._intercepted = None
-            self.program.space[code] = function
+            self._task.program.space[code] = function

@@ -7,12 +7,14 @@ so that a RETRY calls them again (a controller goes on inside them).
 """
 
 import sys
+from collections.abc import Sequence
 from dataclasses import dataclass
-from types import FrameType
+from types import CodeType, FrameType
 from typing import TYPE_CHECKING
 
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import bound
+from rapidgen.runtime.task.call_stack import outwards
 
 if TYPE_CHECKING:
     from rapidgen.runtime.task.task import Task
@@ -25,12 +27,13 @@ class ProcessError:
     number: int
     owner: tuple[str, str] | None = None
 
-    def due(self, task: "Task") -> RapidError | None:
+    def due(self, task: "Task", outside: Sequence[CodeType]) -> RapidError | None:
         """The error where it is to be raised now; None: not yet.
 
-        Between two statements nobody would handle it: it waits for the inside of one.
+        Between two statements, in functions that compiled code calls `outside` of any, nobody
+        would handle it: it waits for the inside of one.
         """
-        frames, between = _frames(task)
+        frames, between = _frames(task, outside)
         error = RapidError(self.number)
         if self.owner is None:
             return error if not between and _at_move(task, frames) else None
@@ -38,23 +41,17 @@ class ProcessError:
         return None if between and error.target in (None, frames[0]) else error
 
 
-def _frames(task: "Task") -> tuple[list[FrameType], bool]:
+def _frames(task: "Task", outside: Sequence[CodeType]) -> tuple[list[FrameType], bool]:
     """Frames of RAPID routines, innermost first; whether the innermost is between statements."""
     found: list[FrameType] = []
     between = False
-    called = ""
-    frame: FrameType | None = sys._getframe(1)
-    while frame is not None:
+    called: CodeType | None = None
+    for frame in outwards(sys._getframe(1)):
         if frame.f_code.co_filename in task.program.codes:
-            between = between or (not found and called in _BETWEEN)
+            between = between or (not found and any(called is code for code in outside))
             found.append(frame)
-        called = frame.f_code.co_name
-        frame = frame.f_back
+        called = frame.f_code
     return found, between
-
-
-_BETWEEN = frozenset({"poll", "polls", "recharge"})
-"""What compiled code calls outside its statements."""
 
 
 def _at_move(task: "Task", frames: list[FrameType]) -> bool:
@@ -74,6 +71,6 @@ def _frame_of(task: "Task", frames: list[FrameType], owner: tuple[str, str]) -> 
     for frame in frames:
         compiled = task.program.codes[frame.f_code.co_filename]
         inside = inside or (compiled.module.name, compiled.routine.name) == owner
-        if inside and compiled.handled and frame.f_code.co_name not in ("_h", "_u"):
+        if inside and compiled.handled and not compiled.role(frame.f_code).is_handler:
             return frame
     return None

@@ -9,26 +9,24 @@ interrupts meanwhile.
 
 import sys
 from dataclasses import dataclass, replace
-from types import FrameType
-from typing import Any
+from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.analysis import walk
 from rapidgen.runtime.compiler.context import CannotCompile
-from rapidgen.runtime.compiler.program import LoadedModule
-from rapidgen.runtime.compiler.resume import Standing, find
+from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.resume import Standing
+from rapidgen.runtime.errors import Location
+from rapidgen.runtime.task.call_stack import outwards
 from rapidgen.runtime.task.driving_back import StepHistory
-from rapidgen.runtime.task.pointer import Pointer, standing
-from rapidgen.runtime.task.recovery import Place
+from rapidgen.runtime.task.pointer import CannotStep
 
-
-class CannotStep(Exception):
-    """A step is not possible from where the program stands; the text says why."""
+if TYPE_CHECKING:
+    from rapidgen.runtime.task.task import Task
 
 
 @dataclass(slots=True)
-class Step:
-    """What is under way."""
+class ForwardStep:
+    """A step that is under way."""
 
     over: bool
     """Calls are executed as a whole."""
@@ -38,75 +36,54 @@ class Step:
     """The same where it has come to."""
 
 
-class Stepping(Pointer):
-    """The part of a task that steps."""
+class Stepper:
+    """Steps one task."""
 
-    def __init__(self, *arguments: Any) -> None:  # noqa: ANN401 - those of Task
-        super().__init__(*arguments)
-        self.step_under_way: Step | None = None
-        self.stepping_back = False
+    def __init__(self, task: "Task") -> None:
+        self._task = task
+        self.forward: ForwardStep | None = None
+        """What is under way."""
+        self.back_asked = False
+        """The step that begins goes back."""
+        self.going_back = False
+        self.at_point = -1
+        """Depth of the statement before which a step has ended; -1 elsewhere."""
         self.history: StepHistory | None = None
         """Of a motion task: the moves of its steps."""
 
     @property
-    def stepping(self) -> bool:
+    def active(self) -> bool:
         """Whether a step is being executed: there are no interrupts [S4 overview 4-39]."""
-        return self.step_under_way is not None or self.stepping_back
+        return self.forward is not None or self.going_back
 
-    def where_it_stands(self) -> list[Standing]:
-        """Every routine of a stopped program. CannotStep: inside what cannot be left."""
-        if self.place is not None:
-            return self.place
-        frames: list[tuple[FrameType, int]] = []
-        frame: Any = self.frame
-        while frame is not None:
-            frames.append((frame, frame.f_lineno))
-            frame = frame.f_back
-        found = standing(self.program, reversed(frames))
-        if found is None:
-            raise CannotStep("it stands in a handler, a trap or an event routine")
-        return found
+    def forget(self) -> None:
+        """Moves that were stepped are not driven back any more."""
+        if self.history is not None:
+            self.history.forget()
 
-    def stands_before(self) -> Place | None:
-        """The statement that a start would execute next."""
-        if self.place is None and self.frame is None:
-            return None
-        try:
-            last = self.where_it_stands()[-1]
-        except CannotStep:
-            return None
-        body, i = last.path[-1]
-        module = last.routine.module
-        assert module is not None
-        return Place(module.name, last.routine.name, module.span(body[i]), None)
+    # -- forward ---------------------------------------------------------------------------------
 
-    def standing_at(self, line: int) -> list[Standing]:
-        """The same stack with the innermost routine at another statement. CannotStep."""
-        places = self.where_it_stands()
-        last = places[-1]
-        module, node = last.routine.module, last.routine.node
-        assert module is not None
-        assert node is not None
-        source = module.tree.source
-        tokens = sorted(at.first for at in walk(node) if source.line(at.first) == line)
-        paths = (find(node.body, token) for token in tokens)
-        path = next((p for p in paths if p is not None), None)
-        if path is None:
-            raise CannotStep(f"no statement of {last.routine.name} begins in line {line}")
-        there = replace(last, path=path)
-        try:
-            self.program.rest(there)
-        except CannotCompile as error:
-            raise CannotStep(str(error)) from error
-        return [*places[:-1], there]
+    def begin(self, over: bool, depth: int = -1) -> None:
+        """A step begins, at a depth where that is known."""
+        task = self._task
+        group = task.controller.motion.moved_by(task.name)
+        if self.history is None and group is not None:
+            self.history = StepHistory(group)
+        if self.history is not None and not self.back_asked:
+            self.history.begin()
+        task.program.trace_from_now()
+        task.fault = None
+        task.events.due.append("STEP")
+        task.enter("running")
+        self.forward = ForwardStep(over, depth)
 
     def reached(self, module: LoadedModule | None) -> bool:
         """A statement is about to be executed: whether the step ends before it.
 
         Statements of NOSTEPIN modules are executed as a whole [S4 overview 4-8].
         """
-        step = self.step_under_way
-        if step is None or self.event or self.in_trap:
+        step, task = self.forward, self._task
+        if step is None or task.events.running or task.in_trap:
             return False
         if module is not None and (module.installed or "NOSTEPIN" in module.tree.attributes):
             return False
@@ -117,13 +94,25 @@ class Stepping(Pointer):
         return not step.over or depth <= step.depth
 
     def _depth(self) -> int:
-        codes = self.program.codes
-        depth = 0
-        frame: FrameType | None = sys._getframe(2)
-        while frame is not None:
-            depth += frame.f_code.co_filename in codes
-            frame = frame.f_back
-        return depth
+        codes = self._task.program.codes
+        return sum(frame.f_code.co_filename in codes for frame in outwards(sys._getframe(2)))
+
+    def end(self) -> None:
+        """Stand before the statement that was reached; the robot stands, too."""
+        task = self._task
+        assert self.forward is not None
+        group = task.controller.motion.moved_by(task.name)
+        if group is not None:
+            group.wait_standing(task)
+        if self.history is not None:
+            self.history.end()
+        self.at_point = self.forward.depth_now
+        task.enter("stopped")
+        task.controller.operation.step_ended()
+        try:
+            task.stand()
+        finally:
+            self.at_point = -1
 
     # -- backward --------------------------------------------------------------------------------
 
@@ -146,7 +135,9 @@ class Stepping(Pointer):
         return [*places[:-1], before]
 
     def _call_back(self, call: n.ProcedureCall, before: Standing) -> None:
-        routine = self.program.find_routine(before.routine.module, call.name.lower())
+        task = self._task
+        program = task.program
+        routine = program.find_routine(before.routine.module, call.name.lower())
         if routine is None or routine.node is None:
             if routine is None or routine.builtin is None or routine.builtin.cost != "move":
                 raise CannotStep(f"{call.name} is not executed backward")
@@ -154,32 +145,34 @@ class Stepping(Pointer):
             return
         handler = routine.node.backward
         try:
-            once = self.program.rest(before, alone=True)
-            function = self.program.backward(routine) if handler is not None else _nothing
+            once = program.rest(before, alone=True)
+            function = program.backward(routine) if handler is not None else _nothing
         except CannotCompile as error:
             raise CannotStep(str(error)) from error
         if handler is not None:
-            self.controller.step_moves()
-        self.intercept(routine, lambda *a, **k: self.at_level(lambda: function(*a, **k)))
+            task.controller.operation.step_moves()
+        level = task.errors.at_level
+        task.pointer.intercept(routine, lambda *a, **k: level(lambda: function(*a, **k)))
         try:
             once(before.values)
         finally:
-            self.not_below()
+            task.pointer.not_below()
         if handler is None:
             raise CannotStep(f"{call.name} has no BACKWARD handler")
 
     def _drive_back(self, call: n.ProcedureCall, before: Standing) -> None:
         """A move that was stepped is driven back (switch `moves_back`)."""
+        task = self._task
         module = before.routine.module
         assert module is not None
-        if self.history is None or not self.controller.dialect.moves_back:
+        if self.history is None or not task.controller.dialect.moves_back:
             raise CannotStep(f"{call.name} is not executed backward")
-        place = Place(module.name, before.routine.name, module.span(call), None)
-        if not self.history.drive(self, place, self.controller.step_moves):
+        place = Location(module.name, before.routine.name, module.span(call))
+        if not self.history.drive(task, place, task.controller.operation.step_moves):
             raise CannotStep(
                 f"{call.name}: where it began is not known, or the robot does not stand at its end"
             )
 
 
-def _nothing(*_arguments: Any, **_named: Any) -> None:  # noqa: ANN401
+def _nothing(*_arguments: object, **_named: object) -> None:
     """What a procedure without BACKWARD does."""

@@ -1,48 +1,254 @@
-"""One RAPID task: the process that runs its routines, and what compiled code and built-ins ask
-of it. Errors are in recovery.py, starting and stopping in running.py."""
+"""One RAPID task: the process that runs its program, and what is asked of it.
 
+People and the controller start, stop and step it; compiled code and built-ins wait, are charged
+and call it by its methods. It owns parts: errors, interrupts, the program pointer, the stepper,
+event routines, and the run, which is what its greenlet executes.
+"""
+
+import sys
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import Literal, TypeAlias
 
+from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.program import LoadedModule, Program
+from rapidgen.runtime.compiler.linking import LoadedModule, Shared
+from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import Parameter, Routine
-from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, FatalError, RapidError
+from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
+from rapidgen.runtime.host import Host
 from rapidgen.runtime.registry import COSTS
+from rapidgen.runtime.task import late_call
+from rapidgen.runtime.task.call_stack import location, stack_at
+from rapidgen.runtime.task.errors import Errors
+from rapidgen.runtime.task.event_routines import AT_RESTART, EventRoutines, StopEvent
 from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.pointer import CannotStep, Pointer
 from rapidgen.runtime.task.process_errors import ProcessError
-from rapidgen.runtime.task.recovery import Recovery
+from rapidgen.runtime.task.run import Run
+from rapidgen.runtime.task.stepping import Stepper
+from rapidgen.runtime.values import Value
+from rapidgen.system.model import TaskSpec
 
+TaskState: TypeAlias = Literal["ready", "running", "stopped", "finished", "error", "empty"]
+DEEPEST = 5_000
+"""Python frames of a task; a deeper one is RAPID's stack overflow."""
 _NS = 1_000_000_000
 
 
-class Task(Recovery):
-    """A task while it runs. `controller` is the whole virtual controller."""
+class Task(Process):
+    """A task of a controller.
 
-    def __init__(self, scheduler: Scheduler, name: str, controller: Any) -> None:  # noqa: ANN401
-        super().__init__(scheduler, name, controller)
-        self.interrupts = Interrupts(self)
-        self.program: Program
+    `state`: `ready` PP stands at main · `running` · `stopped` goes on when it is started ·
+    `finished` main returned, EXIT, or the cycle ended · `error` a fault stopped it; a start tries
+    the faulty statement again, where the pointer has a place · `empty` there is no entry routine.
+    """
+
+    __slots__ = ("__dict__",)
+
+    def __init__(
+        self, scheduler: Scheduler, spec: TaskSpec, controller: Host, shared: Shared
+    ) -> None:
+        super().__init__(scheduler, spec.name)
+        # Polls find RAPID's stack overflow (DEEPEST); Python's own limit would strike anywhere,
+        # also in the middle of the scheduler's work.
+        sys.setrecursionlimit(max(sys.getrecursionlimit(), 4 * DEEPEST))
+        self.spec = spec
+        self.controller = controller
+        self.state: TaskState = "empty"
+        self.fault: FatalError | None = None
+        self.cycles = 0
+        """How often the program came to the end of its entry routine."""
         self.held = False
         """Stopped by Stop, an emergency stop, the operator: goes on when it is released."""
         self.in_trap = False
-        self.event = ""
-        """Event whose routine is being executed."""
-        self.while_stopped = False
-        """Executing what a stop or the power-up brought, while the program stands."""
+        self.errno = 0
         self.intno = 0
-        self.trap_data: Any = None
-        self.statements = 0
+        self.ret: Value = None
+        """Value of RETURN in a handler."""
+        self.waiting_for: Callable[[], bool] | None = None
         self._order: BaseException | None = None
         self._holds = 0
-        self.waiting_for: Callable[[], bool] | None = None
+
+        self.errors = Errors(self)
+        self.interrupts = Interrupts(self)
+        self.pointer = Pointer(self)
+        self.stepper = Stepper(self)
+        self.events = EventRoutines(self)
+        self.run = Run(self)
+        # What compiled code calls: bound once, and without a frame of the task in between.
+        self.handle = self.errors.handle
+        self.undo = self.errors.undo
+        self.throw = self.errors.throw
+        self.instead = self.errors.instead
+        self.connect = self.interrupts.connect
+        self.go_on_below = self.pointer.go_on_below
+        self.not_below = self.pointer.not_below
+        self.program = Program(self, shared, controller.options)
+
+    # -- from outside ----------------------------------------------------------------------------
+
+    def power_up(self) -> None:
+        """The routines of POWER_ON run, whether or not the program is started afterwards."""
+        self.events.due.insert(0, "POWER_ON")
+        if self.state == "stopped":
+            self.wake()
+        elif self.state in ("ready", "finished") and any(self.events.names("POWER_ON")):
+            self.launch(self.run.body)
+
+    def start(self) -> None:
+        """Start from where the task stopped, or from main."""
+        self.stepper.forget()
+        if self.leaving:
+            self.run.start_asked = True
+        elif self.state == "stopped":
+            self.events.due.append("RESTART")
+            self.enter("running")
+            if self.pointer.place is not None:
+                # A program that is still being left goes on by itself.
+                self._run()
+            elif not self.events.due_while_stopped:
+                self.release()
+        elif self.state in ("ready", "finished"):
+            self.fault = None
+            self.events.due.append("START" if self.run.routine is None else "RESTART")
+            self.enter("running")
+            self._run()
+        elif self.state == "error" and self.pointer.place is not None:
+            self.fault = None
+            self.events.due.append("RESTART")
+            self.enter("running")
+            self._run()
+
+    def stop(self, event: StopEvent = "STOP") -> None:
+        """Stop before the next statement or in the wait; `start()` goes on there.
+
+        The routines of `event` run when the task stands.
+        """
+        self.run.start_asked = False
+        if self.state == "running":
+            self.enter("stopped")
+            if event:
+                self.events.due.append(event)
+            self.hold()
+
+    def step(self, *, back: bool = False, over: bool = False) -> None:
+        """Execute one statement. CannotStep: not from here; nothing has changed then."""
+        stepper = self.stepper
+        if self.state in ("ready", "finished") and not back:
+            stepper.begin(over)
+            self._run()
+            return
+        if self.state not in ("stopped", "error") or self.leaving or self.events.while_stopped:
+            raise CannotStep(f"the task is {self.state}")
+        if self.state == "error" and self.pointer.place is None:
+            raise CannotStep("the program pointer is lost: PP to main first")
+        if stepper.at_point >= 0 and not back:
+            stepper.begin(over, stepper.at_point)
+            self.release()
+            return
+        self.pointer.place = self.pointer.stack()
+        stepper.back_asked = back
+        stepper.begin(over)
+        if self.alive:
+            self._leave_frames(PointerMoved())
+        else:
+            self.launch(self.run.body)
+
+    def pp_to_main(self) -> None:
+        """Leave everything (UNDO handlers run) and set PP to main."""
+        self._set_pointer(None)
+
+    def pp_to_routine(self, name: str) -> None:
+        """Set PP to a procedure without parameters: as main, but RESET routines do not run."""
+        self._set_pointer(self._procedure(name))
+
+    def pp_to_statement(self, line: int) -> None:
+        """Set PP to a statement of the routine in which the program stands (PP to cursor).
+
+        CannotStep: there is none, or the program cannot go on there.
+        """
+        if self.state not in ("stopped", "error"):
+            raise CannotStep(f"the task is {self.state}")
+        self.pointer.move_to(line)
+        self.stepper.forget()
+        if self.alive:
+            self._leave_frames(PointerMoved())
+        self.enter("stopped")
+
+    def call_service(self, name: str) -> None:
+        """Execute a procedure without parameters at user level, while the program stands."""
+        if self.state == "running" or self.leaving:
+            raise CannotStep(f"the task is {self.state}")
+        self.events.service.append(self._procedure(name))
+        if not self.alive:
+            self.launch(self.run.body)
+        else:
+            self.wake()
+
+    def _run(self) -> None:
+        if not self.alive:
+            self.launch(self.run.body)
+
+    def _procedure(self, name: str) -> Routine:
+        found = self.program.find_routine(None, name.lower())
+        if found is None or found.node is None or found.kind != "PROC" or found.parameters:
+            raise CannotStep(f"{self.name} has no procedure {name} without parameters")
+        return found
+
+    def _set_pointer(self, routine: Routine | None) -> None:
+        self.stepper.forget()
+        run, events = self.run, self.events
+        run.routine = routine
+        run.fresh = True
+        run.start_asked = False
+        events.due = [e for e in events.due if e == "POWER_ON"]
+        if routine is None:
+            events.due.append("RESET")
+        if self.state in ("running", "stopped") and self.alive:
+            self._leave_frames(EndOfRun())
+        elif self.state != "empty":
+            kept = self.pointer.place is not None
+            self.pointer.place = None
+            self.enter("ready")
+            if kept:
+                self._run()
+
+    def _leave_frames(self, order: BaseException) -> None:
+        self.order(order)
+        self.held = False
+
+    def enter(self, state: TaskState) -> None:
+        """Change the state, and tell the controller."""
+        self.state = state
+        if state != "running":
+            self.stepper.forward = None
+        self.controller.operation.task_changed()
+
+    @property
+    def stands(self) -> bool:
+        """Whether the program is stopped, even if something runs because of that."""
+        return self.held or self.events.while_stopped or self.state == "error" or self.stepping
 
     @property
     def stepping(self) -> bool:
         """Whether a step is being executed."""
-        return False
+        return self.stepper.active
+
+    @property
+    def leaving(self) -> bool:
+        """Whether PP was set to main and the routines are still being left."""
+        return self.run.fresh and self.state in ("running", "stopped")
+
+    def stack(self) -> tuple[Location, ...]:
+        """Call stack of the suspended or running task, outermost first."""
+        suspended = self.scheduler.running is not self
+        return stack_at(self.program.codes, self.frame if suspended else sys._getframe(1))
+
+    def place_of(self, file: str, line: int) -> Location | None:
+        """RAPID place of a Python line."""
+        return location(self.program.codes, file, line)
 
     # -- waiting ---------------------------------------------------------------------------------
 
@@ -103,44 +309,40 @@ class Task(Recovery):
     def attend(self) -> None:
         """What may come between two statements and inside a wait."""
         if self._order is not None:
-            self._obey()
+            self.obey()
         while self.held:
             self._park()
-        if self.interrupts.queue and not self.in_trap and not self.event:
-            self._serve_traps()
-        if self.interrupts.process_error is not None:
-            self.raise_process_error(self.interrupts.process_error)
+        interrupts = self.interrupts
+        if interrupts.queue and not self.in_trap and not self.events.running:
+            interrupts.serve()
+        if interrupts.process_error is not None:
+            self.raise_process_error(interrupts.process_error)
 
     def raise_process_error(self, error: ProcessError) -> None:
         """Raise an error of ProcerrRecovery here, or look again at the next statement."""
-        if self.in_trap or self.event:
+        if self.in_trap or self.events.running:
             return
-        due = error.due(self)
+        due = error.due(self, _BETWEEN)
         if due is None:
             self.kick()
             return
         self.interrupts.process_error = None
         raise due
 
-    def _obey(self) -> None:
-        order, self._order = self._order, None
-        if order is not None:
-            raise order
-
-    def _park(self) -> None:
-        self._blocked = True
-        self.scheduler.suspend(self)
-        if self._order is not None:
-            self._obey()
-
     def order(self, order: BaseException) -> None:
         """Leave what is being executed by raising `order` in it."""
         self._order = order
         self.kick()
 
+    def obey(self) -> None:
+        """Raise what was ordered."""
+        order, self._order = self._order, None
+        if order is not None:
+            raise order
+
     def hold(self) -> None:
-        """Stop before the next statement, or in the wait."""
-        self.held = True
+        """Stop before the next statement, or in the wait; not in what runs because of a stop."""
+        self.held = not self.events.while_stopped
         self._holds += 1
         self.kick()
 
@@ -149,55 +351,54 @@ class Task(Recovery):
         self.held = False
         self.wake()
 
-    def stop_here(self) -> None:
-        """Stop the program from inside it, and return when it is started again."""
+    def _park(self) -> None:
+        if self.events.due_while_stopped:
+            self.events.run_while_stopped()
+        else:
+            self._blocked = True
+            self.scheduler.suspend(self)
+            if self._order is not None:
+                self.obey()
+        if not self.held:
+            self.events.run(AT_RESTART)
+
+    def stand(self) -> None:
+        """Stand here until the program is started again."""
         self.held = True
         self._holds += 1
         self.attend()
 
-    def _serve_traps(self) -> None:
-        interrupts = self.interrupts
-        while interrupts.waiting:
-            interrupt, data = interrupts.queue.popleft()
-            self.in_trap = True
-            self.intno = interrupt.number
-            self.trap_data = data
-            try:
-                self.at_level(self.program.function(interrupt.trap))
-            finally:
-                self.in_trap = False
-                self.trap_data = None
+    def stop_here(self) -> None:
+        """Stop, Break: the program stops; a start goes on behind the instruction.
 
-    def at_level(self, routine: Callable[..., Any]) -> None:
-        """Execute a routine at trap or user level: only a long jump leaves it [K §7.2]."""
-        try:
-            routine()
-        except RECOVERABLE as error:
-            if isinstance(error, RapidError) and error.target is not None:
-                raise
-            raise self.unhandled(error) from error
-
-    @property
-    def stands(self) -> bool:
-        """Whether the program is stopped, even if something runs because of that."""
-        return self.held or self.while_stopped
+        In an event routine it ends the routine, which runs from its beginning at the next event
+        [S4 2-Stop-1]. Whether the STOP routines run then is a switch.
+        """
+        self.enter("stopped")
+        self.controller.operation.program_stopped(self)
+        event, due = self.events.running, self.events.due
+        if event:
+            if self.controller.dialect.event_stops and event != "STOP":
+                due.append("STOP")
+            self.hold()
+            raise EventStopped
+        due.append("STOP")
+        self.stand()
 
     # -- called by compiled code -----------------------------------------------------------------
 
-    def touch(self, value: Any) -> Any:  # noqa: ANN401 - what was read
-        """A PERS was read or written: other tasks may come next (schedule `pers`)."""
-        if self.scheduler.tosses():
-            self.switch()
-        return value
+    def poll(self, b: int) -> int:
+        """See Process.poll; also looks at the depth of the call stack."""
+        try:
+            sys._getframe(DEEPEST)
+        except ValueError:
+            return super().poll(b)
+        self.b = b
+        raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
 
     def polls(self, b: int, costs: tuple[int, ...]) -> int:
         """A block was paid and the budget did not last: pay statement by statement."""
-        b += sum(costs)
-        for cost in costs:
-            b -= cost
-            if b < 0:
-                b = self.poll(b)
-        return b
+        return self.recharge(b + sum(costs), costs)
 
     def recharge(self, b: int, costs: tuple[int, ...]) -> int:
         """Pay again what was given back when a statement of the block failed."""
@@ -207,13 +408,19 @@ class Task(Recovery):
                 b = self.poll(b)
         return b
 
+    def touch(self, value: Value) -> Value:
+        """A PERS was read or written: other tasks may come next (schedule `pers`)."""
+        if self.scheduler.tosses():
+            self.switch()
+        return value
+
+    def trace(self, point: int) -> None:
+        """A statement is about to be executed."""
+        self.controller.statements.reached(self, point)
+
     def exit(self) -> None:
         """EXIT [K §4.9]."""
         raise EndOfRun
-
-    def connect(self, current: float, trap: Routine) -> int:
-        """CONNECT."""
-        return self.interrupts.connect(current, trap)
 
     def missing(self, name: str) -> None:
         """A routine that controllers have and this one has not."""
@@ -221,92 +428,36 @@ class Task(Recovery):
             40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
         )
 
-    def late(self, name: str, module: LoadedModule | None, arguments: tuple[Any, ...]) -> None:
+    def late(
+        self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]
+    ) -> None:
         """`%name% arguments;` [K §4.5]."""
-        routine = self._late_routine(name, module)
-        given = [a for a in arguments if a is not None]
-        if routine.node is not None:
-            positional, named = self._late_arguments(routine, given)
-            self.program.function(routine)(*positional, **named)
-            return
+        routine = late_call.find(self.program, name, module)
         binding = routine.builtin
-        if binding is None:
+        if routine.node is None and binding is None:
             self.missing(routine.name)
             return
-        positional, named = self._late_arguments(routine, given)
+        positional, named = late_call.arguments(routine, [a for a in arguments if a is not None])
+        if binding is None:
+            self.program.function(routine)(*positional, **named)
+            return
         values = [*positional]
         for parameter in routine.parameters[len(positional) :]:
             values.append(named.get(f"v_{parameter.name.lower()}"))
         self.charge(COSTS[binding.cost])
         binding.function(self, *values)
 
-    def _late_routine(self, name: str, module: LoadedModule | None) -> Routine:
-        program = self.program
-        where, colon, proper = name.rpartition(":")
-        if not proper or not proper.replace("_", "").isalnum() or proper[0].isdigit():
-            raise RapidError("ERR_CALLPROC", name)
-        key = proper.lower()
-        if colon and where:
-            inside = program.modules.get(where.lower())
-            found = inside.symbols.get(key) if inside is not None else None
-        elif colon:
-            found = program.globals.get(key)
-        else:
-            found = program.find_routine(module, key)
-        if found is None:
-            known = program.find_data(module, key) is not None
-            raise RapidError("ERR_CALLPROC" if known else "ERR_REFUNKPRC", name)
-        if not isinstance(found, Routine) or found.kind != "PROC":
-            raise RapidError("ERR_CALLPROC", name)
-        return found
-
-    def _late_arguments(
-        self, routine: Routine, given: list[LateArgument]
-    ) -> tuple[list[Any], dict[str, Any]]:
-        positional: list[Any] = []
-        named: dict[str, Any] = {}
-        required = [p for p in routine.parameters if not p.optional]
-        at = 0
-        for argument in given:
-            if argument.name is None:
-                if at >= len(required):
-                    raise RapidError("ERR_CALLPROC", routine.name)
-                parameter = required[at]
-                at += 1
-            else:
-                index = routine.by_name.get(argument.name)
-                if index is None:
-                    raise RapidError("ERR_CALLPROC", routine.name)
-                parameter = routine.parameters[index]
-                at += not parameter.optional
-            value = self._late_value(parameter, argument, builtin=routine.node is None)
-            key = parameter.name.lower()
-            if parameter.optional or named or len(positional) != routine.by_name[key]:
-                named[f"v_{key}"] = value
-            else:
-                positional.append(value)
-        if at < len(required):
-            raise RapidError("ERR_CALLPROC", routine.name)
-        return positional, named
-
-    def _late_value(self, parameter: Parameter, argument: LateArgument, *, builtin: bool) -> Any:  # noqa: ANN401
-        if argument.read is None:
-            return True
-        kind = parameter.type
-        if kind is not None and argument.type is not None and kind.name != argument.type.name:
-            raise RapidError("ERR_CALLPROC", f"{parameter.name} is {parameter.type_name}")
-        if not parameter.mode:
-            return argument.read()
-        atomic = kind is not None and kind.kind in ("num", "dnum", "bool", "string")
-        objects = kind is not None and kind.kind in ("nonvalue", "semivalue")
-        if objects or (parameter.mode == "VAR" and not builtin and not atomic):
-            if argument.itself is None:
-                raise RapidError("ERR_ARGNOTVAR")
-            return argument.itself()
-        if argument.refer is None:
-            raise RapidError("ERR_ARGNOTVAR")
-        return argument.refer()
+    def call(self, name: str, *arguments: Value) -> Value:
+        """Call a routine of the task's program, from the task's own greenlet. KeyError."""
+        routine = self.program.find_routine(None, name.lower())
+        if routine is None or routine.node is None:
+            raise KeyError(name)
+        return self.program.function(routine)(*arguments)
 
 
 def _never() -> bool:
     return False
+
+
+_BETWEEN = (Task.poll.__code__, Task.polls.__code__, Task.recharge.__code__)
+"""What compiled code calls outside its statements."""

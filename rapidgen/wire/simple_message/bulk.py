@@ -3,7 +3,7 @@
 from collections.abc import Sequence as Rows
 from itertools import groupby
 from struct import Struct
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -31,13 +31,13 @@ _TYPES = {Wire.INT32: "<i4", Wire.FLOAT32: "<f4"}
 FRAME_BYTES = spec.PREFIX_BYTES + messages.JOINT_TRAJ_PT.length
 
 
-def _frame_type() -> np.dtype[Any]:
-    head: list[Any] = [(name, "<i4") for name in ("length", "number", "comm", "reply")]
-    fields: list[Any] = [
-        (f.name, _TYPES[f.type], (f.count,)) if f.count > 1 else (f.name, _TYPES[f.type])
+def _frame_type() -> np.dtype[np.void]:
+    head = [(name, "<i4", ()) for name in ("length", "number", "comm", "reply")]
+    fields = [
+        (f.name, _TYPES[f.type], (f.count,) if f.count > 1 else ())
         for f in messages.JOINT_TRAJ_PT.fields
     ]
-    return np.dtype(head + fields)
+    return np.dtype([*head, *fields])
 
 
 POINT_FRAME = _frame_type()
@@ -71,7 +71,7 @@ def encode_trajectory(
     return frames.tobytes()
 
 
-def decode_points(data: bytes) -> npt.NDArray[Any]:
+def decode_points(data: bytes) -> npt.NDArray[np.void]:
     """Whole JOINT_TRAJ_PT frames as an array of POINT_FRAME: for sinks and recordings."""
     return np.frombuffer(data, dtype=POINT_FRAME)
 

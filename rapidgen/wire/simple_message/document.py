@@ -9,6 +9,7 @@ from enum import IntEnum, IntFlag
 
 from rapidgen.wire.simple_message import messages, spec
 from rapidgen.wire.simple_message.declaration import ANY, Field, MessageType
+from rapidgen.wire.simple_message.spec import Port
 
 _INTRODUCTION = """\
 # The wire
@@ -38,6 +39,8 @@ _RULES = """\
   topics; PROGRESS follows only on a connection that subscribed to it.
 """
 
+_LISTED = [m.name for m in messages.MESSAGES if m.sender == "client" and m.ports == (Port.CONTROL,)]
+_CONTROL = f"{', '.join(_LISTED[:-1])} and {_LISTED[-1]}"
 _STREAMS = f"""\
 ## Streams
 
@@ -67,7 +70,7 @@ _STREAMS = f"""\
 
 ## Control connection
 
-Where HELLO tells a control port, STOP, PAUSE, SPEED, HEARTBEAT and SIGNAL have a connection of
+Where HELLO tells a control port, STOP, {_CONTROL} have a connection of
 their own, which no point delays. STOP is JOINT_TRAJ_PT with the sequence number -4 there too; its
 reply says that the stop was taken, STOPPED where the robot stands then. PAUSE keeps the path;
 everything that halts a motion halts a paused one. Nothing starts again by itself.

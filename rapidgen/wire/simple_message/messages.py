@@ -46,7 +46,7 @@ class Failure(NamedTuple):
 
 
 class NotDone(NamedTuple):
-    """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL: it was not done."""
+    """Reply to what the control port is asked: it was not done."""
 
     reason: Annotated[int, _REASON]
 
@@ -117,7 +117,7 @@ JOINT_TRAJ_PT = MessageType(
 )
 
 
-class Status(NamedTuple):
+class StatusReport(NamedTuple):
     """What the robot is doing. It carries no sequence number."""
 
     drives_powered: Annotated[int, int32("tri-state")]
@@ -129,7 +129,7 @@ class Status(NamedTuple):
     motion_possible: Annotated[int, int32("tri-state")]
 
 
-STATUS = MessageType("STATUS", 13, Status, _CONTROLLER, (Port.STATE,))
+STATUS = MessageType("STATUS", 13, StatusReport, _CONTROLLER, (Port.STATE,))
 
 
 class TrajectoryPointFull(NamedTuple):
@@ -164,7 +164,7 @@ class JointFeedback(NamedTuple):
 JOINT_FEEDBACK = MessageType("JOINT_FEEDBACK", 15, JointFeedback, _CONTROLLER, (Port.STATE,))
 
 
-class Hello(NamedTuple):
+class HelloRequest(NamedTuple):
     """Who is there? Sent as a request on the state port, where abb_driver reads nothing and so
     is not disturbed; no reply within a second means a plain simple_message driver. On the control
     port it tells whose port that is. A reply of another length is one of another version: its
@@ -215,7 +215,7 @@ class HelloRefusal(NamedTuple):
 HELLO = MessageType(
     "HELLO",
     1300,
-    Hello,
+    HelloRequest,
     _CLIENT,
     (Port.STATE, Port.CONTROL),
     since=1,
@@ -226,7 +226,7 @@ HELLO = MessageType(
 )
 
 
-class Progress(NamedTuple):
+class ProgressReport(NamedTuple):
     """How far the newest trajectory is. Only on connections that asked for it in HELLO."""
 
     trajectory: Annotated[int, int32("number of the newest trajectory, from 1; 0 follows 2^22 - 1")]
@@ -239,7 +239,7 @@ class Progress(NamedTuple):
     joint: Annotated[int, _JOINT]
 
 
-PROGRESS = MessageType("PROGRESS", 1301, Progress, _CONTROLLER, (Port.STATE,), since=1)
+PROGRESS = MessageType("PROGRESS", 1301, ProgressReport, _CONTROLLER, (Port.STATE,), since=1)
 
 
 class Points(NamedTuple):
@@ -310,25 +310,25 @@ class Stopped(NamedTuple):
 STOPPED = MessageType("STOPPED", 1303, Stopped, _CONTROLLER, (Port.CONTROL,), since=2)
 
 
-class Pause(NamedTuple):
+class PauseRequest(NamedTuple):
     """Holds a motion on its path, or lets it go on."""
 
     paused: Annotated[int, int32("1 stop on the path and keep it, 0 go on")]
 
 
-PAUSE = MessageType("PAUSE", 1304, Pause, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
+PAUSE = MessageType("PAUSE", 1304, PauseRequest, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
 
 
-class Speed(NamedTuple):
+class SpeedRequest(NamedTuple):
     """Speed override; 100 again with every new trajectory."""
 
     percent: Annotated[float, float32("1", "1 to 100 % of the programmed speed")]
 
 
-SPEED = MessageType("SPEED", 1305, Speed, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
+SPEED = MessageType("SPEED", 1305, SpeedRequest, _CLIENT, (Port.CONTROL,), 2, (_DONE, _NOT_DONE))
 
 
-class Heartbeat(NamedTuple):
+class HeartbeatRequest(NamedTuple):
     """A sign of life of the client. When the next one is late, or the connection breaks while one
     is awaited, the robot is stopped (CLIENT_LOST)."""
 
@@ -347,7 +347,7 @@ class HeartbeatReply(NamedTuple):
 HEARTBEAT = MessageType(
     "HEARTBEAT",
     1306,
-    Heartbeat,
+    HeartbeatRequest,
     _CLIENT,
     (Port.CONTROL,),
     since=2,
@@ -355,7 +355,7 @@ HEARTBEAT = MessageType(
 )
 
 
-class Signal(NamedTuple):
+class SignalRequest(NamedTuple):
     """Reads or writes one of the signals that the configuration exposes."""
 
     signal: Annotated[int, int32("of the configuration, from 0")]
@@ -373,7 +373,7 @@ class SignalReply(NamedTuple):
 SIGNAL = MessageType(
     "SIGNAL",
     1307,
-    Signal,
+    SignalRequest,
     _CLIENT,
     (Port.CONTROL,),
     since=2,
@@ -381,7 +381,7 @@ SIGNAL = MessageType(
 )
 
 
-class Event(NamedTuple):
+class EventReport(NamedTuple):
     """An event of the controller's log. Only on connections that asked for it in HELLO."""
 
     domain: Annotated[int, int32("of the event's number: 1 to 14; 0: so many were not told")]
@@ -390,7 +390,7 @@ class Event(NamedTuple):
     title: Annotated[str, chars(80, "in the controller's language")]
 
 
-EVENT = MessageType("EVENT", 1308, Event, _CONTROLLER, (Port.STATE,), since=2)
+EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), since=2)
 
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
 """All of them, by number."""

@@ -13,12 +13,14 @@ from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.rapid.builtins import signatures
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.registry import bound
 from rapidgen.runtime.sockets import SocketTable
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Box, Type
-from rapidgen.system.model import System
+from rapidgen.system.model import System, TaskSpec
 
 _TYPES = {bool: BOOL, str: STRING}
 
@@ -46,7 +48,8 @@ class Bench:
             network=network,
             sockets=SocketTable(network),
             io=IOSystem(self.scheduler, log, system or System("test", ())),
-            dialect=Dialect(),
+            dialect=Switches(),
+            options=Options(),
             operator=Operator(self.scheduler, parts.pop("answers", None)),
             files=parts.pop("files", None) or FileSystem(),
         )
@@ -67,7 +70,8 @@ class Bench:
             task.launch(lambda: results.update({i: body(task)}))
 
         for i, body in enumerate(bodies):
-            start(i, body, Task(self.scheduler, f"T{i + 1}", self.controller))
+            spec = TaskSpec(f"T{i + 1}")
+            start(i, body, Task(self.scheduler, spec, self.controller, Shared()))
         self.scheduler.advance(
             until=None if until is None else round(until * 1e9),
             stop=lambda: len(results) == len(bodies),

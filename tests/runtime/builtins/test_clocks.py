@@ -4,14 +4,14 @@ from types import SimpleNamespace
 
 import pytest
 
-from rapidgen.runtime.builtins.clocks import Clock
+from rapidgen.runtime.builtins.clocks import StopWatch
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.texts import TextTables
 from rapidgen.system.model import System
 
 
 def test_a_clock_runs_stops_and_goes_on(bench):
-    clock = Clock()
+    clock = StopWatch()
 
     def body(task):
         seen = [bench.call(task, "ClkRead", clock)]
@@ -34,7 +34,7 @@ def test_a_clock_runs_stops_and_goes_on(bench):
 
 
 def test_a_clock_holds_49_days(bench):
-    clock = Clock()
+    clock = StopWatch()
 
     def body(task):
         bench.call(task, "ClkStart", clock)

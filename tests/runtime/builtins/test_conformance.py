@@ -13,7 +13,7 @@ import pytest
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
-from rapidgen.runtime.switches import parse_dialect
+from rapidgen.runtime.switches import parse_switches
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 
 HERE = Path(__file__).parent / "conformance"
@@ -40,7 +40,7 @@ def _execute(path):
         robots,
         cycle="once",
         autostart=False,
-        dialect=parse_dialect(",".join(_marks(text, "dialect"))),
+        dialect=parse_switches(",".join(_marks(text, "dialect"))),
     ) as controller:
         controller.operator.subscribe(lambda _, line: printed.append(line))
         controller.start_program()

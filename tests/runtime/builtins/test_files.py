@@ -12,7 +12,7 @@ from rapidgen.machine.files import Directory, FileSystem, IODevice
 from rapidgen.proving.workers import in_a_fork
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import Pos
 
 
@@ -47,7 +47,7 @@ def test_open_without_a_mode_empties_the_file(bench, disk):
 
 def test_open_without_a_mode_reads_in_the_other_dialect(bench, disk):
     (disk / "a").write_text("old")
-    bench.controller.dialect = Dialect(open_default="read")
+    bench.controller.dialect = Switches(open_default="read")
     device = IODevice()
     bench("Open", "a", device)
     assert bench("ReadStr", device) == "old"

@@ -6,7 +6,7 @@ from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.io import STATUSES, status_name
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.signals import SignalAlias
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.system.model import (
     CrossConnection,
     SignalSpec,
@@ -169,7 +169,7 @@ def test_which_bit_of_a_group_comes_first(lowest, value):
         SignalSpec("go1", "GO", device="d652", size=4, bits=(4, 5, 6, 7)),
         SignalSpec("do6", "DO", device="d652", bits=(6,)),
     )
-    dialect = Dialect(bit_order="lowest" if lowest else "highest")
+    dialect = Switches(bit_order="lowest" if lowest else "highest")
     with VirtualController(System("plant", (), signals=specs), dialect=dialect) as controller:
         controller.signals["do6"] = 1
         assert controller.signals["go1"] == value
@@ -206,7 +206,7 @@ def test_alias_io(plant):
 
 def test_alias_io_by_name_in_the_other_dialect(plant):
     bench, io = plant()
-    bench.controller.dialect = Dialect(alias_by_name=False)
+    bench.controller.dialect = Switches(alias_by_name=False)
     alias = SignalAlias("DO")
     with pytest.raises(FatalError):
         bench("AliasIO", bench.box("do1"), alias)

@@ -4,8 +4,8 @@ import math
 
 import pytest
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.values import single
 
 
 @pytest.mark.parametrize(

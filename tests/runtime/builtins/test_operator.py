@@ -6,8 +6,9 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.machine.log import Domain, EventLog, EventType
 from rapidgen.machine.operator import Answer, read_answers
 from rapidgen.machine.scheduler import Scheduler
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError, errnum
-from rapidgen.runtime.values import ListItem, Orient, PersistentCell, Pos, single
+from rapidgen.runtime.values import ListItem, Orient, PersistentCell, Pos
 from rapidgen.system.model import SignalSpec, System
 
 

@@ -4,7 +4,7 @@ import pytest
 
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 
 USINT, UINT, UDINT, ULINT, SINT, INT, DINT, LINT = 1, 2, 4, 8, -1, -2, -4, -8
 
@@ -116,7 +116,7 @@ def test_packing_with_a_gap(bench):
 
 
 def test_packing_with_a_gap_in_the_other_dialect(bench):
-    bench.controller.dialect = Dialect(pack_beyond="error")
+    bench.controller.dialect = Switches(pack_beyond="error")
     raw = RawBytes(b"ab")
     with pytest.raises(RapidError) as caught:
         bench("PackRawBytes", bench.box(1), raw, 4, IntX=DINT)
@@ -134,7 +134,7 @@ def test_unpacking_beyond_the_valid_length(bench):
 
 
 def test_unpacking_beyond_the_valid_length_in_the_other_dialect(bench):
-    bench.controller.dialect = Dialect(unpack_beyond="zero")
+    bench.controller.dialect = Switches(unpack_beyond="zero")
     target = bench.box(5)
     bench("UnpackRawBytes", RawBytes(b"\1\2"), 1, target, IntX=DINT)
     assert target.get() == 513
@@ -147,7 +147,7 @@ def test_unpacking_beyond_the_valid_length_in_the_other_dialect(bench):
 )
 def test_a_ulint_in_all_dialects(bench, switch, found):
     """3HAC16581-1 lists ULINT, and that it needs a dnum; whether it is exact is in no source."""
-    bench.controller.dialect = Dialect(unpack_ulint=switch)
+    bench.controller.dialect = Switches(unpack_ulint=switch)
     target = bench.dnum(5)
     raw = RawBytes(bytes([64, 0, 0, 0, 11, 0, 0, 0]))
     if found is None:

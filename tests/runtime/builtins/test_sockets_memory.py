@@ -5,7 +5,7 @@ import pytest
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
 from rapidgen.runtime.sockets import SocketDevice, SocketStatus
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from tests.runtime.booting import boot
 
 PORT = 5000
@@ -263,7 +263,7 @@ def test_a_socket_connects_again_behind_a_failure(bench):
 
 def test_refused_connect_and_what_follows(bench):
     """The socket has to be closed and created again, and which error: [mem]."""
-    bench.controller.dialect = Dialect(failed_connect="create")
+    bench.controller.dialect = Switches(failed_connect="create")
     socket = SocketDevice()
 
     def body(task):
@@ -285,7 +285,7 @@ def test_refused_connect_and_what_follows(bench):
     [("unreachable", "ERR_SOCK_NET_UNREACH"), ("closed", "ERR_SOCK_CLOSED")],
 )
 def test_a_refused_connect_in_other_dialects(bench, switch, error):
-    bench.controller.dialect = Dialect(refused_connect=switch)
+    bench.controller.dialect = Switches(refused_connect=switch)
     socket = SocketDevice()
 
     def body(task):
@@ -296,7 +296,7 @@ def test_a_refused_connect_in_other_dialects(bench, switch, error):
 
 
 def test_bytes_before_a_time_out_are_gone_in_the_other_dialect(bench):
-    bench.controller.dialect = Dialect(receive_timeout="drop")
+    bench.controller.dialect = Switches(receive_timeout="drop")
 
     def serving(task, socket):
         raw = RawBytes()
@@ -372,7 +372,7 @@ def test_any_number_of_sockets_in_the_other_dialect():
         ' ENDFOR\n TPWrite "40";\nERROR\n TPWrite "full";\n EXIT;\nENDPROC'
     )
     for limited, told in ((True, ["full"]), (False, ["40"])):
-        controller, printed = boot(text, dialect=Dialect(sockets_limited=limited), cycle="once")
+        controller, printed = boot(text, dialect=Switches(sockets_limited=limited), cycle="once")
         with controller:
             controller.start_program()
             controller.run(max_time=10)

@@ -4,8 +4,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.switches import Dialect
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.text import (
     NotALiteral,
     literal_text,
@@ -13,17 +14,7 @@ from rapidgen.runtime.text import (
     parse_value,
     value_text,
 )
-from rapidgen.runtime.values import (
-    BOOL,
-    DNUM,
-    NUM,
-    STRING,
-    Orient,
-    Pos,
-    Pose,
-    RobTarget,
-    single,
-)
+from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Orient, Pos, Pose, RobTarget
 
 
 @pytest.mark.parametrize(
@@ -224,7 +215,7 @@ def test_str_find_and_match(bench):
 
 
 def test_a_search_from_behind_by_the_manual_s_word(bench):
-    bench.controller.dialect = Dialect(find_behind="error")
+    bench.controller.dialect = Switches(find_behind="error")
     for name in ("StrFind", "StrMatch"):
         with pytest.raises(RapidError):
             bench(name, "Robotics", 9, "x")
@@ -273,7 +264,7 @@ def test_byte_to_str(bench, switch, byte, text):
 
 def test_a_control_character_as_its_code(bench):
     """S4 datasys 3-ByteToStr by its word; open_abb [code] ends lines with ByteToStr(10\\Char)."""
-    bench.controller.dialect = Dialect(byte_to_str="code")
+    bench.controller.dialect = Switches(byte_to_str="code")
     assert bench("ByteToStr", 7, Char=True) == "\\07"
 
 

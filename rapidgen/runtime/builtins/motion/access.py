@@ -4,21 +4,14 @@ import sys
 from collections.abc import Callable
 from functools import partial
 from types import FrameType
-from typing import Any
 
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NO_MOTION_TASK, NO_UNIT, planned
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.task import Task
-
-
-def motion_of(task: Task) -> MotionSystem:
-    """The motion system of the task's controller."""
-    motion: MotionSystem = task.controller.motion
-    return motion
+from rapidgen.runtime.values import Value
 
 
 def here(task: Task) -> Callable[[], object] | None:
@@ -35,7 +28,7 @@ def here(task: Task) -> Callable[[], object] | None:
 
 def group_of(task: Task) -> MotionGroup:
     """The group that the task moves or is connected to. FatalError: there is none."""
-    group = motion_of(task).of_task(task.name)
+    group = task.controller.motion.of_task(task.name)
     if group is None:
         raise FatalError(NO_UNIT, "No mechanical unit", f"{task.name} is connected to no robot")
     return group
@@ -43,8 +36,7 @@ def group_of(task: Task) -> MotionGroup:
 
 def data_of(task: Task, group: MotionGroup) -> RobotData:
     """What programs have set for a robot."""
-    data: RobotData = task.controller.robot_data[group.name]
-    return data
+    return task.controller.robot_data[group.name]
 
 
 @planned
@@ -55,14 +47,14 @@ def geometry_of(group: MotionGroup) -> Kinematics:
 
 def moving_group(task: Task) -> MotionGroup:
     """The same for move instructions, which only a motion task may execute."""
-    if not motion_of(task).is_motion_task(task.name):
+    if not task.controller.motion.is_motion_task(task.name):
         raise FatalError(NO_MOTION_TASK, "Not a motion task", f"{task.name} cannot execute moves")
     if task.interrupts.process_error is not None:
         task.raise_process_error(task.interrupts.process_error)
     return group_of(task)
 
 
-def named_group(task: Task, reference: Any, name: str | None) -> MotionGroup:  # noqa: ANN401
+def named_group(task: Task, reference: Value, name: str | None) -> MotionGroup:
     """The group of \\TaskRef or \\TaskName, else the task's own.
 
     ERR_TASKNAME: no such task; ERR_NOT_MOVETASK: it moves nothing.
@@ -72,7 +64,7 @@ def named_group(task: Task, reference: Any, name: str | None) -> MotionGroup:  #
         return group_of(task)
     if wanted.lower() not in (known.lower() for known in task.controller.tasks):
         raise RapidError("ERR_TASKNAME", wanted)
-    motion = motion_of(task)
+    motion = task.controller.motion
     group = motion.of_task(wanted)
     if group is None or not motion.is_motion_task(wanted):
         raise RapidError("ERR_NOT_MOVETASK", wanted)

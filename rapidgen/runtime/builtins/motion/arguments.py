@@ -1,30 +1,30 @@
 """RAPID's motion data (deg, mm) as what the planner takes (rad, m), and back."""
 
 from math import pi
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Quaternion, normalise
+from rapidgen.axes.kinematics import Posture
 from rapidgen.axes.mapping import ABSENT, JointMap
 from rapidgen.motion.modal import ModalSettings
-from rapidgen.motion.moves import Posture, Speed, Zone
+from rapidgen.motion.moves import MoveSpeed, Zone
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.robot_data import NO_OFFSETS
-from rapidgen.runtime.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, single
+from rapidgen.runtime.values import ExtJoint, JointTarget, Orient, Pos, Pose, RobJoint, Value
 
 RAD = pi / 180
 Offsets: TypeAlias = tuple[float, ...]
 """Of the external axes eax_a to eax_f, deg and mm."""
-Data: TypeAlias = Any
-"""A RAPID record of `values`."""
 STOP_TIME = 2
 """stoppointdata.type of a dwell."""
 
 
-def speed_of(data: Data, tcp: float | None, modal: ModalSettings) -> Speed:
+def speed_of(data: Value, tcp: float | None, modal: ModalSettings) -> MoveSpeed:
     """speeddata with \\V and VelSet: the override scales all parts, the limit only the TCP's."""
     share = modal.speed_override
-    return Speed(
+    return MoveSpeed(
         tcp=min((data.v_tcp if tcp is None else tcp) * share / 1000, modal.speed_limit),
         orientation=data.v_ori * share * RAD,
         linear=data.v_leax * share / 1000,
@@ -41,7 +41,7 @@ def time_of(time: float | None, modal: ModalSettings) -> float | None:
     return time / modal.speed_override
 
 
-def zone_of(data: Data, radius: float | None, stop: Data = None) -> Zone:
+def zone_of(data: Value, radius: float | None, stop: Value = None) -> Zone:
     """zonedata with \\Z; \\Inpos makes any zone a stop point."""
     if data.finep or stop is not None:
         return Zone(fine=True)
@@ -58,7 +58,7 @@ def zone_of(data: Data, radius: float | None, stop: Data = None) -> Zone:
     )
 
 
-def dwell_of(stop: Data) -> float:
+def dwell_of(stop: Value) -> float:
     """s that the program waits after a stop point with \\Inpos."""
     if stop is None:
         return 0.0
@@ -67,7 +67,7 @@ def dwell_of(stop: Data) -> float:
 
 
 def target_of(
-    data: Data,
+    data: Value,
     axes: JointMap,
     default: Posture,
     offsets: Offsets = NO_OFFSETS,
@@ -76,14 +76,14 @@ def target_of(
     return axes.from_rapid(data.robax.values(), external_values(data.extax, offsets), default)
 
 
-def external_values(data: Data, offsets: Offsets) -> tuple[float, ...]:
+def external_values(data: Value, offsets: Offsets) -> tuple[float, ...]:
     """extjoint with offsets added where an axis is used."""
     return tuple(
         v if v > ABSENT / 2 else v + o for v, o in zip(data.values(), offsets, strict=True)
     )
 
 
-def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS) -> Data:
+def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS) -> Value:
     """A posture as a fresh jointtarget."""
     robot, external = axes.to_rapid(posture)
     return JointTarget(
@@ -92,7 +92,7 @@ def joint_target(axes: JointMap, posture: Posture, offsets: Offsets = NO_OFFSETS
     )
 
 
-def external_target(external: tuple[float, ...], offsets: Offsets) -> Data:
+def external_target(external: tuple[float, ...], offsets: Offsets) -> Value:
     """External axes in RAPID units as a fresh extjoint, without the offsets."""
     return ExtJoint(
         *(
@@ -102,7 +102,7 @@ def external_target(external: tuple[float, ...], offsets: Offsets) -> Data:
     )
 
 
-def quaternion(data: Data) -> Quaternion:
+def quaternion(data: Value) -> Quaternion:
     """An orient as a unit quaternion. ERR_ILLQUAT: too far from unit length.
 
     Up to 1e-5 off in the sum of squares it is normalised silently, up to 0.1 too (the manual
@@ -114,13 +114,13 @@ def quaternion(data: Data) -> Quaternion:
     return normalise(q)
 
 
-def frame(data: Data) -> Frame:
+def frame(data: Value) -> Frame:
     """A pose in m."""
     t = data.trans
     return (t.x / 1000, t.y / 1000, t.z / 1000), quaternion(data.rot)
 
 
-def pose(frame_: Frame) -> Data:
+def pose(frame_: Frame) -> Value:
     """A frame as a fresh pose in mm."""
     (x, y, z), q = frame_
     return Pose(Pos(single(x * 1000), single(y * 1000), single(z * 1000)), Orient(*map(single, q)))

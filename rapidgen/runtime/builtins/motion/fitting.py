@@ -4,20 +4,20 @@ Sources: FLo-ABB/RAPID-Scripts-and-Demos [code] for what they are called with, t
 FitSphere and Rand's largest value; FitSphere's optional arguments [mem].
 """
 
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING
 
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import target_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Orient, Pos, Pose, Ref, single
+from rapidgen.runtime.values import Orient, Pos, Pose, Ref, Value
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-Data: TypeAlias = Any
 _MOST = 100
 _FLAT = 1e-9
 """Spread of points across a line or a plane, against their spread along it."""
@@ -33,7 +33,7 @@ def rand(task: Task) -> int:
 @builtin("FitSphere")
 def fit_sphere(
     _task: Task,
-    points: dict[int, Data],
+    points: dict[int, Value],
     count: float | None,
     centre: Ref,
     radius: Ref,
@@ -76,10 +76,10 @@ def fit_sphere(
 @builtin("MToolTCPCalib")
 def m_tool_tcp_calib(
     task: Task,
-    one: Data,
-    two: Data,
-    three: Data,
-    four: Data,
+    one: Value,
+    two: Value,
+    three: Value,
+    four: Value,
     tool: Ref,
     largest: Ref,
     mean: Ref,
@@ -126,5 +126,5 @@ def _matrix(q: tuple[float, float, float, float]) -> "NDArray[np.float64]":
     )
 
 
-def _pos(values: "NDArray[np.float64]") -> Data:
+def _pos(values: "NDArray[np.float64]") -> Value:
     return Pos(*(single(float(v)) for v in values))

@@ -5,43 +5,42 @@ MirPos, ORobT, NOrient). Lengths are mm throughout: these functions never leave 
 """
 
 from math import pi, sqrt
-from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.mapping import ABSENT
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import quaternion
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, single
+from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, Value
 
-Data: TypeAlias = Any
 _RAD = pi / 180
 _CLOSEST = 0.1
 """mm between the points of a frame (S4 datasys 3-DefFrame)."""
 _STRAIGHT = 1e-4
 
 
-def _vector(data: Data) -> Vector:
+def _vector(data: Value) -> Vector:
     return data.x, data.y, data.z
 
 
-def _frame(data: Data) -> Frame:
+def _frame(data: Value) -> Frame:
     return _vector(data.trans), quaternion(data.rot)
 
 
-def _pos(v: Vector) -> Data:
+def _pos(v: Vector) -> Value:
     return Pos(single(v[0]), single(v[1]), single(v[2]))
 
 
-def _orient(q: frames.Quaternion) -> Data:
+def _orient(q: frames.Quaternion) -> Value:
     return Orient(*map(single, q))
 
 
-def _pose(frame: Frame) -> Data:
+def _pose(frame: Frame) -> Value:
     return Pose(_pos(frame[0]), _orient(frame[1]))
 
 
@@ -49,7 +48,7 @@ def _pose(frame: Frame) -> Data:
 
 
 @builtin("Offs", pure=True)
-def offs(_task: Task, point: Data, x: float, y: float, z: float) -> Data:
+def offs(_task: Task, point: Value, x: float, y: float, z: float) -> Value:
     """Shifted along the axes of the object frame; the rest stays."""
     moved = point.copy()
     moved.trans = _pos(frames.add(_vector(point.trans), (x, y, z)))
@@ -59,14 +58,14 @@ def offs(_task: Task, point: Data, x: float, y: float, z: float) -> Data:
 @builtin("RelTool", pure=True)
 def rel_tool(
     _task: Task,
-    point: Data,
+    point: Value,
     dx: float,
     dy: float,
     dz: float,
     rx: float | None,
     ry: float | None,
     rz: float | None,
-) -> Data:
+) -> Value:
     """Shifted in the target's own frame, then turned about x, new y, new z."""
     position, q = _frame(point)
     moved = point.copy()
@@ -80,8 +79,8 @@ def rel_tool(
 
 @builtin("MirPos", pure=True)
 def mir_pos(
-    _task: Task, point: Data, plane: Data, work_object: Data, mirror_y: bool | None
-) -> Data:
+    _task: Task, point: Value, plane: Value, work_object: Value, mirror_y: bool | None
+) -> Value:
     """Mirrored in the xy plane of the plane's object frame; configuration as it was.
 
     z and x of the tool are mirrored (\\MirY: z and y); the third axis keeps it right-handed.
@@ -107,7 +106,9 @@ def mir_pos(
 
 
 @builtin("ORobT")
-def o_rob_t(task: Task, point: Data, in_displacement: bool | None, in_offsets: bool | None) -> Data:
+def o_rob_t(
+    task: Task, point: Value, in_displacement: bool | None, in_offsets: bool | None
+) -> Value:
     """Without the program displacement and the offsets of external axes.
 
     \\InPDisp takes off only the offsets, \\InEOffs only the displacement (S4 datasys 3-ORobT).
@@ -133,7 +134,7 @@ def o_rob_t(task: Task, point: Data, in_displacement: bool | None, in_offsets: b
 
 
 @builtin("DefFrame", pure=True)
-def def_frame(_task: Task, p1: Data, p2: Data, p3: Data, origin: float | None) -> Data:
+def def_frame(_task: Task, p1: Value, p2: Value, p3: Value, origin: float | None) -> Value:
     """A frame from a point on its x axis, another one, and one on the positive y side."""
     points = (_vector(p1.trans), _vector(p2.trans), _vector(p3.trans))
     return _pose(_through(points, origin))
@@ -159,8 +160,8 @@ def _through(points: tuple[Vector, Vector, Vector], origin: float | None = None)
 
 @builtin("DefDFrame", pure=True)
 def def_d_frame(
-    _task: Task, old1: Data, old2: Data, old3: Data, new1: Data, new2: Data, new3: Data
-) -> Data:
+    _task: Task, old1: Value, old2: Value, old3: Value, new1: Value, new2: Value, new3: Value
+) -> Value:
     """The displacement that takes three old points to three new ones; the first is exact."""
     old = _through((_vector(old1.trans), _vector(old2.trans), _vector(old3.trans)))
     new = _through((_vector(new1.trans), _vector(new2.trans), _vector(new3.trans)))
@@ -169,8 +170,8 @@ def def_d_frame(
 
 @builtin("DefAccFrame")
 def def_acc_frame(
-    _task: Task, first: Data, second: Data, count: float, worst: Ref, mean: Ref
-) -> Data:
+    _task: Task, first: Value, second: Value, count: float, worst: Ref, mean: Ref
+) -> Value:
     """The displacement that fits a list of points to another one best (least squares)."""
     import numpy as np  # only a best fit needs linear algebra
 
@@ -195,19 +196,19 @@ def def_acc_frame(
 
 
 @builtin("PoseMult", pure=True)
-def pose_mult(_task: Task, outer: Data, inner: Data) -> Data:
+def pose_mult(_task: Task, outer: Value, inner: Value) -> Value:
     """Frame 2 in frame 0, of frame 1 in frame 0 and frame 2 in frame 1."""
     return _pose(frames.compose(_frame(outer), _frame(inner)))
 
 
 @builtin("PoseInv", pure=True)
-def pose_inv(_task: Task, pose: Data) -> Data:
+def pose_inv(_task: Task, pose: Value) -> Value:
     """Frame 0 in frame 1."""
     return _pose(frames.invert(_frame(pose)))
 
 
 @builtin("PoseVect", pure=True)
-def pose_vect(_task: Task, pose: Data, position: Data) -> Data:
+def pose_vect(_task: Task, pose: Value, position: Value) -> Value:
     """A point given in frame 1, in frame 0."""
     return _pos(frames.transform(_frame(pose), _vector(position)))
 
@@ -216,13 +217,15 @@ def pose_vect(_task: Task, pose: Data, position: Data) -> Data:
 
 
 @builtin("OrientZYX", pure=True)
-def orient_zyx(_task: Task, z: float, y: float, x: float) -> Data:
+def orient_zyx(_task: Task, z: float, y: float, x: float) -> Value:
     """Turns about z, then the new y, then the new x (degrees)."""
     return _orient(frames.from_zyx(z * _RAD, y * _RAD, x * _RAD))
 
 
 @builtin("EulerZYX", pure=True)
-def euler_zyx(_task: Task, x: bool | None, y: bool | None, z: bool | None, rotation: Data) -> float:
+def euler_zyx(
+    _task: Task, x: bool | None, y: bool | None, z: bool | None, rotation: Value
+) -> float:
     """One of the three angles, -180 to 180 degrees. ERR_ARGVALERR without exactly one switch."""
     if (bool(x), bool(y), bool(z)).count(True) != 1:
         raise RapidError("ERR_ARGVALERR", "one of \\X, \\Y, \\Z")
@@ -231,31 +234,31 @@ def euler_zyx(_task: Task, x: bool | None, y: bool | None, z: bool | None, rotat
 
 
 @builtin("NOrient", pure=True)
-def n_orient(_task: Task, rotation: Data) -> Data:
+def n_orient(_task: Task, rotation: Value) -> Value:
     """Divided by its norm; ERR_ILLQUAT more than 0.1 off."""
     return _orient(quaternion(rotation))
 
 
 @builtin("Distance", pure=True)
-def distance(_task: Task, first: Data, second: Data) -> float:
+def distance(_task: Task, first: Value, second: Value) -> float:
     """mm"""
     return single(frames.distance(_vector(first), _vector(second)))
 
 
 @builtin("DotProd", pure=True)
-def dot_prod(_task: Task, first: Data, second: Data) -> float:
+def dot_prod(_task: Task, first: Value, second: Value) -> float:
     """Scalar product."""
     return single(frames.dot(_vector(first), _vector(second)))
 
 
 @builtin("CrossProd", pure=True)
-def cross_prod(_task: Task, first: Data, second: Data) -> Data:
+def cross_prod(_task: Task, first: Value, second: Value) -> Value:
     """Vector product."""
     return _pos(frames.cross(_vector(first), _vector(second)))
 
 
 @builtin("VectMagn", pure=True)
-def vect_magn(_task: Task, vector: Data) -> float:
+def vect_magn(_task: Task, vector: Value) -> float:
     """Length."""
     x, y, z = _vector(vector)
     return single(sqrt(x * x + y * y + z * z))

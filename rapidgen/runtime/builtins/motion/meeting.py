@@ -6,32 +6,20 @@ end together (`together.py`).
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
-from typing import Any
 
-from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.builtins.control import wait_standing
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.meetings import Meeting
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Ref, Value
 
 _REFUSED = 49_910
 """Event of ours: ABB's numbers are not public."""
 
 
-@dataclass
-class Meeting:
-    """Tasks that have come to one synchronisation point."""
-
-    members: frozenset[str]
-    arrived: set[str] = field(default_factory=set)
-    changed: WaitSet = field(default_factory=WaitSet)
-    complete: bool = False
-
-
-def _members(task: RapidTask, tasks: Ref) -> frozenset[str]:
+def _members(task: Task, tasks: Ref) -> frozenset[str]:
     """Lower-case names of a task list; rows with an empty name are none [code].
 
     ERR_TASKNAME: an unknown task, or the own one is not in its list.
@@ -44,10 +32,10 @@ def _members(task: RapidTask, tasks: Ref) -> frozenset[str]:
 
 
 def _meet(
-    task: RapidTask, point: object, members: frozenset[str], time_out: float | None, error: str
+    task: Task, point: object, members: frozenset[str], time_out: float | None, error: str
 ) -> None:
     """Wait until all members are at the point; `error` when `time_out` s passed first."""
-    meetings: dict[object, Meeting] = task.controller.meetings
+    meetings = task.controller.meetings.points
     meeting = meetings.setdefault((point, members), Meeting(members))
     own = task.name.lower()
     meeting.arrived.add(own)
@@ -65,7 +53,7 @@ def _meet(
         raise RapidError(error)
 
 
-def _point(task: RapidTask, identity: Any) -> str:  # noqa: ANN401 - an opaque syncident
+def _point(task: Task, identity: Value) -> str:
     """A syncident is known by the name of its variable, the same in each task."""
     program = task.program
     for module in program.modules.values():
@@ -77,7 +65,7 @@ def _point(task: RapidTask, identity: Any) -> str:  # noqa: ANN401 - an opaque s
 
 @builtin("WaitSyncTask")
 def wait_sync_task(
-    task: RapidTask, in_pos: bool | None, identity: Ref, tasks: Ref, time_out: float | None
+    task: Task, in_pos: bool | None, identity: Ref, tasks: Ref, time_out: float | None
 ) -> None:
     """Until every task of the list waits at the point of that name. ERR_WAITSYNCTASK: \\TimeOut."""
     if in_pos:
@@ -89,11 +77,11 @@ def wait_sync_task(
 # -- synchronised movement -----------------------------------------------------------------------
 
 
-def _partners(task: RapidTask) -> frozenset[str]:
+def _partners(task: Task) -> frozenset[str]:
     return data_of(task, group_of(task)).partners
 
 
-def _synchronised(task: RapidTask) -> bool:
+def _synchronised(task: Task) -> bool:
     motion = task.controller.motion
     if not motion.is_motion_task(task.name):
         return False
@@ -101,16 +89,17 @@ def _synchronised(task: RapidTask) -> bool:
     return bool(data.partners) and not data.suspended
 
 
-def _forget(task: RapidTask, names: Iterable[str]) -> None:
+def _forget(task: Task, names: Iterable[str]) -> None:
     motion = task.controller.motion
     for other in task.controller.rapid_tasks.values():
-        if other.name.lower() in names and motion.is_motion_task(other.name):
-            data = data_of(task, motion.of_task(other.name))
+        group = motion.moved_by(other.name) if other.name.lower() in names else None
+        if group is not None:
+            data = data_of(task, group)
             data.partners, data.suspended = frozenset(), False
 
 
 @builtin("SyncMoveOn")
-def sync_move_on(task: RapidTask, identity: Ref, tasks: Ref, time_out: float | None) -> None:
+def sync_move_on(task: Task, identity: Ref, tasks: Ref, time_out: float | None) -> None:
     """The robots stand, and all tasks of the list are here. ERR_SYNCMOVEON: \\TimeOut."""
     group = moving_group(task)
     if _partners(task):
@@ -122,7 +111,7 @@ def sync_move_on(task: RapidTask, identity: Ref, tasks: Ref, time_out: float | N
 
 
 @builtin("SyncMoveOff")
-def sync_move_off(task: RapidTask, identity: Ref, time_out: float | None) -> None:
+def sync_move_off(task: Task, identity: Ref, time_out: float | None) -> None:
     """The same at the end. ERR_SYNCMOVEOFF: \\TimeOut."""
     moving_group(task)
     members = _partners(task)
@@ -134,25 +123,25 @@ def sync_move_off(task: RapidTask, identity: Ref, time_out: float | None) -> Non
 
 
 @builtin("SyncMoveUndo")
-def sync_move_undo(task: RapidTask) -> None:
+def sync_move_undo(task: Task) -> None:
     """Ends synchronised movement of all its tasks; without one nothing happens."""
     moving_group(task)
     _forget(task, _partners(task))
 
 
 @builtin("SyncMoveSuspend")
-def sync_move_suspend(task: RapidTask) -> None:
+def sync_move_suspend(task: Task) -> None:
     """Moves are independent until SyncMoveResume, on the path level behind StorePath."""
     _pause(task, suspended=True)
 
 
 @builtin("SyncMoveResume")
-def sync_move_resume(task: RapidTask) -> None:
+def sync_move_resume(task: Task) -> None:
     """Moves are synchronised again."""
     _pause(task, suspended=False)
 
 
-def _pause(task: RapidTask, *, suspended: bool) -> None:
+def _pause(task: Task, *, suspended: bool) -> None:
     group = moving_group(task)
     data = data_of(task, group)
     members = data.partners
@@ -164,7 +153,7 @@ def _pause(task: RapidTask, *, suspended: bool) -> None:
 
 
 @builtin("TasksInSync")
-def tasks_in_sync(task: RapidTask, tasks: Ref) -> bool:
+def tasks_in_sync(task: Task, tasks: Ref) -> bool:
     """Whether all tasks of the list move synchronously."""
     names = {entry.taskname.lower() for entry in tasks.get().values()} - {""}
     named = [t for t in task.controller.rapid_tasks.values() if t.name.lower() in names]
@@ -172,6 +161,6 @@ def tasks_in_sync(task: RapidTask, tasks: Ref) -> bool:
 
 
 @builtin("IsSyncMoveOn")
-def is_sync_move_on(task: RapidTask) -> bool:
+def is_sync_move_on(task: Task) -> bool:
     """Whether the task's robot moves synchronously with others."""
     return _synchronised(task)

@@ -9,7 +9,6 @@ Sources: 3HAC050917 (RobotWare 6) for arguments; S4 datasys 2-MoveAbsJ, 2-MoveL,
 
 from dataclasses import replace
 from math import inf
-from typing import Any, TypeAlias
 
 from rapidgen.motion.moves import Carrier, From, JointMove, PathEvent
 from rapidgen.runtime.builtins.io import fitting
@@ -21,7 +20,7 @@ from rapidgen.runtime.builtins.motion.arguments import (
     time_of,
     zone_of,
 )
-from rapidgen.runtime.builtins.motion.request import Given, bind, cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.request import MoveArguments, bind, cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.targets import carrier_of
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.compiler.symbols import Routine
@@ -31,9 +30,7 @@ from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.interrupts import Interrupt
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
-
-Data: TypeAlias = Any
+from rapidgen.runtime.values import Ref, Value
 
 
 @builtin("MoveAbsJ", cost="move")
@@ -41,15 +38,15 @@ Data: TypeAlias = Any
 def move_abs_j(
     task: Task,
     concurrent: bool | None,
-    to: Data,
+    to: Value,
     identity: float | None,
     no_offsets: bool | None,
-    speed: Data,
+    speed: Value,
     tcp_speed: float | None,
     time: float | None,
-    zone: Data,
+    zone: Value,
     radius: float | None,
-    stop: Data,
+    stop: Value,
     tool: Ref,
     work_object: Ref | None,
     _load: Ref | None,
@@ -84,13 +81,13 @@ def move_abs_j(
 def move_ext_j(
     task: Task,
     concurrent: bool | None,
-    to: Data,
+    to: Value,
     identity: float | None,
     use_offsets: bool | None,
-    speed: Data,
+    speed: Value,
     time: float | None,
-    zone: Data,
-    stop: Data,
+    zone: Value,
+    stop: Value,
 ) -> None:
     """Robot axes stay where the path ends, and only the speeds of external axes count."""
     group = moving_group(task)
@@ -119,7 +116,7 @@ def move_ext_j(
 # -- with a signal, or a procedure, in the middle of the corner ---------------------------------
 
 
-def _setting(task: Task, given: Given) -> tuple[PathEvent]:
+def _setting(task: Task, given: MoveArguments) -> tuple[PathEvent]:
     """The output changes in the middle of the corner, at a stop point on arrival."""
     signal, value = given["Signal"].signal, given["Value"]
     wanted = fitting(signal, given["Dvalue"] if value is None else value)
@@ -127,10 +124,10 @@ def _setting(task: Task, given: Given) -> tuple[PathEvent]:
     return (PathEvent(From.MIDDLE, 0.0, lambda: io.set(signal, wanted)),)
 
 
-def _calling(task: Task, given: Given) -> tuple[PathEvent]:
+def _calling(task: Task, given: MoveArguments) -> tuple[PathEvent]:
     """The procedure runs when the task next attends, as a trap would; not inside a trap."""
     name = given["ProcName"]
-    routine = task.program.globals.get(name.lower())
+    routine = task.program.find_routine(None, name.lower())
     if not isinstance(routine, Routine) or routine.kind != "PROC":
         raise RapidError("ERR_REFUNKPRC", name)
 

@@ -7,7 +7,7 @@ Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-St
 from collections.abc import Iterable
 
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of, motion_of
+from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, planned
 from rapidgen.runtime.registry import builtin
@@ -18,7 +18,7 @@ OTHER_TASK = "other task"
 
 
 def _reason(task: Task) -> str:
-    motion = motion_of(task)
+    motion = task.controller.motion
     if motion.is_motion_task(task.name):
         return MOVE_TASK
     return OTHER_TASK if motion.settings.stop_owner == "kind" else f"{OTHER_TASK} {task.name}"
@@ -27,9 +27,9 @@ def _reason(task: Task) -> str:
 def _groups(task: Task, all_tasks: bool | None) -> Iterable[MotionGroup]:
     if not all_tasks:
         return (group_of(task),)
-    if motion_of(task).is_motion_task(task.name):
+    if task.controller.motion.is_motion_task(task.name):
         raise FatalError(NOT_ALLOWED, "Not allowed", "\\AllMotionTasks is for non-motion tasks")
-    return motion_of(task).groups.values()
+    return task.controller.motion.groups.values()
 
 
 @builtin("StopMove", cost="call")
@@ -38,7 +38,7 @@ def stop_move(task: Task, quick: bool | None, all_tasks: bool | None) -> None:
     groups = tuple(_groups(task, all_tasks))
     for group in groups:
         group.stop(_reason(task), quick=bool(quick))
-    if motion_of(task).settings.stop_waits:
+    if task.controller.motion.settings.stop_waits:
         for group in groups:
             group.wait_standing(task)
 

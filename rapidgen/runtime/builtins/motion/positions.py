@@ -3,8 +3,6 @@
 Sources: S4 datasys 3-CJointT, 3-CRobT, 3-CTool; 3HAC050917 for CalcJointT and CalcRobT.
 """
 
-from typing import Any, TypeAlias
-
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
@@ -23,27 +21,25 @@ from rapidgen.runtime.builtins.motion.targets import (
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, WobjData
-
-Data: TypeAlias = Any
+from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, Value, WobjData
 
 
-def tool0() -> Data:
+def tool0() -> Value:
     """tooldata of the flange."""
     return ToolData(True, _identity(), load0())
 
 
-def load0() -> Data:
+def load0() -> Value:
     """loaddata of next to nothing."""
     return LoadData(0.001, Pos(0, 0, 0.001), Orient(1, 0, 0, 0))
 
 
-def wobj0() -> Data:
+def wobj0() -> Value:
     """wobjdata of the world."""
     return WobjData(False, True, "", _identity(), _identity())
 
 
-def _identity() -> Data:
+def _identity() -> Value:
     return Pose(Pos(0, 0, 0), Orient(1, 0, 0, 0))
 
 
@@ -62,14 +58,14 @@ def carrier_for(
     )
 
 
-def here_of(task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Data:
+def here_of(task: Task, group: MotionGroup, tool: Ref | None, work_object: Ref | None) -> Value:
     """The TCP now as a robtarget, in the displaced frame of an object."""
     carrier = carrier_for(task, group, tool, work_object)
     return rob_target(group, group.positions(), carrier, data_of(task, group).external_offset)
 
 
 @builtin("CJointT")
-def c_joint_t(task: Task, reference: Data, name: str | None) -> Data:
+def c_joint_t(task: Task, reference: Value, name: str | None) -> Value:
     """Arm-side angles and external axes now; external axes in the shifted frame."""
     group = named_group(task, reference, name)
     return joint_target(group.map, group.positions(), data_of(task, group).external_offset)
@@ -77,21 +73,21 @@ def c_joint_t(task: Task, reference: Data, name: str | None) -> Data:
 
 @builtin("CRobT")
 def c_rob_t(
-    task: Task, reference: Data, name: str | None, tool: Ref | None, work_object: Ref | None
-) -> Data:
+    task: Task, reference: Value, name: str | None, tool: Ref | None, work_object: Ref | None
+) -> Value:
     """The TCP now, in the displaced object frame."""
     group = named_group(task, reference, name)
     return here_of(task, group, tool, work_object)
 
 
 @builtin("CPos")
-def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Data:
+def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Value:
     """Position of `CRobT`."""
     return here_of(task, group_of(task), tool, work_object).trans
 
 
 @builtin("CalcRobT")
-def calc_rob_t(task: Task, joints: Data, tool: Ref, work_object: Ref | None) -> Data:
+def calc_rob_t(task: Task, joints: Value, tool: Ref, work_object: Ref | None) -> Value:
     """The robtarget of a jointtarget."""
     group = group_of(task)
     offsets = data_of(task, group).external_offset
@@ -103,11 +99,11 @@ def calc_rob_t(task: Task, joints: Data, tool: Ref, work_object: Ref | None) -> 
 def calc_joint_t(
     task: Task,
     current: bool | None,
-    target: Data,
+    target: Value,
     tool: Ref,
     work_object: Ref | None,
     number: Ref | None,
-) -> Data:
+) -> Value:
     """The jointtarget of a robtarget, in the configuration that it programs.
 
     ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached).
@@ -143,15 +139,15 @@ def _carrier(group: MotionGroup, tool: Ref, work_object: Ref | None) -> Carrier:
 
 
 @builtin("CTool")
-def c_tool(task: Task, reference: Data, name: str | None) -> Data:
+def c_tool(task: Task, reference: Value, name: str | None) -> Value:
     """Tool of the last move."""
-    tool: Data = data_of(task, named_group(task, reference, name)).tool or tool0()
+    tool: Value = data_of(task, named_group(task, reference, name)).tool or tool0()
     return tool.copy()
 
 
 @builtin("CWObj")
-def c_wobj(task: Task, reference: Data, name: str | None) -> Data:
+def c_wobj(task: Task, reference: Value, name: str | None) -> Value:
     """Work object of the last move."""
     data = data_of(task, named_group(task, reference, name))
-    work_object: Data = data.work_object or wobj0()
+    work_object: Value = data.work_object or wobj0()
     return work_object.copy()

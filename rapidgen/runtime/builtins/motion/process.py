@@ -5,17 +5,15 @@ are no dynamics: torques are 0, loads change nothing. gizatt/ABB-IRB140 [code] f
 TestSignDefine, its twelve channels and the numbers of a force sensor's signals.
 """
 
-from typing import Any
-
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.builtins.motion.units import unit_axis
-from rapidgen.runtime.errors import FatalError, RapidError, errnum
+from rapidgen.runtime.errors import FatalError, Location, RapidError, errnum
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.process_errors import ProcessError
-from rapidgen.runtime.task.running import RapidTask
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Ref, Value
 
 _CHANNELS = range(1, 13)
 _TORQUE = 9
@@ -25,7 +23,7 @@ _FORCES = range(201, 213)
 
 @builtin("ProcerrRecovery")
 def procerr_recovery(
-    task: RapidTask, origin: bool | None, last: bool | None, _signal: bool | None
+    task: Task, origin: bool | None, last: bool | None, _signal: bool | None
 ) -> None:
     """Stop the movement and raise ERR_PATH_STOP where the robot is moved from; only in a trap."""
     if not task.in_trap or origin == last:
@@ -44,9 +42,9 @@ def procerr_recovery(
 
 def _owner(group: MotionGroup) -> tuple[str, str]:
     """Module and routine of the move that made the path; empty when there is no path."""
-    place: Any = group.legs[0].move.place if group.legs else None
+    place = group.legs[0].move.place if group.legs else None
     found = place() if place is not None else None
-    return (found.module, found.routine) if found is not None else ("", "")
+    return (found.module, found.routine) if isinstance(found, Location) else ("", "")
 
 
 def _axis(group: MotionGroup, number: float) -> int:
@@ -57,14 +55,14 @@ def _axis(group: MotionGroup, number: float) -> int:
 
 
 @builtin("MechUnitLoad")
-def mech_unit_load(task: RapidTask, _unit: Any, axis: float, load: Ref) -> None:  # noqa: ANN401
+def mech_unit_load(task: Task, _unit: Value, axis: float, load: Ref) -> None:
     """Payload of an external mechanical unit."""
     group = group_of(task)
     data_of(task, group).extra[f"load of axis {int(axis)}"] = load.get().copy()
 
 
 @builtin("GetMotorTorque")
-def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa: ANN401
+def get_motor_torque(task: Task, _unit: Value, axis: float) -> float:
     """0 Nm. ERR_AXIS_PAR."""
     _axis(group_of(task), axis)
     return 0.0
@@ -75,10 +73,10 @@ def get_motor_torque(task: RapidTask, _unit: Any, axis: float) -> float:  # noqa
 
 @builtin("TestSignDefine")
 def define_test_signal(
-    task: RapidTask,
+    task: Task,
     channel: float,
     signal: float,
-    unit: Any,  # noqa: ANN401
+    unit: Value,
     axis: float,
     _sample: float,
 ) -> None:
@@ -99,15 +97,15 @@ def define_test_signal(
 
 
 @builtin("TestSignRead")
-def read_test_signal(task: RapidTask, channel: float) -> float:
+def read_test_signal(task: Task, channel: float) -> float:
     """The value of a channel. ERR_ARGVALERR: none is defined for it."""
-    value: float | None = task.controller.test_signals.get(int(channel))
+    value = task.controller.test_signals.get(int(channel))
     if value is None:
         raise RapidError("ERR_ARGVALERR", f"channel {channel:g} has no signal")
     return value
 
 
 @builtin("TestSignReset")
-def reset_test_signals(task: RapidTask) -> None:
+def reset_test_signals(task: Task) -> None:
     """All channels are free."""
     task.controller.test_signals.clear()

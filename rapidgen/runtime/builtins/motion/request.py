@@ -1,7 +1,7 @@
 """Move instructions to robtargets: one place where RAPID's arguments become a Move."""
 
 from collections.abc import Callable, Mapping
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
@@ -18,12 +18,13 @@ from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Value
 
-Given: TypeAlias = Mapping[str, Any]
+MoveArguments: TypeAlias = Mapping[str, Value]
 """Arguments of a move by the names of its parameters; None: left out."""
 
 
-def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
+def _common(task: Task, group: MotionGroup, given: MoveArguments) -> dict[str, Value]:
     """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
@@ -43,7 +44,7 @@ def _common(task: Task, group: MotionGroup, given: Given) -> dict[str, Any]:
 
 
 def joint_move(
-    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+    task: Task, given: MoveArguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget with all axes together."""
     group = moving_group(task)
@@ -59,7 +60,7 @@ def joint_move(
 
 
 def cartesian_move(
-    task: Task, given: Given, events: tuple[PathEvent, ...] = ()
+    task: Task, given: MoveArguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
@@ -79,21 +80,21 @@ def cartesian_move(
     )
 
 
-Maker: TypeAlias = Callable[[Task, Given, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
+Maker: TypeAlias = Callable[[Task, MoveArguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
 """joint_move or cartesian_move."""
 
 
 def bind(
     name: str,
     make: Maker,
-    events_of: Callable[[Task, Given], tuple[PathEvent, ...]] = lambda _task, _given: (),
+    events_of: Callable[[Task, MoveArguments], tuple[PathEvent, ...]] = lambda _task, _given: (),
 ) -> None:
     """Bind a move instruction to what makes its move and its events on the path."""
     names = parameter_names(name)
 
     @builtin(name, cost="move")
     @planned
-    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+    def execute(task: Task, *arguments: Value) -> None:
         given = dict(zip(names, arguments, strict=True))
         group, move = make(task, given, events_of(task, given))
         group.move(task, together(task, group, move, given.get("ID")))

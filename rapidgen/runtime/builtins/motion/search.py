@@ -8,13 +8,13 @@ without a hit stops the program, no handler gets it.
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
+from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Move, Posture
+from rapidgen.motion.moves import Move
 from rapidgen.runtime.builtins.motion.access import data_of
-from rapidgen.runtime.builtins.motion.request import Given, cartesian_move, parameter_names
+from rapidgen.runtime.builtins.motion.request import MoveArguments, cartesian_move, parameter_names
 from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.errors import FatalError, RapidError
@@ -22,7 +22,7 @@ from rapidgen.runtime.motion_faults import planned
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 _REASON = "search"
 _NO_HIT = 49_906
@@ -75,7 +75,7 @@ _EDGES = {
 }
 
 
-def _edges(given: Given) -> _Edges:
+def _edges(given: MoveArguments) -> _Edges:
     chosen = next((name for name in _EDGES if given[name]), None)
     return _Edges(True, False, supervised=True) if chosen is None else _EDGES[chosen]
 
@@ -91,7 +91,7 @@ def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callab
     return cell, lambda: bool(cell.v)
 
 
-def _search(task: Task, group: MotionGroup, move: Move, given: Given) -> None:
+def _search(task: Task, group: MotionGroup, move: Move, given: MoveArguments) -> None:
     edges, hard = _edges(given), bool(given["Stop"])
     change, read = _source(given["Signal"], given["PersBool"])
     halting = bool(hard or given["PStop"] or given["SStop"])
@@ -136,7 +136,7 @@ def _bind(name: str) -> None:
 
     @builtin(name, cost="move")
     @planned
-    def execute(task: Task, *arguments: Any) -> None:  # noqa: ANN401
+    def execute(task: Task, *arguments: Value) -> None:
         given = dict(zip(names, arguments, strict=True))
         group, move = cartesian_move(task, given)
         _search(task, group, together(task, group, move, given["ID"]), given)

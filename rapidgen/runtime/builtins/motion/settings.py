@@ -5,13 +5,13 @@ Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-mots
 """
 
 from math import inf
-from typing import Any, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame
 from rapidgen.runtime.builtins.motion.positions import here_of, load0
@@ -21,9 +21,8 @@ from rapidgen.runtime.motion_faults import NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, single
+from rapidgen.runtime.values import Ref, Value
 
-Data: TypeAlias = Any
 _LEAST_ACCELERATION = 0.1
 
 
@@ -157,7 +156,7 @@ def cir_path_mode(
 
 
 @builtin("SpeedLimAxis")
-def speed_lim_axis(task: Task, unit: Data, number: float, speed: float) -> None:
+def speed_lim_axis(task: Task, unit: Value, number: float, speed: float) -> None:
     """deg/s or mm/s of an axis while the system input LimitSpeed is set [mem].
 
     0: none, as the robots of ETH's cell have it for axes 2 and 3 (tetov/compas_rcf [code]).
@@ -187,7 +186,7 @@ def speed_lim_check_point(task: Task, speed: float) -> None:
 
 
 @builtin("PDispSet")
-def p_disp_set(task: Task, displacement: Data) -> None:
+def p_disp_set(task: Task, displacement: Value) -> None:
     """Replaces the program displacement."""
     group_of(task).modal.displacement = frame(displacement)
 
@@ -202,8 +201,8 @@ def p_disp_off(task: Task) -> None:
 def p_disp_on(
     task: Task,
     rotation: bool | None,
-    executed: Data,
-    programmed: Data,
+    executed: Value,
+    programmed: Value,
     tool: Ref,
     work_object: Ref | None,
 ) -> None:
@@ -224,7 +223,7 @@ def p_disp_on(
 
 
 @builtin("EOffsSet")
-def e_offs_set(task: Task, offsets: Data) -> None:
+def e_offs_set(task: Task, offsets: Value) -> None:
     """Replaces the offsets of external axes."""
     data_of(task, group_of(task)).external_offset = _used(offsets.values())
 
@@ -236,7 +235,7 @@ def e_offs_off(task: Task) -> None:
 
 
 @builtin("EOffsOn")
-def e_offs_on(task: Task, executed: Data, programmed: Data) -> None:
+def e_offs_on(task: Task, executed: Value, programmed: Value) -> None:
     """Adds, for each external axis, the executed minus the programmed value."""
     group = group_of(task)
     data = data_of(task, group)
@@ -277,15 +276,15 @@ def grip_load(task: Task, load: Ref) -> None:
 
 
 @builtin("CLoad")
-def c_load(task: Task, reference: Data, name: str | None) -> Data:
+def c_load(task: Task, reference: Value, name: str | None) -> Value:
     """What GripLoad set, else load0."""
     extra = data_of(task, named_group(task, reference, name)).extra
-    load: Data = extra.get("GripLoad") or load0()
+    load: Value = extra.get("GripLoad") or load0()
     return load.copy()
 
 
 @builtin("SoftAct")
-def soft_act(task: Task, unit: Data, number: float, softness: float, ramp: float | None) -> None:
+def soft_act(task: Task, unit: Value, number: float, softness: float, ramp: float | None) -> None:
     """A soft servo yields to contact: nothing is in contact here.
 
     ERR_ARGVALERR: softness outside 0 to 100 %, ramp below 100 % (S4 overview p.5-22).

@@ -1,12 +1,17 @@
 """robtargets as moves: frames of tool and work object, inverse kinematics with a configuration."""
 
-from typing import Any, TypeAlias
-
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.axes.kinematics import Configuration, ConfigurationCheck, Kinematics, MovingFrame
+from rapidgen.axes.kinematics import (
+    AxisConfiguration,
+    ConfigurationCheck,
+    Kinematics,
+    MovingFrame,
+    Posture,
+)
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Carrier, Posture
+from rapidgen.motion.moves import Carrier
+from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import geometry_of
 from rapidgen.runtime.builtins.motion.arguments import (
     Offsets,
@@ -16,12 +21,10 @@ from rapidgen.runtime.builtins.motion.arguments import (
 )
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import FRAMES_CONTRADICT, NO_GEOMETRY, NOT_COMPATIBLE
-from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, single
-
-Data: TypeAlias = Any
+from rapidgen.runtime.values import ConfData, Orient, Pos, RobTarget, Value
 
 
-def carrier_of(group: MotionGroup, tool: Data, work_object: Data) -> Carrier:
+def carrier_of(group: MotionGroup, tool: Value, work_object: Value) -> Carrier:
     """Frames of tooldata and wobjdata (None: wobj0) with the program displacement.
 
     Exactly one of them is held by the robot (S4 datasys 2-MoveAbsJ-3). With ufprog FALSE the user
@@ -49,7 +52,7 @@ def carrier_of(group: MotionGroup, tool: Data, work_object: Data) -> Carrier:
     )
 
 
-def _unit(group: MotionGroup, work_object: Data) -> MovingFrame:
+def _unit(group: MotionGroup, work_object: Value) -> MovingFrame:
     """What carries an object. FatalError: held by the robot too, or of unknown geometry."""
     if work_object.robhold:
         raise FatalError(
@@ -68,7 +71,7 @@ def _unit(group: MotionGroup, work_object: Data) -> MovingFrame:
     return found
 
 
-def external_posture(group: MotionGroup, data: Data, offsets: Offsets) -> Posture:
+def external_posture(group: MotionGroup, data: Value, offsets: Offsets) -> Posture:
     """The path's end with the external axes of an extjoint (deactivated ones as they are)."""
     ends = group.path_target
     values = external_values(data, offsets)
@@ -85,7 +88,7 @@ def joints_for(
     kinematics: Kinematics,
     flange: Pose,
     near: Posture,
-    wanted: Configuration | None,
+    wanted: AxisConfiguration | None,
     check: ConfigurationCheck,
 ) -> Posture:
     """The posture for a flange pose: that of the wanted configuration, or the closest one.
@@ -111,12 +114,12 @@ def joints_for(
     )
 
 
-def configuration_of(data: Data) -> Configuration:
+def configuration_of(data: Value) -> AxisConfiguration:
     """confdata"""
     return int(data.cf1), int(data.cf4), int(data.cf6), int(data.cfx)
 
 
-def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier, offsets: Offsets) -> Data:
+def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier, offsets: Offsets) -> Value:
     """A posture as a fresh robtarget in the frames of a tool and an object."""
     kinematics = geometry_of(group)
     (x, y, z), q = carrier.at(posture).pose(kinematics.forward(posture))

@@ -4,25 +4,15 @@ Between SyncMoveOn and SyncMoveOff a move waits until every task of the list has
 of its \\ID; all then take the time of the longest [mem: MultiMove is in no public source].
 """
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
-from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.meetings import Gathering
 from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.task.task import Task
-
-
-@dataclass(slots=True)
-class Gathering:
-    """Tasks that have come to a move of one \\ID, and how long each of them would take (s)."""
-
-    times: dict[str, float] = field(default_factory=dict)
-    changed: WaitSet = field(default_factory=WaitSet)
-    longest: float | None = None
-    """Known when all have come."""
 
 
 def together(task: Task, group: MotionGroup, move: Move, identity: float | None) -> Move:
@@ -35,8 +25,8 @@ def together(task: Task, group: MotionGroup, move: Move, identity: float | None)
         return move
     if identity is None:
         raise FatalError(NOT_ALLOWED, "\\ID is missing", "between SyncMoveOn and SyncMoveOff")
-    gatherings: dict[object, Gathering] = task.controller.meetings
-    point, own = ("move", data.partners, identity), task.name.lower()
+    gatherings = task.controller.meetings.moves
+    point, own = (data.partners, identity), task.name.lower()
     gathering = gatherings.setdefault(point, Gathering())
     gathering.times[own] = group.whole_time(move)
     if gathering.times.keys() == data.partners:

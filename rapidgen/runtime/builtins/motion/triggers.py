@@ -6,22 +6,20 @@ A distance counts from the end (\\Start: the beginning) of the move, \\Time in s
 
 from collections.abc import Callable
 from operator import eq, ge, gt, le, lt, ne
-from typing import Any, TypeAlias
 
 from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.builtins.motion.path import MOVE_TASK
-from rapidgen.runtime.builtins.motion.request import Given, bind, cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.request import MoveArguments, bind, cartesian_move, joint_move
 from rapidgen.runtime.builtins.motion.triggdata import TriggData
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
-Data: TypeAlias = Any
 _RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
 """opnum [mem]"""
 
@@ -147,7 +145,7 @@ def trigg_check_io(
     start: bool | None,
     _next: bool | None,
     time: bool | None,
-    signal: Data,
+    signal: Value,
     relation: float,
     value: float | None,
     large: float | None,
@@ -184,7 +182,7 @@ def trigg_data_reset(_task: Task, data: TriggData) -> None:
 
 @builtin("TriggDataCopy")
 def trigg_data_copy(_task: Task, source: TriggData, destination: TriggData) -> None:
-    """The same event in another datum, which later changes of the first one leave alone."""
+    """The same event in another triggdata, which later changes of the first one leave alone."""
     destination.event = source.event
 
 
@@ -194,7 +192,7 @@ def trigg_data_valid(_task: Task, data: TriggData) -> bool:
     return data.event is not None
 
 
-def _prepared(_task: Task, given: Given) -> tuple[PathEvent, ...]:
+def _prepared(_task: Task, given: MoveArguments) -> tuple[PathEvent, ...]:
     array = given["TriggArray"]
     if array is not None:
         held = array.get() if isinstance(array, Ref) else array

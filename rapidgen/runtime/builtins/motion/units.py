@@ -3,18 +3,14 @@
 Sources: S4 datasys 2-ActUnit, 2-DeactUnit; 3HAC050917 for IsMechUnitActive and GetNextMechUnit.
 """
 
-from typing import Any, TypeAlias
-
 from rapidgen.config.model import Joint
 from rapidgen.motion.group import MotionGroup
-from rapidgen.runtime.builtins.motion.access import group_of, motion_of
+from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
-
-Data: TypeAlias = Any
+from rapidgen.runtime.values import Ref, Value
 
 
 def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
@@ -31,23 +27,23 @@ def _axes_of(group: MotionGroup, unit: str) -> tuple[str, ...] | None:
     return tuple(axes[place:] if place == len(names) - 1 else axes[place : place + 1])
 
 
-def _external(task: Task, unit: Data) -> tuple[MotionGroup, tuple[str, ...]]:
+def _external(task: Task, unit: Value) -> tuple[MotionGroup, tuple[str, ...]]:
     """Group and axes of an external unit. FatalError: the robot itself stays active."""
-    for group in motion_of(task).groups.values():
+    for group in task.controller.motion.groups.values():
         axes = _axes_of(group, unit.value)
         if axes is not None:
             return group, axes
     raise FatalError(NOT_ALLOWED, "Not a unit that can be switched", unit.value)
 
 
-def unit_axis(task: Task, unit: Data, number: float) -> tuple[MotionGroup, Joint]:
+def unit_axis(task: Task, unit: Value, number: float) -> tuple[MotionGroup, Joint]:
     """The axis of a mechanical unit (None: the task's own robot) by its number from 1.
 
     ERR_AXIS_PAR: the unit has no such axis.
     """
     group, axes = group_of(task), None
     if unit is not None:
-        for other in motion_of(task).groups.values():
+        for other in task.controller.motion.groups.values():
             own = _axes_of(other, unit.value)
             if own is not None or unit.value.lower() == other.config.mechanical_unit.lower():
                 group, axes = other, own
@@ -63,7 +59,7 @@ def unit_axis(task: Task, unit: Data, number: float) -> tuple[MotionGroup, Joint
 
 
 @builtin("ActUnit")
-def act_unit(task: Task, unit: Data) -> None:
+def act_unit(task: Task, unit: Value) -> None:
     """Waits for standstill, then the unit's axes move with the others."""
     group, axes = _external(task, unit)
     group.wait_standing(task)
@@ -71,7 +67,7 @@ def act_unit(task: Task, unit: Data) -> None:
 
 
 @builtin("DeactUnit")
-def deact_unit(task: Task, unit: Data) -> None:
+def deact_unit(task: Task, unit: Value) -> None:
     """Waits for standstill, then the unit's axes stay. ERR_AXIS_ACT on a stored path."""
     group, axes = _external(task, unit)
     if group.path_level > 1:
@@ -81,9 +77,9 @@ def deact_unit(task: Task, unit: Data) -> None:
 
 
 @builtin("IsMechUnitActive")
-def is_mech_unit_active(task: Task, unit: Data) -> bool:
+def is_mech_unit_active(task: Task, unit: Value) -> bool:
     """Whether a unit is active; a robot always is."""
-    for group in motion_of(task).groups.values():
+    for group in task.controller.motion.groups.values():
         axes = _axes_of(group, unit.value)
         if axes is not None:
             return not group.inactive.intersection(axes)
@@ -95,7 +91,7 @@ def get_next_mech_unit(
     task: Task,
     number: Ref,
     name: Ref,
-    reference: Data,
+    reference: Value,
     is_robot: Ref | None,
     axes: Ref | None,
     task_number: Ref | None,
@@ -105,7 +101,7 @@ def get_next_mech_unit(
     may_deactivate: Ref | None,
 ) -> bool:
     """The next unit of the list: 0 begins it. FALSE behind the last one."""
-    motion = motion_of(task)
+    motion = task.controller.motion
     units = [
         (group, unit, place)
         for place, group in enumerate(motion.groups.values(), 1)

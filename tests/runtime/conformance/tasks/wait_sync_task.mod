@@ -11,7 +11,7 @@ MODULE wait_sync_task
     TPWrite text;
     ! expect: late
     WaitSyncTask alone, both \TimeOut:=0.5;
-    TPWrite "end " + GetTaskName() + ValToStr(TaskIsExecuting(\TaskName:="T_TWO"));
+    TPWrite "end " + GetTaskName() + ValToStr(TaskIsExecuting(TaskName:="T_TWO"));
     ! expect: timeout
     ! expect: end T_ROB1FALSE
   ERROR

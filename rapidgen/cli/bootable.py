@@ -1,0 +1,103 @@
+"""What `run` and `sim` boot: configuration, shipped name, generated folder or backup."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from rapidgen.config.model import GroupConfig
+    from rapidgen.diagnostics import Diagnostic
+    from rapidgen.system import System
+
+
+@dataclass(frozen=True, slots=True)
+class Bootable:
+    """A controller that can be booted. `driver` tells whether it runs a generated driver."""
+
+    name: str
+    system: "System"
+    groups: tuple["GroupConfig", ...]
+    driver: bool
+    notes: tuple["Diagnostic", ...] = ()
+
+
+def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Bootable:
+    """Read a TARGET. `robot` names the mechanics of a backup, which does not tell them.
+
+    Raises DiagnosticError.
+    """
+    path = Path(target)
+    if path.is_dir():
+        return _folder(path, robot)
+    if path.is_file() and path.suffix.lower() not in (".yaml", ".yml"):
+        raise _no_target(target)
+    from rapidgen.config import load_config
+    from rapidgen.controller.cell import in_its_cell
+    from rapidgen.generate import build, make_system
+
+    config = load_config(target, overrides=tuple(overrides))
+    system = in_its_cell(make_system(config, build(config)), config)
+    return Bootable(config.name, system, config.groups, True, tuple(config.diagnostics))
+
+
+def _folder(path: Path, robot: str) -> Bootable:
+    from rapidgen.config import from_manifest
+    from rapidgen.controller.cell import in_its_cell
+    from rapidgen.diagnostics import Diagnostic
+    from rapidgen.system import is_generated, read_manifest, read_system
+
+    if is_generated(path):
+        config = from_manifest(read_manifest(path)["configuration"])
+        system = in_its_cell(read_system(path), config)
+        return Bootable(config.name, system, config.groups, True)
+    notes: list[Diagnostic] = []
+    system = read_system(path, notes=notes)
+    groups, more = _mechanics(system, robot)
+    return Bootable(system.name, system, groups, False, (*notes, *more))
+
+
+def _mechanics(
+    system: "System", robot: str
+) -> tuple[tuple["GroupConfig", ...], tuple["Diagnostic", ...]]:
+    """A robot of the given model for each motion task."""
+    from rapidgen.config import load_config
+    from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
+    from rapidgen.diagnostics import Severity, error
+
+    groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
+    if robot or not groups:
+        return groups, ()
+    note = error(
+        "RG432",
+        None,
+        f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
+        "name the robot with `--robot NAME`; `rapidgen robots` lists the models",
+        severity=Severity.WARNING,
+    )
+    return groups, (note,)
+
+
+def _no_target(target: str) -> Exception:
+    from rapidgen.diagnostics import refusal
+
+    return refusal(
+        "RG433",
+        None,
+        f"'{target}' is no controller",
+        "name a configuration, a shipped model, a generated folder or a backup;"
+        " `rapidgen run` executes single RAPID files",
+    )
+
+
+def refuse_unloadable(system: "System") -> None:
+    """Refuse what no controller loads; names that nothing declares are found when reached.
+
+    Warnings are `rapidgen check`'s business. Raises DiagnosticError with all errors.
+    """
+    from rapidgen.diagnostics import DiagnosticError, Severity
+    from rapidgen.rapid import check
+
+    errors = [d for d in check(system, gaps=True) if d.severity is Severity.ERROR]
+    if errors:
+        raise DiagnosticError(errors)

@@ -1,0 +1,39 @@
+"""What `deploy`, `rollback` and `uninstall` do alike: show plans, ask, work, tell what became."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+import typer
+
+if TYPE_CHECKING:
+    from rapidgen.deploy import Plan
+    from rapidgen.deploy.session import FleetJob
+
+
+def show_plans(plans: "Sequence[Plan]") -> None:
+    """All plans, on stderr."""
+    from rapidgen.deploy.show import plan_text
+
+    for plan in plans:
+        typer.echo(plan_text(plan), err=True, nl=False)
+
+
+def make_sure(question: str, *, yes: bool) -> None:
+    """Ask before anything is changed. Raises DiagnosticError RG533."""
+    from rapidgen.deploy.session import confirm
+
+    confirm(question, yes=yes, ask=lambda text: typer.confirm(text, err=True))
+
+
+def carry_out(job: "FleetJob", plans: "Sequence[Plan]") -> int:
+    """Do what was planned; a table of the controllers. Raises DiagnosticError where one failed."""
+    from rapidgen.deploy.session import apply_all
+    from rapidgen.deploy.show import table
+    from rapidgen.diagnostics import DiagnosticError
+
+    outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
+    typer.echo(table(outcomes), nl=False)
+    failures = [o.error for o in outcomes if o.error is not None]
+    if failures:
+        raise DiagnosticError([d for f in failures for d in f.diagnostics], exit_code=1)
+    return 0

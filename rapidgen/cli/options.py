@@ -1,0 +1,52 @@
+"""Arguments and options that several verbs have, declared once; each verb says its default."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Config = Annotated[str, typer.Argument(help="Configuration file or shipped name.")]
+ConfigOrFolder = Annotated[
+    str, typer.Argument(help="Configuration file, shipped name or generated folder.")
+]
+ConfigOrHost = Annotated[
+    str, typer.Argument(help="Configuration file, shipped name or HOST[:M,S].")
+]
+Overrides = Annotated[
+    list[str] | None,
+    typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
+]
+Yes = Annotated[
+    bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
+]
+LoadCheck = Annotated[
+    bool,
+    typer.Option(help="Refuse programs that a controller would not load."),
+]
+
+# Of the verbs that reach a controller's files.
+Controllers = Annotated[
+    list[str],
+    typer.Option(
+        help="Controller: dir://, ftp:// or sftp:// [USER@]HOST/HOME-FOLDER; or @FILE.",
+        metavar="URL",
+    ),
+]
+User = Annotated[str, typer.Option(help="User name where the URL has none.")]
+Secrets = Annotated[
+    Path | None, typer.Option(help="TOML file (mode 600) with passwords.", metavar="FILE")
+]
+Identity = Annotated[str, typer.Option(help="SSH key for sftp://.", metavar="FILE")]
+KnownHosts = Annotated[
+    str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
+]
+Parallel = Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")]
+Overwrite = Annotated[
+    bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
+]
+
+# Of the verbs that talk to a driver.
+RobotAddress = Annotated[
+    str, typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]")
+]
+Group = Annotated[str, typer.Option(help="Motion group, where there are several.")]

@@ -1,0 +1,102 @@
+"""Points that somebody wants executed, and the motion that executes them. Sans-IO.
+
+One idea for a trajectory that is there as a whole and for one that comes point by point: what
+`Execution` and `Stream` of both clients show.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import islice
+
+import numpy as np
+
+from rapidgen.client.core.checks import CheckedPoints, LastPoint, Way
+from rapidgen.client.core.download import Download
+from rapidgen.client.core.motion import CommandedMotion
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import Progress, State
+from rapidgen.client.core.stream import PointStream
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.wire.simple_message.spec import TrajectoryState
+
+
+class Job:
+    """Points in their order. `way` and `motion` are known from the first ones on."""
+
+    def __init__(self, core: Core, names: Sequence[str] = (), *, may_download: bool = True) -> None:
+        """`names` are those of the columns, empty: the robot's own order."""
+        self.core = core
+        self.names = tuple(names)
+        self.may_download = may_download
+        self.way: Way | None = None
+        self.motion: CommandedMotion | None = None
+        self.stream: PointStream | None = None
+        """The motion, where it goes by stream."""
+        self.is_ended = False
+        """Nothing follows, and all points are on their way."""
+        self.last: LastPoint | None = None
+        """What the next points go on from."""
+        self.stopped: State | None = None
+        """Where the robot was seen to stand after a STOP for this."""
+        self._kept: list[Trajectory] = []
+
+    def begin(self, checked: CheckedPoints) -> PointStream:
+        """The first points of a stream."""
+        self.way, self.last = "stream", checked.last
+        self.motion = self.stream = stream = self.core.begin_stream(checked)
+        return stream
+
+    def take(self, motion: Download) -> None:
+        """All points, as a whole."""
+        self.way, self.motion, self.is_ended = "download", motion, True
+
+    def keep(self, checked: CheckedPoints) -> None:
+        """Points for a driver that takes only whole trajectories."""
+        self.way, self.last = "download", checked.last
+        self._kept.append(checked.trajectory)
+
+    def whole(self) -> Trajectory:
+        """All points that were kept."""
+        times = np.concatenate([points.times for points in self._kept])
+        positions = np.concatenate([points.positions for points in self._kept])
+        return Trajectory(times, positions, self._kept[0].names)
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the result is there, good or bad."""
+        return self.motion is not None and self.motion.is_over
+
+    @property
+    def total(self) -> int:
+        """Points that were appended."""
+        return self.last.points if self.last is not None else 0
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now."""
+        if self.motion is not None:
+            return self.motion.progress
+        state = TrajectoryState.RECEIVING if self.total else TrajectoryState.NONE
+        return Progress(state, self.total)
+
+    @property
+    def stopped_position(self) -> tuple[float, ...] | None:
+        """Joints where the robot stood at the end, by the best that is known."""
+        motion = self.motion
+        if motion is None:
+            return None
+        if motion.stood is not None:
+            return motion.stood
+        if motion.result is not None:
+            return motion.result.state.joints
+        if self.stopped is not None:
+            return self.stopped.joints
+        return motion.error.states[-1].joints if motion.error and motion.error.states else None
+
+
+def batches(
+    points: Iterable[tuple[float, Sequence[float]]], size: int
+) -> Iterator[tuple[list[float], list[Sequence[float]]]]:
+    """Times and joints of points, `size` at a time; nothing is taken ahead."""
+    source = iter(points)
+    while some := list(islice(source, size)):
+        yield [time for time, _ in some], [joints for _, joints in some]

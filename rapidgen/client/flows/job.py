@@ -1,0 +1,154 @@
+"""What is done with a trajectory: as a whole, or point by point while the robot moves."""
+
+from collections.abc import Callable
+
+import numpy.typing as npt
+
+from rapidgen.client.core.checks import CheckedTrajectory, Way, check_points
+from rapidgen.client.core.job import Job
+from rapidgen.client.core.motion import Result
+from rapidgen.client.core.robot import Core
+from rapidgen.client.core.state import State
+from rapidgen.client.core.stream import PointStream
+from rapidgen.client.errors import InvalidTrajectory, RobotTimeout
+from rapidgen.client.flows.download import download
+from rapidgen.client.flows.effects import Flow
+from rapidgen.client.flows.motion import patience, ready, until, wait_for_result
+from rapidgen.client.flows.stop import stop
+from rapidgen.client.trajectory import Trajectory
+
+_AHEAD = 2
+"""Batches that wait in the client for room at the controller before an append waits."""
+
+
+def execute(core: Core, trajectory: Trajectory, way: Way | None) -> Flow[Job]:
+    """A trajectory by stream or by download; None: the way that fits."""
+    yield from ready(core)
+    core.ready()
+    checked = core.check(trajectory, way)
+    if isinstance(checked, CheckedTrajectory):
+        return (yield from download(core, checked))
+    job = Job(core)
+    stream = job.begin(checked)
+    stream.trajectory = checked.trajectory
+    stream.end()
+    job.is_ended = True
+    yield from _taken(core, stream)
+    return job
+
+
+def append(job: Job, times: npt.ArrayLike, positions: npt.ArrayLike) -> Flow[None]:
+    """Add points: `times` (n,) s from the beginning, `positions` (n, k).
+
+    Waits while the controller has no room. Raises InvalidTrajectory (nothing of these was
+    sent), NotReady, TrajectoryRefused, MotionFailed, MotionStopped, NotSupported,
+    RobotTimeout, ConnectionLost. Ctrl-C here, or cancelling this, stops the robot.
+    """
+    core = job.core
+    points = Trajectory(times, positions, job.names)
+    if job.is_ended:
+        raise InvalidTrajectory.because("RG624", "this stream has ended", "begin another one")
+    if not len(points):
+        return
+    if job.way is None:
+        yield from ready(core)
+        if not job.may_download:
+            core.require_streaming()
+    if job.way == "download" or (job.way is None and not core.can_stream):
+        _keep(job, points)
+        return
+    stream = job.stream
+    if stream is None:
+        core.ready()
+        checked = check_points(points, core.known_group, before=None, start=core.start)
+        stream = job.begin(checked)
+        yield from _taken(core, stream)
+    else:
+        yield from _going_on(core, stream)
+        checked = check_points(points, core.known_group, before=job.last, start=None)
+        stream.put(checked)
+        job.last = checked.last
+    yield from _going_on(core, stream)
+
+
+def _keep(job: Job, points: Trajectory) -> None:
+    """For a driver that does not stream: checked now, sent at the end."""
+    core, total = job.core, job.total + len(points)
+    if total > core.capacity:
+        raise InvalidTrajectory.because(
+            "RG617",
+            f"{total} points, and this driver, which does not stream, holds {core.capacity}",
+            "build and deploy a driver that streams",
+        )
+    if job.last is None:
+        core.state_port.note("the driver does not stream: points are kept until the end")
+    start = core.start if job.last is None else None
+    job.keep(check_points(points, core.known_group, before=job.last, start=start))
+
+
+def flush(job: Job) -> Flow[None]:
+    """Let the robot start with what there is. Raises as `append`."""
+    if job.stream is not None:
+        job.stream.flush()
+        yield from _going_on(job.core, job.stream)
+
+
+def end(job: Job) -> Flow[None]:
+    """Nothing follows: the last point is a stop point. Raises as `append`."""
+    if job.is_ended:
+        return
+    if not job.total:
+        raise InvalidTrajectory.because(
+            "RG619", "the stream has no points", "append at least one point"
+        )
+    if job.stream is not None:
+        job.stream.end()
+        job.is_ended = True
+    else:
+        whole = yield from execute(job.core, job.whole(), "download")
+        job.motion, job.is_ended = whole.motion, True
+
+
+def result(job: Job, timeout: float | None = None) -> Flow[Result]:
+    """Wait for the end; by default for as long as the robot gets on or is paused.
+
+    Raises MotionStopped, MotionFailed, ConnectionLost; RobotTimeout when it did not end in
+    time (it goes on). Ctrl-C here, or cancelling this, stops the robot. A stream ends with it:
+    all that was appended is executed first.
+    """
+    yield from end(job)
+    assert job.motion is not None
+    return (yield from wait_for_result(job.core, job.motion, timeout))
+
+
+def cancel(job: Job) -> Flow[State | None]:
+    """Stop this motion; the state in which the robot stands. Nothing when it is over."""
+    if job.motion is not None and not job.motion.is_over:
+        job.stopped = yield from stop(job.core)
+    return job.stopped
+
+
+def _taken(core: Core, stream: PointStream) -> Flow[None]:
+    """Until the controller took the first points, or refused them."""
+    yield from _until(core, stream, lambda: stream.number is not None)
+
+
+def _going_on(core: Core, stream: PointStream) -> Flow[None]:
+    """Until there is not too much that waits; after a refusal until the motion has ended."""
+    ahead = _AHEAD * stream.batch
+    yield from _until(core, stream, lambda: stream.refusal is None and stream.backlog <= ahead)
+
+
+def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Flow[None]:
+    """Until the condition holds; the error of a stream that is over is raised."""
+    if not (yield from until(core, stream, condition)):
+        stream.failed(
+            RobotTimeout.because(
+                "RG603",
+                f"the controller has not taken points for {patience(core, stream):.1f} s",
+                "a STOP was sent; look at the robot",
+                **core.evidence(),
+            )
+        )
+    if stream.error is not None:
+        raise stream.error

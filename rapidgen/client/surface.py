@@ -1,0 +1,327 @@
+"""The methods of both clients, once: each is a flow, with its signature and its docstring.
+
+`Robot` waits for a method's outcome (`threads`), `AsyncRobot` gives it to be awaited (`aio`); so
+do their `Execution` and `Stream`. Beside it they have only what is said otherwise: `with` and
+`async with`, and iterators.
+"""
+
+import inspect
+from collections.abc import Callable, Coroutine, Iterator, Sequence
+from contextlib import AbstractContextManager, contextmanager
+from functools import partial, update_wrapper
+from operator import attrgetter
+from os import PathLike
+from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar, cast, get_args, overload
+
+from rapidgen.client import flows
+from rapidgen.client.address import Address
+from rapidgen.client.core.checks import Way
+from rapidgen.client.core.group import Group
+from rapidgen.client.core.job import Job
+from rapidgen.client.core.robot import Core, Timeouts
+from rapidgen.client.core.state import Driver, Event, Progress, State
+from rapidgen.client.flows.effects import Flow
+from rapidgen.client.recording import JointRecording
+from rapidgen.client.target import resolve
+from rapidgen.client.trajectory import Trajectory
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import Diagnostic
+
+P = ParamSpec("P")
+T = TypeVar("T")
+T_co = TypeVar("T_co", covariant=True)
+Owner = TypeVar("Owner")
+MakeCore = Callable[[Callable[[], float]], Core]
+"""A core on a clock, which gives s."""
+
+
+class FlowCarrier(Protocol):
+    """Carries out flows for a core: by the caller's thread, or on the caller's loop."""
+
+    core: Core
+    guard: AbstractContextManager[object]
+    """Held while something is looked at that another thread may change."""
+
+    def __init__(self, address: Address, make_core: MakeCore) -> None: ...
+
+
+class _Blocking(Protocol):
+    def run(self, flow: Flow[T], /) -> T: ...
+
+
+class _Awaited(Protocol):
+    def run(self, flow: Flow[T], /) -> Coroutine[None, None, T]: ...
+
+
+class _OfBlocking(Protocol):
+    @property
+    def _carrier(self) -> _Blocking: ...
+
+
+class _OfAwaited(Protocol):
+    @property
+    def _carrier(self) -> _Awaited: ...
+
+
+class Method(Protocol[P, T_co]):
+    """A flow as a method, as type checkers see it: its outcome, or what is awaited for it."""
+
+    @overload
+    def __get__(self, owner: _OfBlocking, kind: type) -> Callable[P, T_co]: ...
+    @overload
+    def __get__(
+        self, owner: _OfAwaited, kind: type
+    ) -> Callable[P, Coroutine[None, None, T_co]]: ...
+
+
+def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
+    return _method(flow, attrgetter("_core"))
+
+
+def _of_job(flow: Callable[Concatenate[Job, P], Flow[T]]) -> Method[P, T]:
+    return _method(flow, attrgetter("_job"))
+
+
+def _own(flow: Callable[Concatenate[Owner, P], Flow[T]]) -> Method[P, T]:
+    return _method(flow, lambda owner: owner)
+
+
+def _method(flow: Callable[..., Flow[T]], subject: Callable[[_OfBlocking], object]) -> Method[P, T]:
+    def method(self: _OfBlocking, *args: P.args, **options: P.kwargs) -> T:
+        return self._carrier.run(flow(subject(self), *args, **options))
+
+    told = inspect.signature(flow)
+    first, *others = told.parameters.values()
+    signature = told.replace(
+        parameters=[first.replace(name="self", annotation=first.empty), *others],
+        return_annotation=get_args(told.return_annotation)[-1],
+    )
+    update_wrapper(method, flow).__dict__["__signature__"] = signature
+    return cast("Method[P, T]", method)
+
+
+C_co = TypeVar("C_co", bound=FlowCarrier, covariant=True)
+
+
+class JobSurface(Generic[C_co]):
+    """What is common to a trajectory under way and to a stream."""
+
+    def __init__(self, carrier: C_co, job: Job) -> None:
+        self._carrier = carrier
+        self._job = job
+
+    result = _of_job(flows.job.result)
+    cancel = _of_job(flows.job.cancel)
+
+    @property
+    def progress(self) -> Progress:
+        """How far it is, now; the `total` of a stream are the points so far."""
+        with self._carrier.guard:
+            return self._job.progress
+
+    @property
+    def is_over(self) -> bool:
+        """Whether the result is there, good or bad."""
+        return self._job.is_over
+
+    @property
+    def stopped_position(self) -> tuple[float, ...] | None:
+        """Joints where the robot stood at the end; None while it moves or when nobody saw it."""
+        return self._job.stopped_position
+
+
+class ExecutionSurface(JobSurface[C_co]):
+    """A trajectory that the controller has taken."""
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """What was asked for, in the robot's order of joints."""
+        assert self._job.motion is not None
+        assert self._job.motion.trajectory is not None
+        return self._job.motion.trajectory
+
+    @property
+    def warnings(self) -> Sequence[Diagnostic]:
+        """What the checks noted."""
+        assert self._job.motion is not None
+        return self._job.motion.warnings
+
+    @property
+    def planned_seconds(self) -> float:
+        """Seconds that the controller was asked to take."""
+        assert self._job.motion is not None
+        return self._job.motion.planned_seconds
+
+    @property
+    def way(self) -> Way:
+        """`stream`: sent while the robot moves; `download`: sent whole before it moved."""
+        assert self._job.motion is not None
+        return self._job.motion.way
+
+
+class StreamSurface(JobSurface[C_co]):
+    """Points that the robot executes while more of them come."""
+
+    append = _of_job(flows.job.append)
+    flush = _of_job(flows.job.flush)
+    end = _of_job(flows.job.end)
+
+    @property
+    def total(self) -> int:
+        """Points that were appended."""
+        return self._job.total
+
+    @property
+    def time(self) -> float:
+        """Time of the last point, s from the beginning of the stream; 0 before the first."""
+        return self._job.last.time if self._job.last is not None else 0.0
+
+    @property
+    def way(self) -> Way | None:
+        """`stream`, or `download` where the driver does not stream; None before the first."""
+        return self._job.way
+
+    @property
+    def starved(self) -> int:
+        """How often the robot stood because the points ran out."""
+        return self._job.motion.starved if self._job.motion is not None else 0
+
+
+Execution = TypeVar("Execution", bound=ExecutionSurface[FlowCarrier], covariant=True)
+Stream = TypeVar("Stream", bound=StreamSurface[FlowCarrier], covariant=True)
+
+
+class RobotSurface(Generic[C_co, Execution, Stream]):
+    """One motion group of a robot; see `Robot`."""
+
+    _carrier_type: type[C_co]
+    _execution_type: type[Execution]
+    _stream_type: type[Stream]
+
+    def __init__(
+        self,
+        target: "str | PathLike[str] | RobotConfig",
+        *,
+        address: str | Address | None = None,
+        group: str = "",
+        timeouts: Timeouts | None = None,
+        watch: bool = False,
+        plain: bool = False,
+        reconnect: float = 0.0,
+        feedback: bool = False,
+    ) -> None:
+        self.address, known = resolve(target, address, group)
+        make_core = partial(
+            Core,
+            known,
+            timeouts or Timeouts(),
+            watch=watch,
+            plain=plain,
+            reconnect=reconnect,
+            feedback=feedback,
+            # No robot is at this machine's own address.
+            simulated=self.address.is_loopback,
+        )
+        self._carrier = self._carrier_type(self.address, make_core)
+        self._core = self._carrier.core
+
+    # Connection
+
+    close = _of_core(flows.stop.close)
+
+    @property
+    def is_connected(self) -> bool:
+        """Whether all connections stand."""
+        return self._core.is_connected
+
+    @property
+    def driver(self) -> Driver:
+        """Who answered, and what it cannot do."""
+        return self._core.state_port.driver
+
+    @property
+    def group(self) -> Group:
+        """Joints, limits and policy. Raises ConnectionLost before they are known."""
+        if self._core.group is None:
+            raise self._core.disconnected()
+        return self._core.group
+
+    @property
+    def messages(self) -> tuple[tuple[float, str], ...]:
+        """The last messages received, as (time, text)."""
+        with self._carrier.guard:
+            return self._core.state_port.messages
+
+    # State
+
+    next_state = _of_core(flows.state.next_state)
+    wait_until = _of_core(flows.state.wait_until)
+    next_event = _of_core(flows.state.next_event)
+    next_feedback = _of_core(flows.state.next_feedback)
+
+    @property
+    def state(self) -> State:
+        """The newest state. Raises ConnectionLost before the first."""
+        with self._carrier.guard:
+            state = self._core.state_port.state
+        if state is None:
+            raise self._core.disconnected()
+        return state
+
+    @property
+    def events(self) -> tuple[Event, ...]:
+        """The last entries of the controller's event log, where the driver tells them."""
+        with self._carrier.guard:
+            return tuple(self._core.state_port.events)
+
+    @contextmanager
+    def recording(self) -> Iterator[JointRecording]:
+        """Keep every joint message while the block runs."""
+        recording = JointRecording(self.group)
+        with self._carrier.guard:
+            self._core.state_port.listeners.append(recording.add)
+        try:
+            yield recording
+        finally:
+            with self._carrier.guard:
+                self._core.state_port.listeners.remove(recording.add)
+
+    # Motion
+
+    pause = _of_core(flows.control.pause)
+    resume = _of_core(flows.control.resume)
+    set_speed = _of_core(flows.control.set_speed)
+    read_signal = _of_core(flows.control.read_signal)
+    write_signal = _of_core(flows.control.write_signal)
+    stop = _of_core(flows.stop.stop)
+
+    def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
+        """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
+        with self._carrier.guard:
+            return self._core.check(trajectory).warnings
+
+    def way_for(self, trajectory: Trajectory) -> Way:
+        """The way that `execute` takes by default. Raises InvalidTrajectory, NotReady."""
+        with self._carrier.guard:
+            return self._core.check(trajectory).way
+
+    @_own
+    def execute(self, trajectory: Trajectory, *, way: Way | None = None) -> Flow[Execution]:
+        """Send a trajectory; returns when the controller has taken it and begins to move.
+
+        `way` is `download` (whole, before anything moves) or `stream` (the rest is sent while
+        the robot moves); by default a trajectory that the driver's ring does not hold is
+        streamed. Raises InvalidTrajectory and NotReady before a byte is sent, TrajectoryRefused
+        when nothing will move, NotSupported, RobotTimeout, ConnectionLost. Ctrl-C here, or
+        cancelling this, stops the robot.
+        """
+        job = yield from flows.job.execute(self._core, trajectory, way)
+        return self._execution_type(self._carrier, job)
+
+    def stream(self, names: Sequence[str] = (), *, fallback: bool = True) -> Stream:
+        """A trajectory without an end that is known: see `Stream`. Nothing is sent yet.
+
+        `names` are those of the columns, by default the robot's own. With `fallback` a driver
+        that does not stream gets the points as a whole, at the end.
+        """
+        return self._stream_type(self._carrier, Job(self._core, names, may_download=fallback))

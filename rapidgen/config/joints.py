@@ -1,0 +1,127 @@
+"""The joints of a group in SI units, with what is wrong or doubtful about them."""
+
+import math
+
+from rapidgen.config import model, schema
+from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
+from rapidgen.config.draft import Path as KeyPath
+from rapidgen.diagnostics import Severity
+
+MAX_JOINTS = 10
+"""Joints that a message of simple_message holds."""
+
+
+def joints_of(
+    keys: schema.GroupKeys, draft: GroupDraft, path: KeyPath, report: DraftFindings
+) -> tuple[model.Joint, ...]:
+    """The sound joints; RG007, RG013, RG014 and RG037 say what the others lack."""
+    where: KeyPath = (*path, "joints")
+    if not draft.joints:
+        report.error(
+            "RG013",
+            f"group '{draft.name}' has no joints",
+            where,
+            help="give `model:` (see `rapidgen robots`), `urdf:` or `joints:`",
+        )
+    elif len(draft.joints) > MAX_JOINTS:
+        report.error(
+            "RG013",
+            f"group '{draft.name}' has {len(draft.joints)} joints; the wire carries {MAX_JOINTS}",
+            where,
+            help="a message of simple_message holds 10 joint values: make two groups",
+        )
+    _check_radians(draft, where, report)
+    seen: dict[str, str] = {}
+    joints = []
+    for joint in draft.joints:
+        here: KeyPath = (*where, joint.name)
+        if joint.axis in seen:
+            report.error(
+                "RG013",
+                f"joints '{seen[joint.axis]}' and '{joint.name}' both drive {joint.axis}",
+                (*here, "axis"),
+                "second time",
+            )
+        if joint.axis:
+            seen.setdefault(joint.axis, joint.name)
+        made = _joint(joint, keys.acceleration_time, here, report)
+        if made:
+            joints.append(made)
+    return tuple(joints)
+
+
+def _check_radians(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
+    """Four and more turning axes that all stay within 7: radians, not degrees."""
+    turning = [joint for joint in draft.joints if joint.unit != "mm"]
+    ends = [end for joint in turning for end in (joint.lower, joint.upper) if end is not None]
+    if len(turning) >= 4 and len(ends) == 2 * len(turning) and max(map(abs, ends)) <= 7:
+        report.add(
+            "RG037",
+            Severity.WARNING,
+            f"no axis of group '{draft.name}' turns more than {max(map(abs, ends)):g} degrees",
+            path,
+            "radians?",
+            "a configuration has degrees, as ABB's data sheets",
+            key=True,
+        )
+
+
+def _joint(
+    draft: JointDraft, ramp: float, path: KeyPath, report: DraftFindings
+) -> model.Joint | None:
+    missing = [
+        name
+        for name in ("axis", "lower", "upper", "speed")
+        if getattr(draft, name) in (None, "") and not report.is_faulty((*path, name))
+    ]
+    if missing:
+        unit = "mm" if draft.unit == "mm" else "deg"
+        hints = {
+            "axis": "`axis:` is rax_1 to rax_6 or eax_a to eax_f",
+            "lower": f"limits are in {unit}",
+            "upper": f"limits are in {unit}",
+            "speed": f"`speed:` is in {unit}/s",
+        }
+        report.error(
+            "RG007",
+            f"joint '{draft.name}' lacks {', '.join(missing)}",
+            path,
+            "here",
+            "; ".join(dict.fromkeys(hints[name] for name in missing)),
+            key=True,
+        )
+    if draft.lower is None or draft.upper is None or draft.speed is None:
+        return None
+    if draft.lower >= draft.upper:
+        report.error(
+            "RG014",
+            f"joint '{draft.name}': lower limit {draft.lower:g} is not below the upper limit "
+            f"{draft.upper:g}",
+            (*path, "upper"),
+        )
+        return None
+    lower, upper = inwards(draft.lower, draft.upper)
+    factor = 0.001 if draft.unit == "mm" else math.pi / 180
+    acceleration = draft.acceleration if draft.acceleration else draft.speed / ramp
+    return model.Joint(
+        name=draft.name,
+        axis=draft.axis,
+        kind="prismatic" if draft.unit == "mm" else "revolute",
+        lower=_si(lower, draft.unit),
+        upper=_si(upper, draft.unit),
+        speed=_si(draft.speed, draft.unit),
+        acceleration=acceleration * factor,
+        sign=draft.sign,
+        offset=_si(draft.offset, draft.unit),
+        source=draft.source,
+        unsure=bool(draft.unsure),
+    )
+
+
+def _si(value: float, unit: str) -> float:
+    return value / 1000 if unit == "mm" else math.radians(value)
+
+
+def inwards(lower: float, upper: float) -> tuple[float, float]:
+    """Limits rounded inwards to 0.01 (deg or mm); noise below 1e-6 does not count."""
+    return math.ceil(lower * 100 - 1e-4) / 100, math.floor(upper * 100 + 1e-4) / 100

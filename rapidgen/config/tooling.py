@@ -1,0 +1,88 @@
+"""Tools, work objects and their frames in SI units."""
+
+import math
+
+from rapidgen.config import model, schema
+from rapidgen.config.draft import DraftFindings
+from rapidgen.config.draft import Path as KeyPath
+
+
+def _unit_quaternion(
+    values: list[float], path: KeyPath, report: DraftFindings
+) -> tuple[float, float, float, float]:
+    norm = math.sqrt(sum(v * v for v in values))
+    if abs(norm - 1) > 1e-3:
+        report.error(
+            "RG014",
+            f"{values} is not a unit quaternion (its length is {norm:.4g})",
+            path,
+            help="q1 is the scalar; [1, 0, 0, 0] turns nothing",
+        )
+        return (1.0, 0.0, 0.0, 0.0)
+    exact = abs(norm - 1) < 1e-12
+    q1, q2, q3, q4 = (v if exact else v / norm for v in values)
+    return (q1, q2, q3, q4)
+
+
+def _metres(values: list[float]) -> tuple[float, float, float]:
+    x, y, z = (v / 1000 for v in values)
+    return (x, y, z)
+
+
+def _frame(frame: schema.FrameKeys, path: KeyPath, report: DraftFindings) -> model.Placement:
+    return model.Placement(
+        _metres(frame.position),
+        _unit_quaternion(frame.orientation, (*path, "orientation"), report),
+    )
+
+
+def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> model.Tool:
+    """The tool of the moves."""
+    load = tool.load
+    if tool.name == "tool0" and tool != schema.ToolKeys():
+        report.error(
+            "RG014",
+            "tool0 is the controller's own and cannot be described",
+            path,
+            help="give the tool another `name:`",
+            key=True,
+        )
+    elif tool.name != "tool0" and load.mass <= 0:
+        report.error(
+            "RG014",
+            f"tool '{tool.name}' weighs nothing",
+            (*path, "load", "mass"),
+            help="a controller refuses to move with a tool without mass: add `load: {mass: ...}`",
+        )
+    x, y, z = load.inertia
+    return model.Tool(
+        tool.name,
+        tool.held,
+        _frame(tool.frame, (*path, "frame"), report),
+        model.Load(
+            load.mass,
+            _metres(load.centre),
+            _unit_quaternion(load.axes, (*path, "load", "axes"), report),
+            (x, y, z),
+        ),
+    )
+
+
+def work_object_of(
+    given: schema.WorkObjectKeys, path: KeyPath, report: DraftFindings
+) -> model.WorkObject:
+    """The work object of the moves."""
+    if given.name == "wobj0" and given != schema.WorkObjectKeys():
+        report.error(
+            "RG014",
+            "wobj0 is the controller's own and cannot be described",
+            path,
+            help="give the work object another `name:`",
+            key=True,
+        )
+    return model.WorkObject(
+        given.name,
+        given.held,
+        _frame(given.user_frame, (*path, "user_frame"), report),
+        _frame(given.object_frame, (*path, "object_frame"), report),
+    )

@@ -1,0 +1,91 @@
+"""Modules into tasks: parsed once, linked, and what is wrong with them."""
+
+from collections.abc import Callable, Iterable, Sequence
+
+from rapidgen.config.model import GroupConfig
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error
+from rapidgen.machine.io import IOSystem
+from rapidgen.rapid import Dialect, parse
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler.missing import missing_routines
+from rapidgen.runtime.compiler.predefined import find_type
+from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Type, Value
+from rapidgen.system.model import ModuleFile, System
+
+
+class Trees:
+    """Trees of module files; the same bytes are parsed once."""
+
+    def __init__(self, robotware: tuple[int, int]) -> None:
+        self._dialect = Dialect(robotware=robotware)
+        self._parsed: dict[bytes, n.Module] = {}
+
+    def parse(self, file: ModuleFile) -> n.Module:
+        """The tree of a module file."""
+        tree = self._parsed.get(file.data)
+        if tree is None or tree.source.path != file.path:
+            tree = parse(file.data, path=file.path, dialect=self._dialect)
+            self._parsed[file.data] = tree
+        return tree
+
+
+def load(tasks: Iterable[Task], tree_of: Callable[[ModuleFile], n.Module]) -> list[Diagnostic]:
+    """Link the modules of tasks, which are ready then; warnings.
+
+    DiagnosticError: a module cannot be loaded, or the entry routine is not there.
+    """
+    found: list[Diagnostic] = []
+    for task in tasks:
+        trees = [(tree_of(file), file) for file in task.spec.modules]
+        for tree, _ in trees:
+            found += [d for d in tree.diagnostics if d not in found]
+        task.program.load([(t, f) for t, f in trees if t.name])
+        found += task.program.faults
+        entry = task.program.find_routine(None, task.spec.entry.lower())
+        if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
+            task.state = "ready"
+        else:
+            found.append(_no_entry(task))
+        found += missing_routines(task.program)
+    if any(d.severity is Severity.ERROR for d in found):
+        raise DiagnosticError(found)
+    return found
+
+
+def _no_entry(task: Task) -> Diagnostic:
+    return error(
+        "RG402",
+        None,
+        f"task {task.name} has no procedure {task.spec.entry} without parameters",
+        f"declare PROC {task.spec.entry}() in one of its modules, or name another entry",
+        severity=Severity.ERROR if task.spec.modules else Severity.WARNING,
+    )
+
+
+def configured(
+    system: System, robots: Sequence[GroupConfig], io: IOSystem
+) -> dict[str, tuple[Type, Value]]:
+    """Objects that a configuration predefines, by lower-case name: signals, mechanical units,
+    taskids."""
+    found: dict[str, tuple[Type, Value]] = {}
+    for task in system.tasks:
+        found[f"{task.name.lower()}id"] = _named("taskid", task.name)
+    for group in robots:
+        for unit in (group.mechanical_unit, *group.external_units):
+            if unit:
+                found[unit.lower()] = _named("mecunit", unit)
+    for signal in io.signals.values():
+        kind = find_type(f"signal{signal.spec.type.lower()}")
+        if kind is not None:
+            found[signal.name.lower()] = (kind, signal)
+    return found
+
+
+def _named(type_name: str, name: str) -> tuple[Type, Value]:
+    kind = find_type(type_name)
+    assert kind is not None
+    made = kind.default()
+    made.value = name
+    return kind, made

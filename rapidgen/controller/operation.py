@@ -1,0 +1,279 @@
+"""Modes, motors, emergency stop, and what starts and stops the tasks of a controller."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Literal, TypeAlias, get_args
+
+from rapidgen.machine.scheduler import WaitSet
+from rapidgen.motion.group import MotionGroup
+from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.host import Host
+from rapidgen.runtime.task.event_routines import StopEvent
+from rapidgen.runtime.task.pointer import CannotStep
+from rapidgen.runtime.task.task import Task
+
+Mode: TypeAlias = Literal["auto", "manual_reduced", "manual_full"]
+_REFUSED = 10_126
+
+
+class Operation:
+    """State of one controller as a whole, and what its changes do to tasks and robots."""
+
+    def __init__(self, host: Host) -> None:
+        self._host = host
+        self.mode: Mode = "auto"
+        self.motors_on = True
+        self.e_stop = False
+        self.failed = False
+        """SYS FAIL: a task of trust level SysFail stopped; nothing starts until a restart."""
+        self.halted = False
+        self.execution_error = False
+        self.changed = WaitSet()
+        """Whatever of the state changed."""
+
+    @property
+    def _groups(self) -> tuple[MotionGroup, ...]:
+        return tuple(self._host.motion.groups.values())
+
+    def _normal(self) -> Iterator[Task]:
+        """The tasks that a program stop stops; (semi)static ones go on."""
+        return (task for task in self._host.rapid_tasks.values() if task.spec.type == "NORMAL")
+
+    # -- power, motors, modes --------------------------------------------------------------------
+
+    def power_up(self) -> None:
+        """After switching on: outputs at their defaults, POWER_ON routines are due."""
+        self._host.io.power_up()
+        for task in self._host.rapid_tasks.values():
+            task.power_up()
+        self._host.log.info(10_011, "Motors ON state")
+        self.changed.notify()
+
+    def set_motors(self, on: bool, *, event: StopEvent = "STOP") -> None:
+        """Motors on or off; off stops the program, and the routines of `event` run."""
+        if on and (self.e_stop or self.failed):
+            self._host.log.warning(_REFUSED, "Motors on refused", self._why_not())
+            return
+        if on == self.motors_on:
+            return
+        self.motors_on = on
+        if on:
+            self.halted = False
+            self._host.log.info(10_011, "Motors ON state")
+        else:
+            self._host.log.info(10_010, "Motors OFF state")
+            self.stop_program(quick=True, event=event)
+        self.changed.notify()
+
+    def set_e_stop(self, pressed: bool) -> None:
+        """Press or reset the emergency stop; motors stay off after a reset."""
+        if pressed == self.e_stop:
+            return
+        if pressed:
+            self._host.log.error(10_013, "Emergency stop state")
+            self.e_stop = True
+            for group in self._groups:
+                by_brakes = group.settings.emergency_stop == "brakes"
+                group.stop("program", quick=True, brakes=by_brakes)
+            self.set_motors(False, event="QSTOP" if self._host.dialect.e_stop_routines else "")
+        else:
+            self.e_stop = False
+            self._host.log.info(10_010, "Motors OFF state")
+        self.changed.notify()
+
+    def set_mode(self, mode: str) -> None:
+        """Change the operating mode; a running program stops, the motors go off.
+
+        ValueError: there is no such mode.
+        """
+        wanted = next((m for m in get_args(Mode) if m == mode), None)
+        if wanted is None:
+            raise ValueError(f"{mode!r} is none of {', '.join(get_args(Mode))}")
+        if wanted == self.mode:
+            return
+        self.stop_program()
+        self.mode = wanted
+        if wanted == "auto":
+            self._host.log.info(10_017, "Automatic mode confirmed")
+        else:
+            self._host.log.info(10_015, "Manual mode selected")
+        for group in self._groups:
+            group.reduced = wanted == "manual_reduced"
+        self.set_motors(False)
+        self.changed.notify()
+
+    def power_loss(self) -> None:
+        """Power goes and comes back: a warm start. Sockets and files are closed."""
+        host = self._host
+        host.log.error(10_140, "Power failure")
+        for task in host.rapid_tasks.values():
+            host.sockets.close_task(task.name)
+            host.files.close_task(task.name)
+            if task.spec.type == "SEMISTATIC":
+                task.pp_to_main()
+            else:
+                task.stop("")
+        for group in self._groups:
+            group.stop("program", brakes=True)
+        self.failed = self.halted = False
+        self.e_stop = False
+        self.motors_on = False
+        host.io.power_up()
+        for task in host.rapid_tasks.values():
+            task.power_up()
+            if task.spec.type != "NORMAL":
+                task.start()
+        self.changed.notify()
+
+    # -- the program -----------------------------------------------------------------------------
+
+    def start_program(self) -> bool:
+        """Start all tasks; False when the state does not allow it."""
+        log = self._host.log
+        obstacle = self._why_not()
+        for group in () if obstacle else self._groups:
+            way, _ = group.off_path
+            if not obstacle and way > group.settings.regain_distance:
+                obstacle = f"{group.name} is {way:.3f} m from its path: move it back or PP to main"
+        if obstacle:
+            log.warning(_REFUSED, "Program start refused", obstacle)
+            return False
+        if self.execution_error:
+            self.execution_error = False
+            log.info(10_021, "Execution error reset")
+        log.info(10_151, "Program started")
+        for task in self._host.rapid_tasks.values():
+            lost = task.state == "error" and task.pointer.place is None
+            if lost and task.spec.type == "NORMAL":
+                log.warning(_REFUSED, "Program start refused", "PP to main first", task=task.name)
+            task.start()
+        self.step_moves()
+        self.changed.notify()
+        return True
+
+    def _why_not(self) -> str:
+        """What forbids a start; empty: nothing does."""
+        if self.e_stop:
+            return "emergency stop"
+        if self.failed:
+            return "system failure state"
+        if self.halted:
+            return "a task halted the system"
+        return "" if self.motors_on else "motors are off"
+
+    def stop_program(self, *, quick: bool = False, event: StopEvent = "STOP") -> None:
+        """Stop all NORMAL tasks and the robots; (semi)static tasks go on.
+
+        The routines of `event` run in every task that is stopped.
+        """
+        for task in self._normal():
+            task.stop(event)
+        for group in self._groups:
+            group.stop("program", quick=quick)
+        self._host.log.info(10_125, "Program stopped")
+        self.changed.notify()
+
+    def pp_to_main(self) -> None:
+        """Set the program pointer of all NORMAL tasks to main."""
+        for task in self._normal():
+            task.pp_to_main()
+        for group in self._groups:
+            group.reset()
+        self._host.log.info(10_002, "Program pointer has been reset")
+
+    def drop_paths(self) -> None:
+        """PP was moved, not to main: the path is gone, settings stay [S4 overview 4-24]."""
+        for group in self._groups:
+            group.clear_path()
+
+    def step_program(self, task: Task, *, back: bool = False, over: bool = False) -> None:
+        """Execute one statement of a task. CannotStep: not in this state, or not from there."""
+        obstacle = self._why_not()
+        if obstacle:
+            raise CannotStep(obstacle)
+        task.step(back=back, over=over)
+        if not back:
+            self.step_moves()
+        self.changed.notify()
+
+    def step_moves(self) -> None:
+        """The robots may move."""
+        for group in self._groups:
+            group.start("program")
+
+    def step_ended(self) -> None:
+        """A task has done its step."""
+        self._stop_motion()
+
+    def reset_error(self) -> None:
+        """Acknowledge the error that stopped a task."""
+        self.execution_error = False
+        self.changed.notify()
+
+    def perform(self, action: str) -> None:
+        """One of ACTIONS. ValueError: there is no such one."""
+        if action not in ACTIONS:
+            raise ValueError(f"unknown action {action}")
+        ACTIONS[action](self)
+
+    # -- tasks tell ------------------------------------------------------------------------------
+
+    def task_changed(self) -> None:
+        """The state of a task changed."""
+        self.changed.notify()
+
+    def task_failed(self, task: Task, fatal: FatalError) -> None:
+        """A task stopped with an error: log, and what its trust level says [S4 overview 4-45]."""
+        log = self._host.log
+        place = str(fatal.stack[-1]) if fatal.stack else ""
+        calls = " < ".join(str(p) for p in reversed(fatal.stack[-8:]))
+        text = [t for t in fatal.arguments if t]
+        if fatal.span is not None:
+            place = f"{fatal.span.path}:{fatal.span.line}"
+        log.error(fatal.event, fatal.title, place, *text, calls, task=task.name)
+        self.execution_error = True
+        trust = task.spec.trust
+        if task.spec.type == "NORMAL":
+            self._stop_others(task)
+            self._stop_motion()
+            log.error(10_020, "Execution error state", task=task.name)
+        elif trust != "NoSafety":
+            self.failed = self.failed or trust == "SysFail"
+            self.halted = self.halted or trust == "SysHalt"
+            self._stop_others(task)
+            self._stop_motion()
+            if trust == "SysFail":
+                self.motors_on = False
+                log.error(20_095, "System failure state", "a warm start is needed")
+            elif trust == "SysHalt":
+                self.motors_on = False
+                log.error(10_010, "Motors OFF state")
+
+    def program_stopped(self, task: Task) -> None:
+        """Stop or Break in a task: the other NORMAL tasks stop, too."""
+        self._host.log.info(10_122, "Program stopped", task=task.name)
+        if task.spec.type == "NORMAL":
+            self._stop_others(task)
+
+    def _stop_others(self, task: Task) -> None:
+        for other in self._normal():
+            if other is not task:
+                other.stop()
+
+    def _stop_motion(self) -> None:
+        for group in self._groups:
+            group.stop("program")
+
+
+ACTIONS: Mapping[str, Callable[[Operation], object]] = {
+    "e-stop": lambda operation: operation.set_e_stop(True),
+    "reset-e-stop": lambda operation: operation.set_e_stop(False),
+    "motors-on": lambda operation: operation.set_motors(True),
+    "motors-off": lambda operation: operation.set_motors(False),
+    "auto": lambda operation: operation.set_mode("auto"),
+    "manual": lambda operation: operation.set_mode("manual_reduced"),
+    "start": Operation.start_program,
+    "stop": Operation.stop_program,
+    "pp-to-main": Operation.pp_to_main,
+    "power-loss": Operation.power_loss,
+}
+"""What a fault plan, the control socket and people can do with a controller, by name."""

@@ -1,0 +1,130 @@
+"""How tests and people see a controller: tasks with their data, signals by name."""
+
+from collections.abc import Iterator, Mapping
+
+from rapidgen.controller.operation import Operation
+from rapidgen.machine.io import IOSystem
+from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.runtime.errors import FatalError, Location
+from rapidgen.runtime.task.task import Task, TaskState
+from rapidgen.runtime.values import Type, Value
+
+
+class Signals(Mapping[str, float]):
+    """Values of the signals by name; assigning sets one."""
+
+    def __init__(self, io: IOSystem) -> None:
+        self._io = io
+
+    def __getitem__(self, name: str) -> float:
+        return self._io[name].value
+
+    def __setitem__(self, name: str, value: float) -> None:
+        self._io.set(self._io[name], value)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([s.name for s in self._io.signals.values()])
+
+    def __len__(self) -> int:
+        return len(self._io.signals)
+
+
+class TaskView:
+    """A task for tests: `task["Module:name"]` is a raw RAPID value (deg, mm)."""
+
+    def __init__(self, task: Task, operation: Operation) -> None:
+        self.rapid = task
+        self._operation = operation
+
+    @property
+    def name(self) -> str:
+        """Name of the task."""
+        return self.rapid.name
+
+    @property
+    def state(self) -> TaskState:
+        """`ready`, `running`, `stopped`, `finished`, `error` or `empty`."""
+        return self.rapid.state
+
+    @property
+    def fault(self) -> FatalError | None:
+        """Why the task stopped with an error."""
+        return self.rapid.fault
+
+    @property
+    def stack(self) -> tuple[Location, ...]:
+        """Where it is, outermost routine first."""
+        return self.rapid.stack()
+
+    def _data(self, name: str) -> tuple[Data, Value]:
+        program = self.rapid.program
+        where, colon, key = name.lower().rpartition(":")
+        module = program.modules.get(where) if colon else None
+        if colon and module is None:
+            raise KeyError(name)
+        data = program.find_data(module, key)
+        if data is None:
+            raise KeyError(name)
+        return data, program.space.get(data.code)
+
+    def __getitem__(self, name: str) -> Value:
+        data, kept = self._data(name)
+        if data.storage == "inline":
+            return data.value
+        return kept.v if data.storage == "cell" else kept
+
+    def __setitem__(self, name: str, value: Value) -> None:
+        data, kept = self._data(name)
+        if data.readonly:
+            raise KeyError(f"{name} is a constant")
+        if data.storage == "cell":
+            kept.set(value)
+        else:
+            program = self.rapid.program
+            program.space[program.global_ref(data)].set(value)
+
+    def type_of(self, name: str) -> tuple[Type, tuple[int, ...]]:
+        """Type and dimensions of a datum. KeyError: there is none."""
+        data, _ = self._data(name)
+        return data.type, data.dims
+
+    def start(self) -> None:
+        """Start or go on."""
+        self.rapid.start()
+
+    def stop(self) -> None:
+        """Stop the program."""
+        self.rapid.stop()
+
+    def step(self, *, back: bool = False, over: bool = False) -> None:
+        """Execute one statement; `over`: calls as a whole. CannotStep says why not.
+
+        Time has to pass for it; the task is `stopped` again then.
+        """
+        self._operation.step_program(self.rapid, back=back, over=over)
+
+    @property
+    def place(self) -> Location | None:
+        """The statement before which a stopped task stands; None when that is unknown."""
+        return self.rapid.pointer.stands_before()
+
+    def pp_to_routine(self, name: str) -> None:
+        """Set the program pointer to a procedure without parameters. CannotStep: no such one."""
+        self.rapid.pp_to_routine(name)
+        self._operation.drop_paths()
+
+    def pp_to_statement(self, line: int) -> None:
+        """Set the program pointer to another statement of the routine (PP to cursor).
+
+        Data and interrupts are kept, the path is gone. CannotStep: it cannot go on there.
+        """
+        self.rapid.pp_to_statement(line)
+        self._operation.drop_paths()
+
+    def call_service(self, name: str) -> None:
+        """Execute a service routine of a stopped task. CannotStep: it runs, or no such one."""
+        self.rapid.call_service(name)
+
+    def pp_to_main(self) -> None:
+        """Set the program pointer to main."""
+        self.rapid.pp_to_main()

@@ -1,0 +1,82 @@
+"""System parameters as ReadCfgData sees them: what the virtual controller is made of.
+
+SYS and EIO are those of the system; of MOC there is ARM with the axes' limits (rad, m), since
+programs ask for them. A written value stays here: nothing is reconfigured by it.
+"""
+
+from rapidgen.config.model import GroupConfig, Joint
+from rapidgen.system import CfgText, System, eio_cfg, sys_cfg
+from rapidgen.system.cfg import Attribute, Instance, Scalar, Section, write_cfg
+
+_Values = dict[str, Scalar | bool]
+
+
+class SystemParameters:
+    """Instances by domain, type and name, without case."""
+
+    def __init__(self, system: System, groups: tuple[GroupConfig, ...]) -> None:
+        self._texts = {text.domain: text for text in (sys_cfg(system), eio_cfg(system))}
+        version = next(iter(self._texts.values())).version
+        arms = tuple(_arm(group, joint) for group in groups for joint in group.joints)
+        self._texts["MOC"] = CfgText("MOC", version, (Section("ARM", arms),))
+        self._types: dict[tuple[str, str], list[_Values]] = {}
+        self._named: dict[tuple[str, str, str], _Values] = {}
+        for domain, text in self._texts.items():
+            for section in text.sections:
+                kind = (domain.lower(), section.name.lower())
+                for instance in section.instances:
+                    values: _Values = {
+                        a.name.lower(): a.values[0] if a.values else True
+                        for a in instance.attributes
+                    }
+                    self._types.setdefault(kind, []).append(values)
+                    self._named.setdefault((*kind, instance.text("Name").lower()), values)
+
+    @property
+    def domains(self) -> tuple[str, ...]:
+        """Names of the domains."""
+        return tuple(self._texts)
+
+    def find(self, path: str) -> list[_Values]:
+        """Attributes of `/DOMAIN/TYPE/INSTANCE`, or of every instance of `/DOMAIN/TYPE`.
+
+        They may be changed. Empty: there is none.
+        """
+        parts = [part.lower() for part in path.strip("/").split("/")]
+        if len(parts) == 2:
+            return self._types.get((parts[0], parts[1]), [])
+        found = self._named.get((parts[0], parts[1], parts[2])) if len(parts) == 3 else None
+        return [] if found is None else [found]
+
+    def text(self, domain: str) -> str:
+        """A domain as cfg text, as the system was read. KeyError: there is none."""
+        return write_cfg(self._texts[domain])
+
+
+def _arm(group: GroupConfig, joint: Joint) -> Instance:
+    return Instance(
+        (
+            Attribute("Name", (arm_name(group, joint),)),
+            Attribute("upper_joint_bound", (joint.upper,)),
+            Attribute("lower_joint_bound", (joint.lower,)),
+        )
+    )
+
+
+def arm_name(group: GroupConfig, joint: Joint) -> str:
+    """Name of the ARM of a joint, as in backups of controllers and in public RAPID.
+
+    rob1_1 to rob1_6 of ROB_1, rob_R_7 the seventh axis of a YuMi; an external axis is called as
+    its mechanical unit, with a number where that has several.
+    """
+    kind, _, axis = joint.axis.partition("_")
+    robot = group.mechanical_unit
+    robot = robot.lower().replace("_", "") if robot[-1:].isdigit() else f"rob{robot[3:]}"
+    if kind == "rax":
+        return f"{robot}_{axis}"
+    if not group.external_units:
+        return f"{robot}_{7 + 'abcdef'.index(axis)}"
+    external = [j for j in group.joints if j.axis.startswith("eax_")]
+    if len(external) == len(group.external_units):
+        return group.external_units[external.index(joint)]
+    return f"{group.external_units[0]}_{1 + external.index(joint)}"

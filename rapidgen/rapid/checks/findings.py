@@ -1,0 +1,139 @@
+"""Findings of the checker: places, severities, and what is said about unknown names."""
+
+from collections.abc import Iterable
+from typing import Final, Literal
+
+from rapidgen.diagnostics import Diagnostic, Label, Severity, error
+from rapidgen.rapid.binding import (
+    DATA,
+    ROUTINES,
+    TYPES,
+    DataSymbol,
+    ModuleScope,
+    RoutineScope,
+    RoutineSymbol,
+    Scope,
+    Symbol,
+)
+from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.checks.given import Given, closest
+from rapidgen.rapid.syntax.nodes import Node
+
+_Options = Literal["procedures", "functions", "types", "values", ""]
+_ROLES: Final[dict[str, tuple[str, frozenset[str], _Options]]] = {
+    "procedure": ("RG301", ROUTINES, "procedures"),
+    "function": ("RG301", ROUTINES, "functions"),
+    "trap": ("RG301", ROUTINES, ""),
+    "type": ("RG303", TYPES, "types"),
+    "datum": ("RG302", DATA, "values"),
+}
+"""Code, kinds of symbols that fit, and the names of options that may be there or not."""
+
+
+class Findings:
+    """What is found in one module, and what its names are known to be used for."""
+
+    def __init__(self, module: ModuleScope, given: Given) -> None:
+        self.module = module
+        self.given = given
+        self.here: Scope = module
+        """Where names are looked up: the module, or the routine or loop that is looked at."""
+        self.used: set[Symbol] = set()
+        self.found: list[Diagnostic] = []
+        self._unknown: set[tuple[str, str]] = set()
+
+    def report(
+        self,
+        code: str,
+        message: str,
+        node: Node | int,
+        *,
+        label: str = "",
+        help: str = "",
+        notes: tuple[str, ...] = (),
+        related: tuple[Label, ...] = (),
+        severity: Severity = Severity.ERROR,
+    ) -> None:
+        """Add a finding at a node or a token."""
+        first, last = (node, node) if isinstance(node, int) else (node.first, node.last)
+        span = self.module.tree.source.span(first, last)
+        self.found.append(
+            error(
+                code,
+                span,
+                message,
+                help,
+                label=label,
+                notes=notes,
+                related=related,
+                severity=severity,
+            )
+        )
+
+    def warn(
+        self, code: str, message: str, node: Node | int, *, label: str = "", help: str = ""
+    ) -> None:
+        """Add a warning."""
+        self.report(code, message, node, label=label, help=help, severity=Severity.WARNING)
+
+    def find(self, name: str) -> Symbol | None:
+        """What a name means here; it counts as used."""
+        symbol = self.here.find(name)
+        if symbol is not None:
+            self.used.add(symbol)
+        return symbol
+
+    @property
+    def locals(self) -> dict[str, DataSymbol]:
+        """Parameters, data and loop variables of the routine, by lower-case name."""
+        return self.here.names if isinstance(self.here, RoutineScope) else {}
+
+    def declared(self, symbol: Symbol) -> tuple[Label, ...]:
+        """A label at the declaration of a symbol, where it has a place."""
+        if symbol.node is None or symbol.module is None or symbol.kind == "LOOP":
+            return ()
+        source = symbol.module.tree.source
+        named = isinstance(symbol, DataSymbol | RoutineSymbol)
+        at = symbol.token if named else symbol.node.first
+        if at >= len(source.tokens):
+            return ()
+        return (Label(source.span(at, at), f"'{symbol.name}' is declared here"),)
+
+    def unknown(self, role: str, name: str, node: Node | int, *, certain: bool) -> None:
+        """A name that nothing declares: an error where it is `certain` that nothing can.
+
+        Elsewhere only a name that looks like a slip is worth a warning. Once a name.
+        """
+        code, kinds, options = _ROLES[role]
+        key = (role, name.lower())
+        if name == "<ID>" or key in self._unknown or key[1] in self.given.elsewhere:
+            return
+        if options and key[1] in signatures.option_names(options):
+            return
+        self._unknown.add(key)
+        likely = closest(name, self._candidates(kinds))
+        help = f"did you mean '{likely}'?" if likely else ""
+        if certain:
+            self.report(code, f"there is no {role} '{name}'", node, label="not declared", help=help)
+        elif likely or self.given.judges_routines:
+            self.warn(code, f"no {role} '{name}' is declared here or built in", node, help=help)
+
+    def _candidates(self, kinds: frozenset[str]) -> Iterable[str]:
+        task = self.module.task
+        for symbols in (
+            self.locals,
+            self.module.own,
+            task.globals,
+            task.installed,
+            task.configured,
+        ):
+            for symbol in symbols.values():
+                if symbol.kind in kinds:
+                    yield symbol.name
+        if kinds is ROUTINES:
+            yield from signatures.routine_names()
+        elif kinds is TYPES:
+            yield from signatures.type_names()
+        else:
+            for datum in signatures.predefined().values():
+                yield datum.name

@@ -1,0 +1,360 @@
+"""How what names stand for is kept: symbols of rapid/binding as types, data and routines of a task.
+
+Modules are linked into one Python namespace. Persistents, data of shared modules and record
+classes are common to all tasks.
+"""
+
+from dataclasses import dataclass, field
+
+from rapidgen.diagnostics import Diagnostic, Span, error
+from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, builtin, installed_objects
+from rapidgen.rapid.binding.symbols import (
+    DataSymbol,
+    ModuleSymbol,
+    RoutineSymbol,
+    Symbol,
+    TypeSymbol,
+)
+from rapidgen.rapid.syntax import nodes as n
+from rapidgen.runtime.compiler import predefined
+from rapidgen.runtime.compiler.context import CannotCompile
+from rapidgen.runtime.compiler.evaluate import evaluate
+from rapidgen.runtime.compiler.symbols import Data, Routine, formal
+from rapidgen.runtime.values import (
+    ATOMIC,
+    NUM,
+    PersistentCell,
+    SharedVariable,
+    Type,
+    Value,
+    make_array,
+    make_record,
+)
+from rapidgen.system.model import ModuleFile
+
+Typed = tuple[Type, tuple[int, ...], Value]
+"""Type, sizes and value of a datum."""
+
+
+@dataclass(slots=True, eq=False)
+class LoadedModule:
+    """A module in a task."""
+
+    index: int
+    tree: n.Module
+    file: ModuleFile
+    scope: ModuleScope
+    routines: dict[str, Routine] = field(default_factory=dict)
+    """Its own, by lower-case name."""
+    types: dict[str, Type | None] = field(default_factory=dict)
+    """What names of types mean here, as far as it was asked."""
+
+    @property
+    def name(self) -> str:
+        """As it is declared."""
+        return self.tree.name
+
+    @property
+    def declarations(self) -> dict[str, n.DataDeclaration]:
+        """Its data, by lower-case name."""
+        return {
+            key: symbol.node
+            for key, symbol in self.scope.own.items()
+            if isinstance(symbol, DataSymbol) and isinstance(symbol.node, n.DataDeclaration)
+        }
+
+    @property
+    def installed(self) -> bool:
+        """Whether it is built in: it does not see the program, which may hide its names."""
+        return self.scope.installed
+
+    def span(self, node: n.Node) -> Span:
+        """Place of a node."""
+        return self.tree.source.span(node.first, node.last)
+
+
+class Shared:
+    """What the programs of all tasks share: persistents, record classes, configured objects."""
+
+    def __init__(self, configured: dict[str, tuple[Type, Value]] | None = None) -> None:
+        self.cells: dict[str, PersistentCell] = {}
+        self.bare: set[str] = set()
+        """Cells whose declarations so far had no initial value."""
+        self.common: dict[tuple[str, str], Value] = {}
+        """Data of shared modules by module and name: cells of atoms, else the object itself."""
+        self.records: dict[tuple[object, ...], Type] = {}
+        self.configured = configured if configured is not None else {}
+        """Signals, mechanical units and taskids by lower-case name."""
+        self.names = installed_objects((k, t.name) for k, (t, _) in self.configured.items())
+
+
+class Linker:
+    """Types, data and routines of one task, each made on first need."""
+
+    def __init__(self, shared: Shared, space: dict[str, Value]) -> None:
+        """`space` is the namespace that gets values, persistents and built-ins."""
+        self.shared = shared
+        self.space = space
+        self.names = TaskScope(shared.names)
+        self.modules: dict[str, LoadedModule] = {}
+        self.faults: list[Diagnostic] = []
+        self._loaded: dict[ModuleScope, LoadedModule] = {}
+        self._serial = 0
+        self._types: dict[TypeSymbol, Type | None] = {}
+        self._data: dict[DataSymbol, Data | None] = {}
+        self._routines: dict[RoutineSymbol, Routine | None] = {}
+
+    # -- modules ---------------------------------------------------------------------------------
+
+    def add(self, tree: n.Module, file: ModuleFile) -> LoadedModule:
+        """Make the names of a module known."""
+        self._serial += 1
+        scope = self.names.add(tree, installed=file.installed or file.shared)
+        module = self._loaded[scope] = LoadedModule(self._serial, tree, file, scope)
+        self.modules[tree.name.lower()] = module
+        return module
+
+    def link(self, loaded: list[LoadedModule]) -> None:
+        """Make types, routines and data of modules whose names are known."""
+        for module in self.modules.values():
+            module.types.clear()
+        own = [(module, symbol) for module in loaded for symbol in module.scope.own.values()]
+        for module, symbol in own:
+            if isinstance(symbol, TypeSymbol):
+                self._check_type(module, symbol)
+        for module, symbol in own:
+            if isinstance(symbol, RoutineSymbol):
+                self._link_routine(module, symbol)
+        for _, symbol in own:
+            if isinstance(symbol, DataSymbol):
+                self.datum(symbol)
+
+    def remove(self, name: str) -> None:
+        """Forget a module."""
+        gone = self.modules.pop(name.lower()).scope
+        self.names.remove(gone)
+        del self._loaded[gone]
+        for symbol in gone.own.values():
+            if isinstance(symbol, TypeSymbol):
+                self._types.pop(symbol, None)
+            elif isinstance(symbol, DataSymbol):
+                self._data.pop(symbol, None)
+            elif isinstance(symbol, RoutineSymbol):
+                self._routines.pop(symbol, None)
+        for module in self.modules.values():
+            module.types.clear()
+
+    def _fault(self, module: LoadedModule, message: str, node: n.Node) -> None:
+        self.faults.append(error("RG401", module.span(node), message))
+
+    # -- types -----------------------------------------------------------------------------------
+
+    def find_type(self, module: LoadedModule, name: str) -> Type | None:
+        """What a name of a type means in a module."""
+        if name in module.types:
+            return module.types[name]
+        symbol = module.scope.type_symbol(name)
+        found = module.types[name] = None if symbol is None else self._type(symbol)
+        return found
+
+    def _check_type(self, module: LoadedModule, symbol: TypeSymbol) -> None:
+        found = self.find_type(module, symbol.name)
+        if found is None and isinstance(symbol.node, n.AliasDeclaration):
+            self._fault(module, f"type {symbol.node.type} is not known", symbol.node)
+
+    def _type(self, symbol: TypeSymbol) -> Type | None:
+        if symbol.module is None:
+            return predefined.find_type(symbol.name.lower())
+        if symbol not in self._types:
+            self._types[symbol] = None  # no record holds itself
+            self._types[symbol] = self._record(self._loaded[symbol.module], symbol)
+        return self._types[symbol]
+
+    def _record(self, module: LoadedModule, symbol: TypeSymbol) -> Type | None:
+        assert isinstance(symbol.node, n.RecordDeclaration)
+        components = []
+        for component in symbol.node.components:
+            kind = self.find_type(module, component.type)
+            if kind is None:
+                self._fault(module, f"type {component.type} is not known", component)
+                return None
+            components.append((component.name, kind))
+        signature = (symbol.name.lower(), *((c.lower(), t.name) for c, t in components))
+        known = self.shared.records.get(signature)
+        if known is None:
+            known = make_record(symbol.name, components).rapid_type
+            self.shared.records[signature] = known
+        return known
+
+    # -- routines --------------------------------------------------------------------------------
+
+    def routine(self, symbol: Symbol | None) -> Routine | None:
+        """The routine that a symbol stands for; None for anything else."""
+        if not isinstance(symbol, RoutineSymbol):
+            symbol = _meant(symbol)
+            if not isinstance(symbol, RoutineSymbol):
+                return None
+        if symbol not in self._routines:
+            self._routines[symbol] = self._builtin(symbol.name.lower())
+        return self._routines[symbol]
+
+    def _builtin(self, key: str) -> Routine | None:
+        found = predefined.routine(key)
+        if found is not None and found.builtin is not None:
+            self.space.setdefault(found.code, found.builtin.function)
+        return found
+
+    def _link_routine(self, module: LoadedModule, symbol: RoutineSymbol) -> None:
+        d = symbol.node
+        assert d is not None
+        parameters = []
+        for p in d.parameters:
+            switch = p.type.lower() == "switch"
+            kind = None if switch else self.find_type(module, p.type)
+            if kind is None and not switch:
+                self._fault(module, f"type {p.type} is not known", p)
+                kind = NUM
+            parameters.append(formal(p, kind))
+        result = self.find_type(module, d.type) if d.type else None
+        if d.type and result is None:
+            self._fault(module, f"type {d.type} is not known", d)
+        code = f"m{module.index}_{d.name.lower()}"
+        routine = Routine(d.name, d.kind, result, tuple(parameters), code, d, module)
+        self._routines[symbol] = module.routines[d.name.lower()] = routine
+
+    # -- data ------------------------------------------------------------------------------------
+
+    def datum(self, symbol: Symbol | None) -> Data | None:
+        """How the datum is kept that a symbol stands for; None for anything else.
+
+        Module data are evaluated on first need.
+        """
+        if not isinstance(symbol, DataSymbol):
+            symbol = _meant(symbol)
+            if not isinstance(symbol, DataSymbol):
+                return None
+        if symbol not in self._data:
+            self._data[symbol] = None  # data that need each other come to an end
+            if symbol.module is None:
+                self._data[symbol] = self._predefined(symbol)
+            else:
+                self._data[symbol] = self._module_datum(symbol, self._loaded[symbol.module])
+        return self._data[symbol]
+
+    def _module_datum(self, symbol: DataSymbol, module: LoadedModule) -> Data | None:
+        d = symbol.node
+        assert isinstance(d, n.DataDeclaration)
+        try:
+            kind, dims, value = self.evaluate(module, module.scope, d)
+        except CannotCompile as fault:
+            self._fault(module, str(fault), fault.node)
+            found = self.find_type(module, d.type)
+            if found is None:
+                return None
+            kind, dims, value = found, (), found.default()
+        return self._place(module, d, kind, dims, value)
+
+    def _place(
+        self,
+        module: LoadedModule,
+        d: n.DataDeclaration,
+        kind: Type,
+        dims: tuple[int, ...],
+        value: Value,
+    ) -> Data:
+        code = f"m{module.index}_{d.name.lower()}"
+        if d.kind == "CONST" and not dims and kind.kind in ATOMIC:
+            return Data(d.name, "CONST", kind, (), "inline", code, value=value, readonly=True)
+        if d.kind == "PERS":
+            self.space[code] = self._cell(module, d, kind, dims, value)
+            return Data(d.name, "PERS", kind, dims, "cell", code)
+        if d.kind == "VAR" and module.file.shared and d.scope != "TASK":
+            atom = not dims and kind.kind in ATOMIC
+            made = SharedVariable(d.name, kind, dims, value) if atom else value
+            key = (module.name.lower(), d.name.lower())
+            self.space[code] = self.shared.common.setdefault(key, made)
+            return Data(d.name, "VAR", kind, dims, "cell" if atom else "global", code)
+        self.space[code] = value
+        readonly = d.kind == "CONST"
+        return Data(d.name, d.kind, kind, dims, "global", code, readonly=readonly)
+
+    def _cell(
+        self,
+        module: LoadedModule,
+        d: n.DataDeclaration,
+        kind: Type,
+        dims: tuple[int, ...],
+        value: Value,
+    ) -> PersistentCell:
+        """The cell of a PERS: one for the whole system by name, unless LOCAL or TASK.
+
+        The first declaration with an initial value gives the value [K §14.4].
+        """
+        if module.file.shared and d.scope != "TASK":
+            place = (module.name.lower(), d.name.lower())
+            made = PersistentCell(d.name, kind, dims, value)
+            own: PersistentCell = self.shared.common.setdefault(place, made)
+            return own
+        if d.scope:
+            return PersistentCell(d.name, kind, dims, value)
+        key = d.name.lower()
+        cell = self.shared.cells.get(key)
+        if cell is None:
+            cell = self.shared.cells[key] = PersistentCell(d.name, kind, dims, value)
+            if d.initial is None:
+                self.shared.bare.add(key)
+            return cell
+        if cell.type.name != kind.name or cell.dims != dims:
+            self._fault(
+                module, f"{d.name} is shared with another task that declares another type", d
+            )
+            return PersistentCell(d.name, kind, dims, value)
+        if d.initial is not None and key in self.shared.bare:
+            self.shared.bare.discard(key)
+            cell.set(value)
+        return cell
+
+    def evaluate(self, module: LoadedModule, scope: Scope, d: n.DataDeclaration) -> Typed:
+        """Type, sizes and initial value of a declaration. CannotCompile."""
+        kind = self.find_type(module, d.type)
+        if kind is None:
+            raise CannotCompile(f"type {d.type} is not known", d)
+        dims = tuple(_dimension(x, scope) for x in d.dimensions)
+        if d.initial is not None:
+            return kind, dims, evaluate(d.initial, kind, dims, scope)
+        if dims:
+            return kind, dims, make_array(dims, kind.default)
+        return kind, dims, kind.default()
+
+    def _predefined(self, symbol: DataSymbol) -> Data | None:
+        key = symbol.name.lower()
+        if symbol.kind == "INSTALLED":
+            kind, value = self.shared.configured[key]
+            self.space[f"c_{key}"] = value
+            return Data(key, "VAR", kind, (), "global", f"c_{key}")
+        if symbol.readonly and symbol.kind == "VAR":  # ERRNO, INTNO
+            return Data(symbol.name, "VAR", NUM, (), "global", f"R.{key}", readonly=True)
+        found = predefined.datum(key)
+        if found is None or found.storage == "inline":
+            return found
+        value = predefined.value(key)
+        if found.storage == "cell":
+            made = PersistentCell(found.name, found.type, (), value)
+            value = self.shared.cells.setdefault(f" {key}", made)
+        self.space[found.code] = value
+        return found
+
+
+def _meant(symbol: Symbol | None) -> Symbol | None:
+    """The name of a module means nothing in code: its own or predefined object of that name."""
+    if isinstance(symbol, ModuleSymbol) and symbol.module is not None:
+        key = symbol.name.lower()
+        return symbol.module.own.get(key) or builtin(key)
+    return symbol
+
+
+def _dimension(node: n.Expression, scope: Scope) -> int:
+    size = evaluate(node, NUM, (), scope)
+    if not isinstance(size, int) or size < 1:
+        raise CannotCompile("a dimension is a whole number from 1", node)
+    return size

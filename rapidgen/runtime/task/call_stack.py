@@ -1,0 +1,70 @@
+"""Who is where: call stacks of tasks as places in RAPID."""
+
+from collections.abc import Iterator, Mapping
+from types import FrameType, TracebackType
+from typing import TypeAlias
+
+from rapidgen.runtime.compiler.compiled import CodeRole, Compiled
+from rapidgen.runtime.errors import Location
+
+Codes: TypeAlias = Mapping[str, Compiled]
+"""Code of a program by Python file name."""
+
+
+def outwards(frame: FrameType | None) -> Iterator[FrameType]:
+    """A frame and its callers."""
+    while frame is not None:
+        yield frame
+        frame = frame.f_back
+
+
+def frames_of(traceback: TracebackType | None) -> Iterator[tuple[FrameType, int]]:
+    """Frames and lines of a traceback, outermost first."""
+    while traceback is not None:
+        yield traceback.tb_frame, traceback.tb_lineno
+        traceback = traceback.tb_next
+
+
+def location(codes: Codes, file: str, line: int) -> Location | None:
+    """RAPID place of a Python line."""
+    compiled = codes.get(file)
+    if compiled is None or not 0 <= line < len(compiled.tokens):
+        return None
+    module = compiled.module
+    token = compiled.tokens[line]
+    span = module.tree.source.span(token, token)
+    origin = None
+    for rapid_line, template, template_line in module.file.origin:
+        if rapid_line > span.line:
+            break
+        origin = (template, template_line + span.line - rapid_line)
+    return Location(module.name, compiled.routine.name, span, origin)
+
+
+def stack_of_error(codes: Codes, error: BaseException) -> tuple[Location, ...]:
+    """Where an error was raised, outermost routine first."""
+    found: list[Location] = []
+    for frame, line in frames_of(error.__traceback__):
+        place = location(codes, frame.f_code.co_filename, line)
+        if place is not None:
+            if _is_part(codes, frame):
+                found.pop()
+            found.append(place)
+    return tuple(found)
+
+
+def stack_at(codes: Codes, frame: FrameType | None) -> tuple[Location, ...]:
+    """Call stack of a frame, outermost routine first."""
+    found: list[Location] = []
+    inside = False
+    for at in outwards(frame):
+        place = location(codes, at.f_code.co_filename, at.f_lineno)
+        if place is not None:
+            if not inside:
+                found.append(place)
+            inside = _is_part(codes, at)
+    return tuple(reversed(found))
+
+
+def _is_part(codes: Codes, frame: FrameType) -> bool:
+    return codes[frame.f_code.co_filename].role(frame.f_code) is CodeRole.PART

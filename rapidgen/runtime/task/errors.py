@@ -1,0 +1,382 @@
+"""Errors of a task: handlers, RETRY, long jumps, UNDO [K §7]."""
+
+import sys
+from collections.abc import Callable
+from types import FrameType, TracebackType
+from typing import TYPE_CHECKING, NoReturn
+
+from greenlet import GreenletExit
+
+from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.errors import (
+    LARGEST_USER_ERROR,
+    RECOVERABLE,
+    FatalError,
+    PointerMoved,
+    RapidError,
+    ResumeInside,
+    as_rapid_error,
+    errnum,
+    error_name,
+    python_error,
+)
+from rapidgen.runtime.task.call_stack import outwards, stack_of_error
+
+if TYPE_CHECKING:
+    from rapidgen.runtime.task.task import Task
+
+RETRY, TRYNEXT, RETURN, RAISE = 0, 1, 2, 3
+RETRIES = 4
+"""Recoveries of one statement by RETRY: system parameter No Of Retry [K §7.5]."""
+
+Handler = Callable[[], int]
+Listed = Callable[[], tuple[float, ...]]
+
+
+class Errors:
+    """Deals with the errors of one task. Compiled code calls `handle`, `undo` and what RAISE is."""
+
+    def __init__(self, task: "Task") -> None:
+        self._task = task
+        self._switches = task.controller.dialect
+        self.retry_number = 0
+        self.retry_base = 0
+        self.skip_warning = False
+        self.handler_level = 0
+        self.undo_level = 0
+        self.undo_failed = False
+        """An error in an UNDO handler stops the task (switch `undo_error`)."""
+        self._stops = self._switches.unhandled_error == "stop"
+        fatal = self._switches.argument_error == "fatal"
+        self._fatal_number = errnum("ERR_ARGVALERR") if fatal else None
+        self._instead: RapidError | None = None
+
+    # -- handlers --------------------------------------------------------------------------------
+
+    def handle(
+        self,
+        handler: Handler,
+        error: Exception,
+        budget: int | None,
+        retries: int,
+        listed: Listed | None,
+    ) -> int:
+        """An error reached a statement of a routine with ERROR: 0 RETRY, 1 TRYNEXT, 2 RETURN.
+
+        `budget` is what the task has left when the statement itself failed; None when calls
+        wrote it back. Raises the error again when this handler is not for it.
+        """
+        traceback = error.__traceback__
+        frame = sys._getframe(1)
+        known = self._settled(error, traceback, frame, budget)
+        number = known.number
+        if number == self._fatal_number and not known.raised:
+            raise self.unhandled(known) from None
+        way = None
+        if known.target is not None:
+            if known.target is not frame:
+                raise known
+            known.target = None
+            way, known.way = known.way, None
+        elif listed is not None and not lists(listed(), number):
+            raise known
+        elif self._stops:
+            self._stop_at_bare_callee(known, traceback)
+        if way is None:
+            if not retries:
+                self.retry_base = 0
+            way = self.run_handler(handler, known, retries, frame)
+        if way in (TRYNEXT, RETURN):
+            return way
+        if way == RAISE:
+            known = self._handed_on(known)
+            known.target = self._recovery_point(frame, known.number)
+            raise known
+        if way == RETRY:
+            return self._retry(handler, known, retries, frame)
+        raise self.unhandled(known) from None
+
+    def run_handler(
+        self, handler: Handler, error: RapidError, retries: int, frame: FrameType
+    ) -> int:
+        """Execute a handler; how it ended."""
+        task = self._task
+        task.errno = error.number
+        self.retry_number = retries
+        self.skip_warning = False
+        self.handler_level += 1
+        try:
+            way = handler()
+        except RECOVERABLE as second:
+            if isinstance(second, RapidError) and second.target is not None:
+                raise  # RaiseToUser
+            # Errors inside a handler go straight to the system error handler [K §7.1].
+            known = self._settled(second, second.__traceback__, frame, None)
+            raise self.unhandled(known, restartable=False) from None
+        except ResumeInside as order:
+            way = order.way
+        finally:
+            self.handler_level -= 1
+        if not self.skip_warning:
+            task.controller.recovered(task.name, error.number, error.text)
+        return way
+
+    def _retry(self, handler: Handler, error: RapidError, retries: int, frame: FrameType) -> int:
+        """RETRY, as often as it is allowed [K §7.5].
+
+        After that the handler sees ERR_EXCRTYMAX once [S4 datasys 2-IODisable-2]; when it asks
+        for RETRY again the task stops.
+        """
+        if error.raised and not self._switches.retry_raised:
+            raise FatalError(40199, "RETRY is not allowed for an error made by RAISE")
+        if retries - self.retry_base < RETRIES:
+            return RETRY
+        last = RapidError("ERR_EXCRTYMAX")
+        last.settled = True
+        last.__traceback__ = error.__traceback__
+        way = self.run_handler(handler, last, retries, frame)
+        if way in (TRYNEXT, RETURN):
+            return way
+        if way == RAISE:
+            raise self._handed_on(last)
+        raise self.unhandled(last) from None
+
+    def _handed_on(self, error: RapidError) -> RapidError:
+        """What RAISE in the handler of an error gives the caller: the same one, or its own."""
+        other, self._instead = self._instead, None
+        if other is None:
+            return error
+        other.settled = True
+        other.__traceback__ = error.__traceback__
+        return other
+
+    def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
+        """Switch: an error that came out of a routine without ERROR is nobody's."""
+        at = traceback.tb_next if traceback is not None else None
+        while at is not None:
+            compiled = self._task.program.codes.get(at.tb_frame.f_code.co_filename)
+            if compiled is not None:
+                if not compiled.handled:
+                    raise self.unhandled(error) from None
+                return
+            at = at.tb_next
+
+    def _settled(
+        self,
+        error: Exception,
+        traceback: TracebackType | None,
+        frame: FrameType,
+        budget: int | None,
+    ) -> RapidError:
+        """The RAPID error, with the task's budget put right for where it was raised."""
+        task = self._task
+        if isinstance(error, RapidError):
+            known = error
+            if known.settled:
+                return known
+        else:
+            known = RapidError(python_error(error.__class__))
+            known.__traceback__ = traceback
+            if traceback is not None and traceback.tb_next is None and budget is not None:
+                task.b = budget
+                known.settled = True
+                return known
+        known.settled = True
+        at = traceback
+        inner = None
+        codes = task.program.codes
+        while at is not None:
+            if at.tb_frame.f_code.co_filename in codes:
+                inner = at
+            at = at.tb_next
+        if inner is None:
+            return known
+        if inner.tb_frame is frame:
+            left = budget
+        else:
+            compiled = codes[inner.tb_frame.f_code.co_filename]
+            left = compiled.budget(inner.tb_frame, inner.tb_lineno)
+        if left is not None:
+            task.b = left
+        return known
+
+    def throw(self, number: float) -> NoReturn:
+        """RAISE n."""
+        raise self._own_error(number)
+
+    def instead(self, number: float) -> None:
+        """RAISE n in an ERROR handler: the caller gets this error [code]; K §4.8 forbids it."""
+        if self._switches.raise_in_handler == "error":
+            raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
+        self._instead = self._own_error(number)
+
+    def _own_error(self, number: float) -> RapidError:
+        """1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
+        whole = int(number) if number == number and abs(number) < 1e9 else 0
+        allowed = whole == number and (
+            1 <= whole <= LARGEST_USER_ERROR
+            or whole in self._task.controller.booked
+            or error_name(whole).startswith("ERR_")
+        )
+        error = RapidError(whole) if allowed else RapidError("ERR_ILLRAISE")
+        error.raised = True
+        return error
+
+    def _recovery_point(self, frame: FrameType, number: int) -> FrameType | None:
+        """The nearest caller whose ERROR (list) has the number [K §7.2]."""
+        codes = self._task.program.codes
+        in_handler = False
+        for at in outwards(frame.f_back):
+            compiled = codes.get(at.f_code.co_filename)
+            if compiled is None:
+                continue
+            role = compiled.role(at.f_code)
+            if role.is_handler:
+                in_handler = True
+                continue
+            own = None if in_handler else compiled.listed(at)
+            if own is not None and lists(own, number):
+                return at
+            in_handler = in_handler and role is CodeRole.PART
+        return None
+
+    def _has_handler_above(self, frame: FrameType) -> bool:
+        codes = self._task.program.codes
+        for at in outwards(frame.f_back):
+            compiled = codes.get(at.f_code.co_filename)
+            if compiled is not None:
+                if compiled.role(at.f_code).is_handler:
+                    return False
+                if compiled.handled:
+                    return True
+        return False
+
+    # -- RaiseToUser -----------------------------------------------------------------------------
+
+    def give_to_user(self, error: RapidError, *, resume: bool) -> None:
+        """Give an error to the handler of the nearest caller outside NOSTEPIN modules [K §7.3].
+
+        `resume` (\\Continue): the handler runs while the routines between are still there, and
+        its RETRY and TRYNEXT are for what failed inside. Without it they are dropped. Returns
+        when RaiseToUser stood in no handler and TRYNEXT passes over it.
+        """
+        user, handler, inside_handler = self._user(error.number)
+        if user is None or handler is None:
+            raise self.unhandled(error)
+        error.target = user
+        if not resume:
+            raise error
+        for retries in range(RETRIES + 1):
+            error.way = self.run_handler(handler, error, retries, user)
+            if error.way not in (RETRY, TRYNEXT):
+                raise error
+            if inside_handler:
+                raise ResumeInside(error.way)
+            if error.way == TRYNEXT:
+                return
+        raise self.unhandled(RapidError("ERR_EXCRTYMAX"))
+
+    def _user(self, number: int) -> tuple[FrameType | None, Handler | None, bool]:
+        """The frame whose handler gets the error, that handler, and whether a handler of NOSTEPIN
+        raised it."""
+        codes = self._task.program.codes
+        first = True
+        inside = False
+        for at in outwards(sys._getframe(2)):
+            compiled = codes.get(at.f_code.co_filename)
+            if compiled is None:
+                continue
+            hidden = "NOSTEPIN" in compiled.module.tree.attributes
+            role = compiled.role(at.f_code)
+            if role.is_handler:
+                if not (hidden or first):
+                    break  # errors inside a handler go to the system error handler [K §7.1]
+                inside = True
+            elif not (first or hidden) and (handler := compiled.handler(at)) is not None:
+                listed = compiled.listed(at)
+                if listed is None or lists(listed, number):
+                    return at, handler, inside
+            elif role is CodeRole.ROUTINE:
+                first = False
+        return None, None, inside
+
+    # -- UNDO ------------------------------------------------------------------------------------
+
+    def undo(self, handler: Handler, leaving: BaseException) -> None:
+        """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
+        if isinstance(leaving, GreenletExit | PointerMoved) or self.undo_failed:
+            return
+        pointer = self._task.pointer
+        if isinstance(leaving, RECOVERABLE):
+            known = as_rapid_error(leaving)
+            frame = sys._getframe(1)
+            if known.target is None and self._has_handler_above(frame):
+                return
+            if known.target is None and pointer.keep_undo(handler):
+                return
+        elif isinstance(leaving, FatalError) and pointer.keep_undo(handler):
+            return
+        self.undo_level += 1
+        try:
+            handler()
+        except FatalError:
+            # The others are not executed: each might fail, too, and call what failed again.
+            self.undo_failed = True
+            raise
+        except RECOVERABLE as error:
+            fatal = self.unhandled(error)
+            if self._switches.undo_error == "ignore":
+                self.undo_ended(fatal)
+                return
+            self.undo_failed = True
+            raise fatal from None
+        finally:
+            self.undo_level -= 1
+
+    def undo_late(self, handlers: list[Handler]) -> None:
+        """UNDO handlers that were kept while the program could go on where it was."""
+        for handler in handlers:
+            self.undo_level += 1
+            try:
+                handler()
+            except FatalError as error:
+                self.undo_ended(error)
+                break
+            except RECOVERABLE as error:
+                self.undo_ended(self.unhandled(error))
+                if self._switches.undo_error == "stop":
+                    break
+            finally:
+                self.undo_level -= 1
+
+    def undo_ended(self, error: FatalError) -> None:
+        """Tell of an error in an UNDO handler that stops nothing."""
+        place = str(error.stack[-1]) if error.stack else ""
+        texts = [text for text in error.arguments if text]
+        task = self._task
+        task.controller.log.error(error.event, error.title, place, *texts, task=task.name)
+
+    # -- nobody's --------------------------------------------------------------------------------
+
+    def at_level(self, routine: Callable[[], object]) -> None:
+        """Execute a routine at trap or user level: only a long jump leaves it [K §7.2]."""
+        try:
+            routine()
+        except RECOVERABLE as error:
+            if isinstance(error, RapidError) and error.target is not None:
+                raise
+            raise self.unhandled(error) from error
+
+    def unhandled(self, raised: Exception, *, restartable: bool = True) -> FatalError:
+        """What the system error handler makes of an error."""
+        error = as_rapid_error(raised)
+        name = error_name(error.number)
+        title = f"Unhandled error {name}"
+        fatal = FatalError(40199, title, name, error.text, cause=error, restartable=restartable)
+        fatal.stack = stack_of_error(self._task.program.codes, raised)
+        return fatal
+
+
+def lists(numbers: tuple[float, ...], number: int) -> bool:
+    """Whether ERROR (numbers) is for an error."""
+    return number in numbers or errnum("LONG_JMP_ALL_ERR") in numbers

@@ -1,0 +1,69 @@
+"""The picture of docs/develop/architecture.md, drawn from the code.
+
+`python -m tests.docs.picture` draws it again: the rooms as the import contract has them, top to
+bottom, their folders, what each says of itself in its first line, and which rooms it imports.
+"""
+
+import ast
+import textwrap
+import tomllib
+
+from tests.docs.tree import PACKAGE, ROOT, imports, modules, room, tree_of
+
+PAGE = ROOT / "docs" / "develop" / "architecture.md"
+BEGIN, END = "<!-- drawn by tests/docs/picture.py -->\n```text\n", "```\n<!-- drawn -->\n"
+WIDTH = 100
+
+
+def layers() -> list[list[str]]:
+    """Rooms of the import contract, top to bottom; those of one layer do not import each other."""
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    contracts = tomllib.loads(text)["tool"]["importlinter"]["contracts"]
+    found = next(contract["layers"] for contract in contracts if contract["type"] == "layers")
+    return [layer.split(" : ") for layer in found]
+
+
+def says(package: str) -> str:
+    """First sentence of a package about itself."""
+    path = modules()[package]
+    return (ast.get_docstring(tree_of(path)) or "").split("\n")[0]
+
+
+def entry(name: str, text: str, depth: int) -> list[str]:
+    """A room or folder with its line, folded."""
+    left = f"{'  ' * depth}{name}/".ljust(22)
+    return textwrap.wrap(left + text, WIDTH, subsequent_indent=" " * 22)
+
+
+def draw() -> str:
+    """The picture."""
+    graph, out = imports(), []
+    for layer in layers():
+        out.append("─" * WIDTH)
+        for name in layer:
+            own = [module for module in modules() if room(module) == name]
+            out += entry(name, says(f"rapidgen.{name}"), 0)
+            below = {room(found) for module in own for found in graph[module]} - {name, ""}
+            out += textwrap.wrap(
+                f"imports {' '.join(sorted(below)) or 'no room'}",
+                WIDTH,
+                initial_indent=" " * 22 + "→ ",
+                subsequent_indent=" " * 24,
+            )
+            for module in own:
+                if module.count(".") > 1 and modules()[module].name == "__init__.py":
+                    path = modules()[module].parent
+                    depth = len(path.relative_to(PACKAGE).parts) - 1
+                    out += entry(path.name, says(module), depth)
+    return "\n".join([*out, "─" * WIDTH, ""])
+
+
+def on_the_page() -> str:
+    """The picture that the page has."""
+    text = PAGE.read_text(encoding="utf-8")
+    return text[text.index(BEGIN) + len(BEGIN) : text.index(END)]
+
+
+if __name__ == "__main__":
+    page = PAGE.read_text(encoding="utf-8")
+    PAGE.write_text(page.replace(BEGIN + on_the_page() + END, BEGIN + draw() + END), "utf-8")

@@ -1,0 +1,61 @@
+"""Disks by themselves: what they refuse, and why."""
+
+import pytest
+
+from rapidgen.machine import files
+from rapidgen.machine.files import MAX_OPEN, DiskFault, DiskReason, FileSystem, IODevice
+
+
+@pytest.fixture
+def disks(tmp_path):
+    system = FileSystem(tmp_path)
+    yield system
+    system.close()
+
+
+@pytest.mark.parametrize(
+    ("path", "said"),
+    [
+        ("nowhere:x", "no disk for 'nowhere:x'"),
+        ("/etc/passwd", "no disk"),
+        ("HOME:/../x", "'HOME:/../x' leads out of HOME:"),
+        ("HOME:/a\0b", "no disk"),
+        ("HOME:/" + "x" * 256, "leads out of the controller"),
+    ],
+)
+def test_a_path_that_lies_on_no_disk_is_no_access(disks, path, said):
+    with pytest.raises(DiskFault, match=said) as fault:
+        disks.path(path)
+    assert fault.value.reason is DiskReason.NO_ACCESS
+
+
+def test_a_link_that_leads_out_is_no_access(disks, tmp_path_factory):
+    (disks.folder / "HOME" / "out").symlink_to(tmp_path_factory.mktemp("elsewhere"))
+    with pytest.raises(DiskFault, match="leads out of the controller"):
+        disks.path("HOME:/out/x")
+
+
+def test_names_are_found_without_case(disks):
+    (disks.folder / "HOME" / "Read.Me").write_text("x")
+    assert disks.path("home:/READ.ME").name == "Read.Me"
+    assert disks.path("new.txt") == disks.folder / "HOME" / "new.txt"
+
+
+def test_so_many_files_are_open_at_a_time(disks):
+    devices = [IODevice() for _ in range(MAX_OPEN + 1)]
+    for device in devices[:-1]:
+        disks.hold(device, "T_ROB1")
+    with pytest.raises(DiskFault) as fault:
+        disks.hold(devices[-1], "T_ROB1")
+    assert fault.value.reason is DiskReason.TOO_MANY_OPEN
+    disks.close_task("T_ROB1")
+    disks.hold(devices[-1], "T_ROB2")
+
+
+def test_a_full_disk_takes_nothing(disks, monkeypatch):
+    monkeypatch.setattr(files, "CAPACITY", 100)
+    small = FileSystem(disks.folder)
+    small.spend(100)
+    with pytest.raises(DiskFault, match="the disk is full"):
+        small.spend(1)
+    assert small.room == 0
