@@ -35,7 +35,7 @@ def test_boots_and_moves(name, generation):
         assert bench.controller.diagnostics == []
         for number in range(len(config.groups)):
             own = bench.of_group(number)
-            state, points = own.state(), own.wave(3)
+            state, points = own.state(), own.wave(3, duration=1.0)
             own.moves_through(own.motion(), points)
             own.run(0.5)
             state.read()
