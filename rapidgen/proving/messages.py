@@ -1,4 +1,4 @@
-"""simple_message as the proof speaks it: layouts by hand, from docs/protocol.md.
+"""simple_message as the proof speaks it: layouts by hand, from docs/develop/protocol.md.
 
 Nothing of the codec in `wire` is used here: the driver's constants come from there, and a number
 that was wrong in both would prove itself. Little endian; rad, m and s.
@@ -465,7 +465,7 @@ def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
 
 
 def decode(frame: Frame) -> Content:
-    """What a message says. Broken for one that docs/protocol.md does not know."""
+    """What a message says. Broken for one that docs/develop/protocol.md does not know."""
     number, comm, code, data = frame
     good = code in (1, 2) if comm == Comm.REPLY else (comm in (1, 2) and code == 0)
     if good and comm == Comm.REPLY and not data:

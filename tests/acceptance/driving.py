@@ -24,12 +24,12 @@ class Ports:
 
         network.listening.add(look)
         controller.start()
-        assert listening.wait(20), controller.call(controller.where)
+        assert listening.wait(60), controller.call(controller.where)
         self.motion = network.listeners[motion][1]
         self.state = network.listeners[state][1]
 
     def connect(self, port):
-        link = socket.create_connection(("127.0.0.1", port), timeout=20)
+        link = socket.create_connection(("127.0.0.1", port), timeout=60)
         link.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         return link
 

@@ -40,7 +40,7 @@ def sim():
     finally:
         # A killed one could not remove its files.
         process.terminate()
-        process.communicate(timeout=20)
+        process.communicate(timeout=60)
 
 
 def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim, tmp_path):
@@ -61,7 +61,7 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim,
     assert rapidgen("build", "irb120", "--out", str(built)).returncode == 0
     modules = [path for path in (built / "HOME").rglob("*") if path.is_file()]
     assert len(modules) > 3
-    with ftplib.FTP(timeout=10) as client:
+    with ftplib.FTP(timeout=60) as client:
         client.connect("127.0.0.1", ftp["port"])
         client.login(ftp["user"], ftp["password"])
         for module in modules:
@@ -70,7 +70,7 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim,
             client.retrbinary(f"RETR {path}", found.write)
             assert found.getvalue() == module.read_bytes(), path
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    out, err = process.communicate(timeout=60)
     assert (process.returncode, out) == (0, "")
     assert "Traceback" not in err
     for port in (sftp["port"], ftp["port"]):

@@ -393,7 +393,7 @@ def test_real_time_in_a_thread() -> None:
         controller.operator.subscribe(lambda *_: seen.set() if len(printed) > 3 else None)
         controller.start_program()
         controller.start()
-        assert seen.wait(10)
+        assert seen.wait(60)
         assert controller.call(lambda: controller.task("T1").state) == "running"
         controller.stop()
         count = len(printed)

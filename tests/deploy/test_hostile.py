@@ -50,7 +50,7 @@ class Liar:
                 self._talk(client, held)
 
     def _talk(self, client, held):
-        client.settimeout(5)
+        client.settimeout(30)
         pending, count, data = b"", 0, None
         word = b""
         while True:

@@ -10,7 +10,6 @@ import os
 import random
 import socket
 import threading
-import time
 
 import paramiko
 import pytest
@@ -45,7 +44,6 @@ def access(service, tmp_path, port):
 def attempt(action, port, login):
     """Diagnostics of `action` over a connection of its own; none when it went through."""
     transport = None
-    start = time.monotonic()
     try:
         transport = Target("sftp", "127.0.0.1", port, "").open(login, TIMEOUT)
         action(transport)
@@ -55,7 +53,6 @@ def attempt(action, port, login):
     finally:
         if transport is not None:
             transport.close()
-    assert time.monotonic() - start < 60
     assert all(d.code.startswith("RG5") for d in found)
     shown = render(found)
     assert WORD not in shown

@@ -68,7 +68,7 @@ def drive(controller, *, ready=True):
 
     network.listening.add(look)
     controller.start()
-    assert listening.wait(20), controller.call(controller.where)
+    assert listening.wait(60), controller.call(controller.where)
     motion, state = (network.listeners[p][1] for p in (group.ports.motion, group.ports.state))
     with Robot(model, address=Address("127.0.0.1", motion, state), group=group.name) as robot:
         start = robot.state.joints

@@ -121,8 +121,12 @@ def ladders() -> list[tuple[float, str]]:
 
 
 def mixed() -> list[tuple[float, str]]:
-    """Classes with two ancestors or more of ours."""
-    return [(1, f"{c.__module__}.{c.__name__}") for c in classes() if len(of_ours(c.__bases__)) > 1]
+    """Classes with two ancestors or more of ours; a protocol may be made of protocols."""
+    return [
+        (1, f"{c.__module__}.{c.__name__}")
+        for c in classes()
+        if len(of_ours(c.__bases__)) > 1 and not getattr(c, "_is_protocol", False)
+    ]
 
 
 def files() -> list[tuple[float, str]]:
@@ -146,15 +150,15 @@ def goldens() -> list[tuple[float, str]]:
 FIGURES = [
     Figure("share of the largest room, %", rooms, 23, 21, together=False),
     Figure("share of the largest folder, its own files, %", folders, 14, together=False),
-    Figure("files in the largest circle of imports", circle_sizes, 27, 2, together=False),
-    Figure("type: ignore", lambda: words("# type: ignore"), 22, 15),
-    Figure("the word Any besides the alias of RAPID values", anything, 423, 60),
-    Figure("public class names that stand for two things", double_names, 47, 12),
-    Figure("NotImplementedError", lambda: words("NotImplementedError$"), 22, 0),
-    Figure("depth of inheritance", ladders, 8, 2, together=False),
+    Figure("files in the largest circle of imports", circle_sizes, 23, 2, together=False),
+    Figure("type: ignore", lambda: words("# type: ignore"), 15),
+    Figure("the word Any besides the alias of RAPID values", anything, 60),
+    Figure("public class names that stand for two things", double_names, 33, 12),
+    Figure("NotImplementedError", lambda: words("NotImplementedError$"), 0),
+    Figure("depth of inheritance", ladders, 3, 2, together=False),
     Figure("classes with two ancestors", mixed, 0),
     Figure("lines of the longest file", files, 721, 600, together=False),
-    Figure("ignore_imports", ignored_imports, 3, 0),
+    Figure("ignore_imports", ignored_imports, 0),
     Figure("lines of rapid_out", goldens, 17_000),
 ]
 

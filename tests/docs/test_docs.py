@@ -62,13 +62,13 @@ def test_commands(path, tmp_path, environment):
                     text=True,
                     cwd=tmp_path,
                     env=environment,
-                    timeout=100,
+                    timeout=200,
                 )
                 assert done.returncode == int(wanted or 0), (line, done.stdout, done.stderr)
     finally:
         for server in servers:
             server.terminate()
-            server.wait(10)
+            server.wait(60)
             server.stdout.close()
 
 
@@ -81,7 +81,7 @@ def test_python(path, tmp_path, environment):
         text=True,
         cwd=tmp_path,
         env=environment,
-        timeout=100,
+        timeout=200,
     )
     assert done.returncode == 0, done.stderr
 

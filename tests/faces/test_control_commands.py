@@ -30,7 +30,7 @@ def served():
 
 
 def client(control):
-    sock = socket.create_connection(control.address, timeout=5)
+    sock = socket.create_connection(control.address, timeout=60)
     sock.setblocking(False)
     return sock
 

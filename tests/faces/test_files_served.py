@@ -26,7 +26,7 @@ def home(tmp_path):
 @pytest.fixture
 def ftp(home):
     service = serve_ftp(home)
-    client = ftplib.FTP(timeout=5)
+    client = ftplib.FTP(timeout=60)
     client.connect(service.host, service.port)
     client.login(service.user, service.password)
     yield client
@@ -129,7 +129,7 @@ def test_sftp_gives_no_shell(home):
 
 def test_wrong_passwords_are_refused(home):
     service = serve_ftp(home, password="right")
-    client = ftplib.FTP(timeout=5)
+    client = ftplib.FTP(timeout=60)
     client.connect(service.host, service.port)
     with pytest.raises(ftplib.error_perm, match="530"):
         client.login(service.user, "wrong")

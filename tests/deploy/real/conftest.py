@@ -88,7 +88,7 @@ def start(command: list[str], port: int, folder: Path) -> subprocess.Popen:
         stderr=log,
     )
     log.close()
-    end = time.monotonic() + 15
+    end = time.monotonic() + 60
     while True:
         try:
             with socket.create_connection(("127.0.0.1", port), timeout=1):

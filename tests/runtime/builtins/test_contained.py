@@ -72,10 +72,10 @@ def cell():
 
         controller.network.listening.add(look)
         controller.start()
-        assert listening.wait(20), controller.call(controller.where)
+        assert listening.wait(60), controller.call(controller.where)
 
         def connect(port):
-            return socket.create_connection(("127.0.0.1", listeners[port][1]), timeout=20)
+            return socket.create_connection(("127.0.0.1", listeners[port][1]), timeout=60)
 
         yield controller, connect
         assert [t.fault for t in controller.tasks.values()] == [None] * len(BODIES)

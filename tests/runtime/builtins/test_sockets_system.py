@@ -31,7 +31,7 @@ def talk(bench, script, port=11000):
 
     def client(address):
         try:
-            with socket.create_connection(address, timeout=10) as sock:
+            with socket.create_connection(address, timeout=60) as sock:
                 script(sock)
         except OSError as error:
             failed.append(error)
@@ -129,7 +129,7 @@ def test_a_peer_that_does_not_read_holds_the_sender_up(real):
     gate = threading.Event()
 
     def script(sock):
-        gate.wait(10)
+        gate.wait(60)
         got = 0
         while got < total:
             got += len(sock.recv(65_536))
