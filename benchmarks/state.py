@@ -20,8 +20,9 @@ from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
 from rapidgen.machine.costs import Costs
 from rapidgen.proving.bench import Bench
+from rapidgen.proving.messages import STATUS
+from rapidgen.proving.settings import Setting
 from rapidgen.wire.simple_message import messages, spec
-from tests.generate import bench as tests
 
 ALL = spec.Feature.PROGRESS | spec.Feature.FEEDBACK
 ROWS = (
@@ -45,23 +46,23 @@ def rounds_in(bench, clients, seconds):
     """Messages of the first client; all are read, so that nobody is held up."""
     found = 0
     for _ in range(round(seconds / 0.02)):
-        bench.vc.run_for(0.02)
-        told = [client.frames() for client in clients]
-        found += sum(frame[4] == messages.STATUS.number for frame in told[0]) if told else 0
+        bench.run(0.02)
+        told = [client.read() for client in clients]
+        found += sum(frame.number == STATUS for frame in told[0]) if told else 0
     return found
 
 
 def round_time(config, clients, wanted, scale):
     """Simulated s of a round when there is no pause between them."""
-    bench = tests.Bench(config, costs=Costs().scaled(scale))
+    bench = Bench(config, make_system(config, build(config)), Setting(costs=Costs().scaled(scale)))
     linked = []
     for _ in range(clients):
-        linked.append(bench.state_client())
+        linked.append(bench.state())
         rounds_in(bench, linked, 0.5)
         linked[-1].send(hello(wanted))
     rounds_in(bench, linked, 0.5)
     taken = 4 / rounds_in(bench, linked, 4)
-    bench.stop()
+    bench.close()
     return taken
 
 

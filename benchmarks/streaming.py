@@ -17,6 +17,7 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -26,11 +27,16 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
+from rapidgen.generate import build, make_system
 from rapidgen.machine.costs import Costs
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.link import STOP, RawLink, point_frame
+from rapidgen.proving.messages import POINT_BYTES, POINTS, Comm, PointsAccepted
+from rapidgen.proving.settings import Setting
+from rapidgen.system.model import System
 from rapidgen.wire.simple_message.bulk import encode_points
 from rapidgen.wire.simple_message.spec import StreamFlag
 from tests.foreign.abb_driver import read_system
-from tests.generate.bench import STOP, Bench, Client, trajectory
 
 BATCH = 30
 RING = 127
@@ -51,12 +57,32 @@ def batches(count: int, *, flags: int = StreamFlag.BEGIN, duration: float = 0.1)
     return encode_points(7, 0, *wave(count, duration=duration), flags=flags)
 
 
-def reply(client: Client) -> tuple[int, ...]:
-    """Data of the next acknowledgement."""
-    frame = client.wait_frame(timeout=10)
-    assert frame is not None
-    assert struct.unpack_from("<3i", frame, 4) == (1302, 3, 1), "refused"
-    return struct.unpack_from("<7i", frame, 16)
+@cache
+def built(config: RobotConfig) -> System:
+    return make_system(config, build(config))
+
+
+def booted(config: RobotConfig, system: System | None = None, **setting) -> Bench:
+    """A driver that has waited for half a second."""
+    bench = Bench(config, system or built(config), Setting(**setting))
+    bench.run(0.5)
+    return bench
+
+
+def reply(link: RawLink) -> PointsAccepted:
+    """The next acknowledgement."""
+    told = link.reply(POINTS, 10)
+    assert isinstance(told, PointsAccepted), told
+    return told
+
+
+def download(count: int, duration: float, joints: npt.NDArray) -> bytes:
+    """Points of a wave, the last one a request."""
+    rows = [tuple(row) for row in joints.tolist()]
+    return b"".join(
+        point_frame(n, count, row, duration, Comm.REQUEST if n == count - 1 else Comm.TOPIC)
+        for n, row in enumerate(rows)
+    )
 
 
 def per_point(config: RobotConfig, scale: float, *, foreign: Path | None = None) -> float:
@@ -64,57 +90,57 @@ def per_point(config: RobotConfig, scale: float, *, foreign: Path | None = None)
     costs = Costs().scaled(scale)
     if foreign is None:
         policy = replace(config.trajectory, ring=512, preload=10, min_segment=0.01)
-        bench = Bench(replace(config, trajectory=policy), costs=costs)
+        bench = booted(replace(config, trajectory=policy), costs=costs)
         frames = batches(300, duration=0.02)
-        client = bench.client()
+        client = bench.motion()
         client.send(frames[0])
         reply(client)
-        start = bench.vc.now
+        start = bench.now
         client.send(b"".join(frames[1:9]))
         for _ in range(8):
             reply(client)
-        taken = (bench.vc.now - start) / (8 * BATCH)
-        bench.stop()
+        taken = (bench.now - start) / (8 * BATCH)
+        bench.close()
         return taken
     ends = []
     for count in (20, 90):
-        bench = Bench(config, system=read_system(foreign), costs=costs)
-        client = bench.client()
+        bench = booted(config, read_system(foreign), costs=costs)
+        client = bench.motion()
         _, joints = wave(count + 1)
-        start = bench.vc.now
-        client.send(b"".join(trajectory(joints.tolist(), [0.2] * len(joints))[:count]) + STOP)
-        assert client.wait_frame(timeout=30)
-        ends.append(bench.vc.now - start)
-        bench.stop()
+        start = bench.now
+        client.send(download(count + 1, 0.2, joints)[:-POINT_BYTES] + STOP)
+        client.expect_reply(30, "STOP is answered")
+        ends.append(bench.now - start)
+        bench.close()
     return (ends[1] - ends[0]) / 70
 
 
 def socket_calls(config: RobotConfig, count: int = 1200) -> float:
     """Socket calls of the motion server for a point, the robot following."""
-    bench = Bench(config, tracing=True)
+    bench = booted(config, coverage=True)
     calls = [0]
 
     def traced(task, routine, node):
         if task.name == "T_ROS_RECV" and routine.name.lower() in SOCKETS:
             calls[0] += node is routine.node.body[0]
 
-    client = bench.client()
-    bench.vc.run_for(0.5)
-    bench.vc.tracers.append(traced)
+    client = bench.motion()
+    bench.run(0.5)
+    bench.controller.tracers.append(traced)
     for _ in feed(bench, client, count):
-        bench.vc.run_for(0.5)
-    bench.stop()
+        bench.run(0.5)
+    bench.close()
     return calls[0] / count
 
 
-def feed(bench: Bench, client: Client, count: int) -> Iterator[int]:
+def feed(bench: Bench, client: RawLink, count: int) -> Iterator[int]:
     """Send a stream in full batches as there is room; yields while there is none."""
     first, allowed = 0, RING
     while first < count:
         size = min(BATCH, count - first)
         if first + size > allowed:
             yield first
-            allowed = bench.pers("ROS_planned", "T_ROB1") + RING
+            allowed = bench.controller.task("T_ROB1")["ROS_common:ROS_planned"] + RING
             continue
         flags = (StreamFlag.BEGIN if first == 0 else 0) | (
             StreamFlag.END if first + size == count else 0
@@ -125,86 +151,88 @@ def feed(bench: Bench, client: Client, count: int) -> Iterator[int]:
         assert accepted == first + size
         first += size
         allowed = planned + RING
-    while bench.pers("ROS_done") != 1:
+    while bench.controller.task("T_ROB1")["ROS_common:ROS_done"] != 1:
         yield first
 
 
 def first_motion(config: RobotConfig, count: int, seed: int) -> float:
     """s until the robot moves, for a stream of `count` points."""
-    bench = Bench(config, seed=seed)
-    client = bench.client()
-    bench.vc.run_for(1 + 0.013 * seed)
-    start = bench.vc.now
+    bench = booted(config, seed=seed)
+    client = bench.motion()
+    bench.run(1 + 0.013 * seed)
+    start = bench.now
     client.send(batches(count)[0])
-    assert bench.vc.run_until(lambda: not bench.group.is_standing, timeout=10)
-    taken = bench.vc.now - start
-    bench.stop()
+    assert bench.controller.run_until(lambda: not bench.motion_group.is_standing, timeout=10)
+    taken = bench.now - start
+    bench.close()
     return taken
 
 
 def first_motion_of_a_download(config: RobotConfig, count: int) -> float:
-    bench = Bench(config)
-    client = bench.client()
-    bench.vc.run_for(1)
-    start = bench.vc.now
+    bench = booted(config)
+    client = bench.motion()
+    bench.run(1)
+    start = bench.now
     _, joints = wave(count)
-    client.send(b"".join(trajectory(joints.tolist(), [10.0] + [0.1] * (count - 1))))
-    assert bench.vc.run_until(lambda: not bench.group.is_standing, timeout=60)
-    taken = bench.vc.now - start
-    bench.stop()
+    client.send(download(count, 0.1, joints))
+    assert bench.controller.run_until(lambda: not bench.motion_group.is_standing, timeout=60)
+    taken = bench.now - start
+    bench.close()
     return taken
 
 
 def stopping(config: RobotConfig, seed: int) -> float:
     """s from the delivery of STOP to the robot being told, the reader and the state server busy."""
-    bench = Bench(replace(config, state_period=0.02), seed=seed)
-    client, own = bench.client(), bench.client(config.groups[0].ports.control)
+    bench = booted(replace(config, state_period=0.02), seed=seed)
+    client, own = bench.motion(), bench.control()
     for _ in range(3):
-        watcher = bench.state_client()
+        watcher = bench.state()
         watcher.send(struct.pack("<4i5i", 32, 1300, 2, 0, 2, 0, 1, 0, 1 + 16 + 32))
     frames = batches(1500)
     client.send(frames[0])
     reply(client)
-    bench.vc.run_for(1.1 + 0.0137 * seed)
-    client.network.send(client.endpoint, b"".join(frames[1:]))
-    bench.vc.run_for(0.004 + 0.0031 * seed)
-    own.network.send(own.endpoint, STOP)
-    start = bench.vc.now
-    assert bench.vc.run_until(lambda: bench.group.stop_reasons != (), timeout=2)
-    taken = bench.vc.now - start
-    bench.stop()
+    bench.run(1.1 + 0.0137 * seed)
+    client.at_once(b"".join(frames[1:]))
+    bench.run(0.004 + 0.0031 * seed)
+    own.at_once(STOP)
+    start = bench.now
+    assert bench.controller.run_until(lambda: bench.motion_group.stop_reasons != (), timeout=2)
+    taken = bench.now - start
+    bench.close()
     return taken
 
 
 def endless(config: RobotConfig, count: int) -> None:
     """A long stream: rests of the robot, memory, and what it took."""
-    bench = Bench(config)
-    client = bench.client()
+    bench = booted(config)
+    client = bench.motion()
     rests, moving = [0], [False]
 
     def changed():
-        if moving[0] and bench.group.is_standing:
+        if moving[0] and bench.motion_group.is_standing:
             rests[0] += 1
-        moving[0] = not bench.group.is_standing
+        moving[0] = not bench.motion_group.is_standing
 
-    bench.group.changed.add(changed)
-    began, thirds, start = time.process_time(), [], bench.vc.now
+    bench.motion_group.changed.add(changed)
+    began, thirds, start = time.process_time(), [], bench.now
     for first in feed(bench, client, count):
-        bench.vc.run_for(1.0)
+        bench.run(1.0)
+        bench.forget()
+        client.forget()
         if first * 3 // count > len(thirds):
             gc.collect()
             thirds.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
-    taken = bench.vc.now - start
+    taken = bench.now - start
     asked = 0.1 * (count - 1)
     gc.collect()
     thirds.append(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024)
     print(
         f"{count} points: {taken:.1f} s for {asked:.1f} s asked, {rests[0] - 1} rests before the "
         f"end, memory {' '.join(f'{m:.0f}' for m in thirds)} MB, complaints "
-        f"{sum(e.type.name != 'INFO' for e in bench.vc.log)}, "
+        f"{sum(e.type.name != 'INFO' for e in bench.controller.log)}, "
         f"{time.process_time() - began:.0f} s of CPU"
     )
-    bench.stop()
+    bench.close()
 
 
 def main() -> None:

@@ -5,14 +5,13 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def monitor(
-    config: Annotated[str, typer.Argument(help="Configuration file, shipped name or HOST[:M,S].")],
-    to: Annotated[
-        str,
-        typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]"),
-    ] = "",
-    group: Annotated[str, typer.Option(help="Motion group, where there are several.")] = "",
+    config: options.ConfigOrHost,
+    to: options.RobotAddress = "",
+    group: options.Group = "",
     plain: Annotated[bool, typer.Option("--plain", help="One line a state, no table.")] = False,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON object a line.")] = False,
     count: Annotated[

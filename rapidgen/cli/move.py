@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
     from rapidgen.client.core.checks import Way
@@ -13,13 +15,10 @@ if TYPE_CHECKING:
 
 
 def move(
-    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    config: options.Config,
     points: Annotated[Path, typer.Argument(help="CSV `time,<joint names>` (s, rad, m), or JSON.")],
-    to: Annotated[
-        str,
-        typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]"),
-    ] = "",
-    group: Annotated[str, typer.Option(help="Motion group, where there are several.")] = "",
+    to: options.RobotAddress = "",
+    group: options.Group = "",
     yes: Annotated[
         bool, typer.Option("--yes", "-y", help="Do not ask; answers on this machine only.")
     ] = False,

@@ -50,4 +50,3 @@ RobotAddress = Annotated[
     str, typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]")
 ]
 Group = Annotated[str, typer.Option(help="Motion group, where there are several.")]
-AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]

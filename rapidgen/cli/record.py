@@ -6,15 +6,14 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 
 def record(
-    config: Annotated[str, typer.Argument(help="Configuration file, shipped name or HOST[:M,S].")],
+    config: options.ConfigOrHost,
     out: Annotated[Path, typer.Option("--out", "-o", help="CSV file.", metavar="FILE")],
-    to: Annotated[
-        str,
-        typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]"),
-    ] = "",
-    group: Annotated[str, typer.Option(help="Motion group, where there are several.")] = "",
+    to: options.RobotAddress = "",
+    group: options.Group = "",
     seconds: Annotated[
         float, typer.Option(help="End after so many seconds; 0: with Ctrl-C.", min=0)
     ] = 0.0,

@@ -4,16 +4,15 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from rapidgen.client import State
 
 
 def stop(
-    config: Annotated[str, typer.Argument(help="Configuration file, shipped name or HOST[:M,S].")],
-    to: Annotated[
-        str,
-        typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]"),
-    ] = "",
+    config: options.ConfigOrHost,
+    to: options.RobotAddress = "",
     group: Annotated[str, typer.Option(help="Only this motion group.")] = "",
 ) -> int:
     """Stop the robot: every motion group, or one. Not a safety function."""

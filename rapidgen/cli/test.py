@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.cli import options
+
 if TYPE_CHECKING:
     from collections.abc import Callable
 
@@ -14,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def test(
-    config: Annotated[str, typer.Argument(help="Configuration file or shipped name.")],
+    config: options.Config,
     seeds: Annotated[int, typer.Option(help="Random schedules to explore.", min=0)] = 100,
     jobs: Annotated[
         int | None, typer.Option(help="Processes; default one for each core.", min=1)
@@ -40,10 +42,7 @@ def test(
     html: Annotated[
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
     ] = None,
-    overrides: Annotated[
-        list[str] | None,
-        typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
-    ] = None,
+    overrides: options.Overrides = None,
 ) -> int:
     """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
 

@@ -6,7 +6,6 @@ Only `create_connection`, `time`, `create_future` and `call_later` of the runnin
 import asyncio
 from collections.abc import AsyncIterable, AsyncIterator, Iterable, Sequence
 from contextlib import nullcontext
-from types import TracebackType
 from typing import Self, TypeVar, cast
 
 from rapidgen.client import flows
@@ -257,13 +256,8 @@ class AsyncStream(StreamSurface[Loop]):
     async def __aenter__(self) -> Self:
         return self
 
-    async def __aexit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        if error is not None:
+    async def __aexit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None:
             await self.cancel()
         elif self.total:
             await self.result()
@@ -303,12 +297,7 @@ class AsyncRobot(RobotSurface[Loop, AsyncExecution, AsyncStream]):
     async def __aenter__(self) -> Self:
         return self if self.is_connected else await self.connect()
 
-    async def __aexit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    async def __aexit__(self, *_: object) -> None:
         await self.close()
 
     async def states(self, timeout: float | None = None) -> AsyncIterator[State]:

@@ -35,7 +35,7 @@ MakeCore = Callable[[Callable[[], float]], Core]
 """A core on a clock, which gives s."""
 
 
-class Carrier(Protocol):
+class FlowCarrier(Protocol):
     """Carries out flows for a core: by the caller's thread, or on the caller's loop."""
 
     core: Core
@@ -100,7 +100,7 @@ def _method(flow: Callable[..., Flow[T]], subject: Callable[[_OfBlocking], objec
     return cast("Method[P, T]", method)
 
 
-C_co = TypeVar("C_co", bound=Carrier, covariant=True)
+C_co = TypeVar("C_co", bound=FlowCarrier, covariant=True)
 
 
 class JobSurface(Generic[C_co]):
@@ -187,8 +187,8 @@ class StreamSurface(JobSurface[C_co]):
         return self._job.motion.starved if self._job.motion is not None else 0
 
 
-Execution = TypeVar("Execution", bound=ExecutionSurface[Carrier], covariant=True)
-Stream = TypeVar("Stream", bound=StreamSurface[Carrier], covariant=True)
+Execution = TypeVar("Execution", bound=ExecutionSurface[FlowCarrier], covariant=True)
+Stream = TypeVar("Stream", bound=StreamSurface[FlowCarrier], covariant=True)
 
 
 class RobotSurface(Generic[C_co, Execution, Stream]):

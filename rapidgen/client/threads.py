@@ -4,7 +4,6 @@ import threading
 import time
 from collections.abc import Iterable, Iterator, Sequence
 from functools import partial
-from types import TracebackType
 from typing import Self, TypeVar
 
 from rapidgen.client import flows
@@ -186,13 +185,8 @@ class Stream(StreamSurface[Threads]):
     def __enter__(self) -> Self:
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
-        if error is not None:
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
+        if kind is not None:
             self.cancel()
         elif self.total:
             self.result()
@@ -231,12 +225,7 @@ class Robot(RobotSurface[Threads, Execution, Stream]):
     def __enter__(self) -> Self:
         return self if self.is_connected else self.connect()
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        traceback: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def states(self, timeout: float | None = None) -> Iterator[State]:

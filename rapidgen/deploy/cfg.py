@@ -89,7 +89,7 @@ def merged(
             elif " ".join(key) in ours:
                 old = before.get(" ".join(key))
                 if old is not None:
-                    kept.append(_from_json(old))
+                    kept.append(instance_from(old))
             else:
                 kept.append(instance)
         kept += (
@@ -148,7 +148,8 @@ def _to_json(instance: Instance) -> list[Json]:
     return [[a.name, list(a.values)] for a in instance.attributes]
 
 
-def _from_json(data: Json) -> Instance:
+def instance_from(data: Json) -> Instance:
+    """An instance as a manifest holds it. Raises TypeError or ValueError for anything else."""
     attributes = []
     for name, values in map(items, items(data)):
         kept = tuple(v for v in items(values) if isinstance(v, str | int | float))

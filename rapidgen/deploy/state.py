@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from rapidgen._json import Json, Members, items, members, whole
+from rapidgen.deploy.cfg import instance_from
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, digest
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
 from rapidgen.diagnostics import DiagnosticError, refusal
@@ -182,9 +183,18 @@ def manifest_from(read: Json) -> Manifest:
             Past(whole(p["id"]), _text(p["time"]), _text(p["name"]), _text(p["build_id"]))
             for p in map(members, items(data["history"]))
         ),
-        members(data["cfg_before"]),
+        _instances(data["cfg_before"]),
         members(data["generated"]),
     )
+
+
+def _instances(read: Json) -> Members:
+    """What was there before the first deployment: instances, or null for those that were not."""
+    found = members(read)
+    for old in found.values():
+        if old is not None:
+            instance_from(old)
+    return found
 
 
 def journal_json(journal: Journal) -> Members:

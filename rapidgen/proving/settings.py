@@ -61,7 +61,7 @@ _MOTION = {
     "quick_factor=1.0": MotionSettings(quick_factor=1.0),
 }
 # What the driver cannot do without. Where it is otherwise a task ends at its start or every link
-# breaks, and nothing moves: tests/generate/test_refused_switches.py.
+# breaks, and nothing moves: tests/proving/test_variants.py.
 NEEDED = frozenset({"unpack_ulint", "alias_by_name"})
 
 

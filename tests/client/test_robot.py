@@ -7,6 +7,7 @@ import threading
 import pytest
 from both_clients import Blocking
 from fake_controller import joint_frame, status_frame
+from fake_stream import StreamModel
 
 from rapidgen.client import (
     AsyncRobot,
@@ -251,8 +252,9 @@ def test_missing_reply_to_stop(fake, client):
         robot.stop()
 
 
-def test_a_controller_that_cannot_stop(fake, client):
-    robot_in = client(fake(stop_code=2).address)
+@pytest.mark.parametrize("control", [True, False])
+def test_a_controller_that_cannot_stop(fake, client, control):
+    robot_in = client(fake(stop_code=2, control=control, stream=StreamModel()).address)
     with robot_in as robot, pytest.raises(StopFailed, match="could not stop"):
         robot.stop()
 
@@ -409,10 +411,11 @@ def test_no_frame_goes_out_behind_a_stop_that_came_before_the_lock():
         peer.close()
 
 
-def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes):
-    controller = fake()
+@pytest.mark.parametrize("way", ["download", "stream"])
+def test_ctrl_c_stops_the_robot(fake, patient, monkeypatch, comes, way):
+    controller = fake(stream=StreamModel() if way == "stream" else None)
     with Robot(controller.address, timeouts=patient()) as robot:
-        execution = robot.execute(LONG)
+        execution = robot.execute(LONG, way=way)
         wait = robot._carrier.guard.wait
 
         def interrupt(timeout=None):

@@ -138,8 +138,11 @@ def test_both_clients_have_the_same_surface(blocking, asynchronous):
             if name.startswith("_"):
                 continue
             signature = inspect.signature(member) if callable(member) else None
-            found[name] = str(signature), inspect.getdoc(member)
-            if name in ("states", "extend") or (name == "execute" and "Cell" in kind.__name__):
+            found[name] = (
+                str(signature).replace("AsyncIterator", "Iterator"),
+                inspect.getdoc(member),
+            )
+            if name == "extend" or (name == "execute" and "Cell" in kind.__name__):
                 found[name] = list(signature.parameters)
         return found
 
@@ -170,41 +173,47 @@ def test_the_tree_of_exceptions_is_the_one_that_is_drawn():
     assert drawn == kinds
 
 
-class TestCells:
-    def test_start_together_and_arrive(self, fake, patient):
-        controllers = [fake(), fake(rapidgen=False)]
+@pytest.fixture
+def cell_of(fake, patient):
+    """Makes a cell of scripted controllers, and tells them."""
+
+    def make(*scripts):
+        controllers = [fake(**script) for script in scripts]
         robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
-        with Cell(robots) as cell:
+        return Cell(robots), controllers
+
+    return make
+
+
+class TestCells:
+    def test_start_together_and_arrive(self, cell_of):
+        with cell_of({}, {"rapidgen": False})[0] as cell:
             results = cell.execute({"0": PATH, "1": PATH}).result()
         assert all(result.deviation < 1e-5 for result in results.values())
 
-    def test_the_faults_of_all_before_a_byte_is_sent(self, fake, patient):
-        controllers = [fake(), fake()]
-        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
+    def test_the_faults_of_all_before_a_byte_is_sent(self, cell_of):
+        cell, controllers = cell_of({}, {})
         far = Trajectory.from_points([[0.0] * 6, [9.0] * 6], seconds=99)
-        with Cell(robots) as cell:
+        with cell:
             with pytest.raises(InvalidTrajectory) as error:
                 cell.execute({"0": far, "1": far})
             assert len(error.value.diagnostics) == 12
-            with pytest.raises(KeyError):
+            with pytest.raises(KeyError, match="no robot of this cell is called '2'"):
                 cell.execute({"2": PATH})
         assert [c.frames for c in controllers] == [[], []]
 
-    def test_one_refuses_and_nobody_moves_on(self, fake, patient):
-        controllers = [fake(), fake(refuse=(5, 0, 1))]
-        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
-        with Cell(robots) as cell:
+    def test_one_refuses_and_nobody_moves_on(self, cell_of):
+        cell, controllers = cell_of({}, {"refuse": (5, 0, 1)})
+        with cell:
             with pytest.raises(TrajectoryRefused):
                 cell.execute({"0": LONG, "1": LONG})
             assert controllers[0].stops
             assert not controllers[0]._moving
 
     @pytest.mark.parametrize("failing", ["fails", "lost"])
-    def test_one_fails_and_all_are_stopped(self, fake, patient, failing):
-        options = {"ends_at": 0.02} if failing == "fails" else {}
-        controllers = [fake(), fake(**options)]
-        robots = {str(i): Robot(c.address, timeouts=patient()) for i, c in enumerate(controllers)}
-        with Cell(robots) as cell:
+    def test_one_fails_and_all_are_stopped(self, cell_of, failing):
+        cell, controllers = cell_of({}, {"ends_at": 0.02} if failing == "fails" else {})
+        with cell:
             execution = cell.execute({"0": LONG, "1": LONG})
             if failing == "lost":
                 controllers[1].drop("state")

@@ -7,6 +7,7 @@ import threading
 
 import numpy as np
 import pytest
+from driven import wave
 from fake_controller import frame
 from fake_stream import StreamModel
 
@@ -17,9 +18,7 @@ from rapidgen.client import (
     NotReady,
     NotSupported,
     RequestRefused,
-    Robot,
     RobotTimeout,
-    StopFailed,
     Trajectory,
     TrajectoryRefused,
 )
@@ -29,11 +28,6 @@ from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 SPEED = 40
 """The scripted robot plays so many times faster than asked."""
-
-
-def wave(step=0.1):
-    for n in itertools.count():
-        yield n * step, [0.3 * np.sin(n * 0.02)] * 6
 
 
 def streams(**options):
@@ -98,16 +92,22 @@ def test_refused_at_the_first_points_nothing_moves(fake, client):
 
 
 @pytest.mark.parametrize("point", [0, 7, 250])
-def test_refused_on_the_way(fake, client, point):
-    controller = fake(**streams(point_fault=(point, Reason.TCP_TOO_FAST, 0)))
+def test_refused_on_the_way_it_ends_in_order_and_says_which(fake, client, point):
+    controller = fake(**streams(point_fault=(point, Reason.JOINT_LIMIT, 3)))
     with client(controller.address) as robot:
         stream = robot.stream()
         kind = MotionFailed if point else TrajectoryRefused
-        with pytest.raises(kind, match=f"point {point}: .* TCP") as error:
+        with pytest.raises(kind, match=rf"at point {point}, joint_3: .* outside its") as error:
             stream.extend(wave())
-        assert (error.value.point, error.value.joint) == (point, 0)
-        assert error.value.reason is Reason.TCP_TOO_FAST
-    assert len(controller.script.stream.executed) == point
+        assert (error.value.point, error.value.joint) == (point, 3)
+        assert error.value.reason is Reason.JOINT_LIMIT
+        assert error.value.reached == (point or None)
+        assert stream.is_over
+        assert stream.progress.state.name == ("FAILED" if point else "REFUSED")
+    executed = controller.script.stream.executed
+    assert len(executed) == point
+    if point:
+        assert error.value.states[-1].joints == pytest.approx(executed[-1][1])
 
 
 def test_stop_from_another_thread(fake, client):
@@ -299,12 +299,6 @@ def test_stop_goes_over_the_control_port_alone_when_all_is_answered(fake, client
         assert stream.stopped_position is not None
 
 
-def test_a_stop_that_the_controller_did_not_do(fake, client):
-    controller = fake(**streams(), stop_code=2)
-    with client(controller.address) as robot, pytest.raises(StopFailed, match="could not stop"):
-        robot.stop()
-
-
 def test_replies_get_lost(fake, client, comes):
     controller = fake(**streams(lose_replies_from=5))
     with client(controller.address, hasty={"reply": 0.5}) as robot:
@@ -362,20 +356,3 @@ def test_the_limits_of_the_controller_count_where_they_are_narrower(fake, client
         assert robot.group.joints[5].upper == pytest.approx(3.0)
         assert robot.group.joints[1].upper == config.groups[0].joints[1].upper
         assert robot.group.joints[1].upper < 3.0
-
-
-def test_ctrl_c_in_an_append_stops_the_robot(fake, patient, monkeypatch, comes):
-    controller = fake(**streams(speed=1))
-    with Robot(controller.address, timeouts=patient()) as robot:
-        stream = robot.stream()
-        stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
-        wait = robot._carrier.guard.wait
-
-        def interrupt(timeout=None):
-            monkeypatch.setattr(robot._carrier.guard, "wait", wait)
-            raise KeyboardInterrupt
-
-        monkeypatch.setattr(robot._carrier.guard, "wait", interrupt)
-        with pytest.raises(KeyboardInterrupt):
-            stream.result()
-        assert comes(lambda: controller.script.stream.state == TrajectoryState.STOPPED)

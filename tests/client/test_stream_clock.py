@@ -244,21 +244,6 @@ def test_who_sees_nothing_sends_no_heartbeat_either():
         driver.model.control = hear
 
 
-def test_a_fault_in_a_point_ends_it_in_order_and_says_which():
-    with streamed(point_fault=(5000, Reason.JOINT_LIMIT, 3)) as (robot, driver):
-        stream = robot.stream()
-        with pytest.raises(MotionFailed, match=r"at point 5000, joint_3: .* outside its") as error:
-            stream.extend(wave())
-        assert (error.value.point, error.value.joint) == (5000, 3)
-        assert error.value.reason is Reason.JOINT_LIMIT
-        assert error.value.reached == 5000
-        assert stream.is_over
-        assert stream.progress.state is TrajectoryState.FAILED
-        state = error.value.states[-1]
-    assert len(driver.model.executed) == 5000
-    assert state.joints == pytest.approx(driver.model.executed[-1][1])
-
-
 def test_a_fault_of_the_caller_is_told_before_it_is_sent_and_the_stream_goes_on():
     with streamed() as (robot, driver):
         with robot.stream() as stream:
@@ -458,14 +443,6 @@ def test_a_control_port_that_falls_silent_stops_the_motion():
     # the motion port is there
     assert driver.model.state == TrajectoryState.STOPPED
     assert any(port == 11000 for _, port, number in driver.log if number == 11)
-
-
-def test_a_batch_that_nobody_answers_stops_the_motion():
-    with streamed(lose_replies_from=20) as (robot, driver):
-        with pytest.raises(RobotTimeout, match="did not answer a batch"):
-            robot.stream().extend(wave())
-        robot.sleep(0.5)
-    assert driver.model.state == TrajectoryState.STOPPED
 
 
 def test_a_lost_connection_stops_the_motion_though_nobody_waits():

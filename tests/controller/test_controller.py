@@ -1,12 +1,20 @@
 """The controller from outside: stops, modes, faults, values, real time."""
 
 import threading
+from dataclasses import replace
 
 import pytest
 
 from rapidgen.controller import Deadlock, VirtualController
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.system.model import EventRoutine, ModuleFile, System, TaskSpec
+from rapidgen.system.model import (
+    EventRoutine,
+    ModuleFile,
+    SignalSpec,
+    System,
+    SystemOutput,
+    TaskSpec,
+)
 from tests.runtime.booting import boot, system
 
 COUNT = """
@@ -188,8 +196,56 @@ def test_trust_levels(trust: str, normal: str, startable: bool) -> None:
         controller.run_for(2)
         assert controller.task("T2").state == "error"
         assert controller.task("T1").state == normal
+        assert controller.motors_on == startable
         assert controller.start_program() == startable
+        controller.set_motors(True)
+        assert controller.start_program() == (trust != "SysFail")
         assert 40_199 in codes(controller)
+
+
+@pytest.mark.parametrize("trust", ["SysHalt", "SysFail"])
+def test_a_task_that_halts_the_system_leaves_the_motors_off(trust: str) -> None:
+    """[S4 overview 4-45]: what was allowed before is refused, and the outputs say so."""
+    spec = {"T2": {"type": "STATIC", "trust": trust}}
+    signals, outputs = (SignalSpec("doMotors", "DO"),), (SystemOutput("MotorOn", "doMotors"),)
+    halting = replace(system({"T1": COUNT, "T2": FAULT}, signals=signals, **spec), outputs=outputs)
+    with VirtualController(halting) as controller:
+        controller.run_for(0.5)
+        assert controller.signals["doMotors"] == 1
+        controller.run_for(1)
+        assert controller.signals["doMotors"] == 0
+        assert controller.execution_error
+
+
+@pytest.mark.parametrize(
+    ("mode", "event"), [("manual_reduced", 10_015), ("manual_full", 10_015), ("auto", 10_017)]
+)
+def test_a_new_mode_stops_the_program_and_switches_the_motors_off(mode: str, event: int) -> None:
+    controller, _ = boot(COUNT)
+    with controller:
+        if mode == "auto":
+            controller.set_mode("manual_reduced")
+            controller.set_motors(True)
+        controller.start_program()
+        controller.run_for(1)
+        controller.set_mode(mode)
+        assert (controller.mode, controller.motors_on) == (mode, False)
+        assert controller.task("T1").state == "stopped"
+        assert event in codes(controller)
+        assert not controller.start_program()
+        controller.set_motors(True)
+        assert controller.start_program()
+
+
+def test_the_mode_that_is_on_already_changes_nothing() -> None:
+    controller, _ = boot(COUNT)
+    with controller:
+        controller.start_program()
+        controller.set_mode("auto")
+        assert controller.motors_on
+        assert controller.task("T1").state == "running"
+        with pytest.raises(ValueError, match="auto, manual_reduced, manual_full"):
+            controller.set_mode("manual")
 
 
 def test_a_fault_names_event_module_line_and_call_stack() -> None:

@@ -1,5 +1,7 @@
 """cfg instances beside HOME: seen, merged, and taken back."""
 
+import json
+
 import pytest
 
 from rapidgen.deploy import make_plan
@@ -92,3 +94,17 @@ def test_without_syspar_loading_is_a_step_at_the_pendant(kit, home):
     assert any("load HOME:/rapidgen_deploy/EIO.cfg (1 instances to add" in s for s in steps)
     assert not any("SYS.cfg" in s for s in steps)
     assert any("loading removes nothing" in s and "signalMotorOn" in s for s in steps)
+
+
+@pytest.mark.parametrize("said", [7, "x", [["Name"]], [["Name", 3]], [[3, []]], [3], {"a": 1}])
+def test_instances_in_a_manifest_that_are_none_make_it_damaged(kit, controller, said):
+    transport = FolderTransport(controller)
+    kit.deploy(transport, kit.driver(OLD))
+    path = controller / "HOME/rapidgen_deploy/manifest.json"
+    manifest = json.loads(path.read_text())
+    key = next(key for key, old in manifest["cfg_before"].items() if old)
+    manifest["cfg_before"][key] = said
+    path.write_text(json.dumps(manifest))
+    with pytest.raises(DiagnosticError) as caught:
+        make_plan(transport, None, verb="uninstall")
+    assert [d.code for d in caught.value.diagnostics] == ["RG531"]

@@ -4,18 +4,16 @@ Three are kept whole, of the others the cfg text. After a wanted change: `python
 tests.generate.goldens`.
 """
 
-import struct
 from dataclasses import replace
 
 import pytest
 
 from rapidgen.config import load_config
 from rapidgen.generate import build, write
+from rapidgen.proving.bench import Bench
 from rapidgen.rapid import check
 from rapidgen.system import ModuleFile, read_folder
-from tests.generate.bench import Bench, close_to, trajectory
 from tests.generate.goldens import EXAMPLES, GOLDENS, WHOLE, kept
-from tests.generate.test_robots import targets
 
 OWN_MAIN = b"MODULE Cell\n    PROC main()\n        ROS_run;\n    ENDPROC\nENDMODULE\n"
 
@@ -52,19 +50,14 @@ def test_an_example_is_checked_booted_and_driven(path, tmp_path):
         robot = replace(robot, modules=(*robot.modules, own))
         system = replace(system, tasks=(robot, *others))
     assert check(system) == []
-    bench = Bench(config, system=system)
+    bench = Bench(config, system)
     try:
-        for group in config.groups:
-            rows = targets(config, group, bench)
-            client = bench.client(group.ports.motion)
-            client.send(b"".join(trajectory(rows, [10, 2, 2])))
-            reply = client.wait_frame()
-            assert struct.unpack_from("<4i", reply)[1:] == (11, 3, 1), reply[16:].hex()
-            bench.vc.run_for(5)
-            assert close_to(bench.joints(group.name), rows[-1], 1e-6)
-        assert bench.healthy()
+        for number in range(len(config.groups)):
+            own = bench.of_group(number)
+            own.moves_through(own.motion(), own.wave(3))
+        bench.healthy()
     finally:
-        bench.stop()
+        bench.close()
 
 
 def test_no_golden_without_its_example():

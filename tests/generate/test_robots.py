@@ -1,13 +1,17 @@
 """Every shipped model, in every RobotWare generation that it exists for, boots and moves."""
 
-import struct
+from dataclasses import replace
 
 import pytest
+from rapidgen.machine.configuration import arm_name
 
 from rapidgen.config import load_config, shipped_names
-from rapidgen.generate import build
+from rapidgen.generate import build, layout, make_system
+from rapidgen.machine.log import EventType
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.messages import MAX_JOINTS, JointPosition
+from rapidgen.proving.track import distance
 from rapidgen.system import parse_cfg, read_folder
-from tests.generate.bench import STOP, Bench, close_to, trajectory
 
 VERSIONS = {5: "5.15", 6: "6.15", 7: "7.10", 8: "8.0"}
 CASES = [
@@ -22,48 +26,28 @@ def overrides_for(generation):
     return [f"controller.robotware={VERSIONS[generation]}", f"controller.type={kind}"]
 
 
-def targets(config, group, bench):
-    """Where the group stands, and two places near it within the limits."""
-    here = list(bench.joints(group.name))
-    rows = [here]
-    for step in (0.02, 0.05):
-        row = []
-        for joint, value in zip(group.joints, here, strict=True):
-            room = joint.upper - value
-            row.append(value + step if room > step else value - step)
-        rows.append(row)
-    return rows
-
-
 @pytest.mark.parametrize(("name", "generation"), CASES)
 def test_boots_and_moves(name, generation):
     config = load_config(name, overrides=overrides_for(generation))
     assert config.robotware[0] == generation
-    bench = Bench(config)
+    bench = Bench(config, make_system(config, build(config)))
     try:
-        assert bench.vc.diagnostics == []
-        for group in config.groups:
-            client, state = bench.client(group.ports.motion), bench.client(group.ports.state)
-            rows = targets(config, group, bench)
-            client.send(b"".join(trajectory(rows, [10, 1, 1])))
-            reply = client.wait_frame()
-            assert struct.unpack_from("<4i", reply)[1:] == (11, 3, 1), struct.unpack(
-                "<3i", reply[16:]
-            )
-            bench.vc.run_for(3)
-            assert close_to(bench.joints(group.name), rows[-1], 1e-6)
-            state.frames()
-            frames = [state.wait_frame(), state.wait_frame()]
-            (joint,) = [f for f in frames if f[4] == 10]
-            told = struct.unpack_from("<10f", joint, 20)
-            count = len(group.joints)
-            assert close_to(told[:count], rows[-1], 1e-6)
-            assert told[count:] == (0.0,) * (10 - count)
-        others = [e for e in bench.vc.log if e.type.name in ("WARNING", "ERROR")]
+        assert bench.controller.diagnostics == []
+        for number in range(len(config.groups)):
+            own = bench.of_group(number)
+            state, points = own.state(), own.wave(3)
+            own.moves_through(own.motion(), points)
+            own.run(0.5)
+            state.read()
+            told = state.expect(JointPosition, 2, "a JOINT arrives").joints
+            count = len(own.position)
+            assert distance(told[:count], points[-1][0]) < 1e-6
+            assert told[count:] == (0.0,) * (MAX_JOINTS - count)
+        others = [e for e in bench.controller.log if e.type is not EventType.INFO]
         assert [str(e) for e in others] == []
-        assert bench.healthy()
+        bench.healthy()
     finally:
-        bench.stop()
+        bench.close()
 
 
 @pytest.mark.parametrize("generation", [5, 6, 7])
@@ -102,31 +86,9 @@ def test_tasks_of_two_arms(tmp_path):
     assert "Shared" not in (tmp_path / "yumi/SYS.cfg").read_text()
 
 
-def test_two_arms_move_at_once_and_stop_apart(bench):
-    b = bench("irb14000")
-    left, right = b.config.groups
-    clients = {g.name: b.client(g.ports.motion) for g in b.config.groups}
-    start = {g.name: list(b.joints(g.name)) for g in b.config.groups}
-    for group in b.config.groups:
-        rows = [start[group.name], [v + 0.1 for v in start[group.name]]]
-        rows[1] = [min(v, j.upper) for v, j in zip(rows[1], group.joints, strict=True)]
-        clients[group.name].send(b"".join(trajectory(rows, [10, 2])))
-        assert clients[group.name].wait_frame()[12] == 1
-    b.vc.run_for(1)
-    clients[left.name].send(STOP)
-    assert clients[left.name].wait_frame()[12] == 1
-    b.vc.run_for(3)
-    assert abs(b.joints(left.name)[0] - start[left.name][0]) < 0.09
-    assert b.joints(right.name)[0] == pytest.approx(start[right.name][0] + 0.1, abs=1e-5)
-    assert b.healthy()
-
-
-def test_commissioning_makes_the_background_tasks_normal(bench):
-    b = bench(commissioning=True)
-    assert {t.type for t in b.system.tasks} == {"NORMAL"}
-    from tests.generate.driving import move_well
-
-    move_well(b)
+def test_commissioning_makes_the_background_tasks_normal():
+    config = load_config("irb120", overrides=["commissioning=true"])
+    assert {t.type for t in make_system(config, build(config)).tasks} == {"NORMAL"}
 
 
 def test_called_from_a_main_of_ones_own():
@@ -134,3 +96,31 @@ def test_called_from_a_main_of_ones_own():
     (motion,) = [f for f in output.files if f.path.endswith("ROS_motion.mod")]
     assert b"PROC main()" not in motion.data
     assert b"PROC ROS_run()" in motion.data
+
+
+def test_without_a_control_port_nothing_of_it_is_built():
+    config = load_config("irb120", overrides=["ports.control=0"])
+    output = build(config)
+    assert "T_ROS_CONTROL" not in {t.name for t in make_system(config, output).tasks}
+    assert not any("ROS_control" in f.path for f in output.files)
+    assert b"ROS_control_" not in b"".join(f.data for f in output.files if f.kind == "module")
+
+
+def test_without_geometry_corners_are_those_of_the_zone():
+    config = load_config("irb120")
+    (group,) = config.groups
+    unknown = replace(config, groups=(replace(group, chain=()),))
+    known, plain = (
+        next(f.data for f in build(c).files if f.path.endswith("ROS_motion.mod"))
+        for c in (config, unknown)
+    )
+    assert b"shape_corner" in known
+    assert b"shape_corner" not in plain
+    assert b", CORNER, tool0" in plain
+
+
+@pytest.mark.parametrize("name", ["irb120", "irb14000", "irb14050", "irb120_track", "irb460"])
+def test_the_driver_asks_for_arms_that_there_are(name):
+    for group in load_config(name).groups:
+        for joint in group.joints:
+            assert layout.arm(group, joint).lower() == arm_name(group, joint).lower()

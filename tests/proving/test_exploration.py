@@ -23,11 +23,21 @@ SYMPTOMS = {
 }
 
 
+# Of what a history must be made to meet a defect; `benchmarks/exploration.py` finds them among all.
+STEP = {
+    "R1": "over-capacity",
+    "R5": "stopped",
+    "R7a": "interrupted",
+    "R7b": "stopped",
+    "R12": "vanishes",
+}
+
+
 @pytest.mark.parametrize("defect", DEFECTS)
 def test_a_known_defect_is_found(defect):
     system = small_driver(defect)
     for seed in range(300):
-        finding = explore(SMALL, system, seed).finding
+        finding = explore(SMALL, system, seed, only=(STEP[defect],)).finding
         if finding is not None:
             break
     assert finding is not None

@@ -370,3 +370,23 @@ def _behind_the_end(bench: Bench) -> None:
     progress = bench.progress(watcher)
     if (progress.state, progress.reached) != (TrajectoryState.DONE, 12):
         raise Broken(f"points came behind the end, PROGRESS says {progress}")
+
+
+@case("batch-full-ring", "a full ring begins with less than it likes to have", "R1")
+def _full_ring(bench: Bench) -> None:
+    """Else client and driver would wait for each other."""
+    policy = bench.config.trajectory
+    count, seconds = policy.ring - 1, max(0.12, 1.05 * policy.min_segment)
+    if count * seconds > policy.preload:
+        return
+    stream = Streamer(bench)
+    points = way(bench, count, seconds)
+    stream.put(points[:-3], BEGIN)
+    stream.accepted("almost all that there is room for")
+    bench.stays(1, f"{count - 4} points are less than it likes to have")
+    stream.put(points[-3:])
+    if stream.accepted("all that there is room for").room:
+        raise Broken(f"the ring is full, the reply is {stream.last}")
+    bench.wait_until_moving(1)
+    stream.put((), END)
+    bench.wait_until_at(points[-1][0], 30)

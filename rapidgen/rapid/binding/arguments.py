@@ -97,9 +97,7 @@ _NO_MISFIT: Final[tuple[Misfit, ...]] = ()
 
 
 def match(
-    parameters: Sequence[Formal],
-    arguments: Sequence[A],
-    fitting: Callable[[A, Sequence[int]], int],
+    parameters: Sequence[Formal], arguments: Sequence[A], fitting: Callable[[A, Sequence[int]], int]
 ) -> Matching[A]:
     """Match the arguments of a call to the parameters of its routine.
 

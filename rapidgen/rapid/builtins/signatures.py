@@ -192,9 +192,7 @@ class _Types:
     records: Mapping[str, PredefinedRecord]
 
 
-def _declarations(
-    text: str,
-) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
+def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
     tokens = lexer.tokenize(
         f"MODULE builtins\n{text}\nENDMODULE", "<builtins>", "utf-8", radix=False
     )

@@ -52,6 +52,7 @@ class CallChecker:
 
     def __init__(self, findings: Findings, types: "TypeChecker") -> None:
         self.findings = findings
+        self.report, self.declared = findings.report, findings.declared
         self.types = types
 
     def call(self, node: ProcedureCall) -> None:
@@ -103,12 +104,12 @@ class CallChecker:
                 self._argument(symbol, parameters[pair.parameter], pair.argument)
         if found.missing and len(arguments) == len(node.arguments):
             listed = ", ".join(f"'{parameters[k].name}'" for k in found.missing)
-            self.findings.report(
+            self.report(
                 "RG311",
                 f"{symbol.name} needs {listed}",
                 node.first,
                 help=f"it takes {_listed(parameters)}",
-                related=self.findings.declared(symbol),
+                related=self.declared(symbol),
             )
 
     def _version(self, symbol: RoutineSymbol, node: _Call) -> None:
@@ -118,14 +119,14 @@ class CallChecker:
         robotware = self.findings.given.dialect.robotware
         since, until = signature.since, signature.until
         if since is not None and robotware < since:
-            self.findings.report(
+            self.report(
                 "RG325",
                 f"{symbol.name} came with RobotWare {since[0]}.{since[1]}",
                 node.first,
                 help=f"this is checked for {robotware[0]}.{robotware[1]}; see --robotware",
             )
         if until is not None and robotware > until:
-            self.findings.report(
+            self.report(
                 "RG325", f"{symbol.name} went with RobotWare {until[0]}.{until[1]}", node.first
             )
 
@@ -152,18 +153,18 @@ class CallChecker:
         argument = pair.argument
         for misfit in pair.misfits:
             if misfit is Misfit.SURPLUS:
-                self.findings.report(
+                self.report(
                     "RG311",
                     f"{symbol.name} has no parameter for this argument",
                     argument,
                     help=f"it takes {_listed(parameters)}",
-                    related=self.findings.declared(symbol),
+                    related=self.declared(symbol),
                 )
             elif misfit is Misfit.UNKNOWN:
                 self._no_parameter(symbol, parameters, argument)
             elif misfit is Misfit.EXCLUSIVE:
                 other = pair.rival.name if pair.rival else ""
-                self.findings.report(
+                self.report(
                     "RG313",
                     f"'{argument.name}' and '{other}' exclude each other",
                     argument,
@@ -172,13 +173,13 @@ class CallChecker:
             else:
                 name = parameters[pair.parameter].name
                 twice = misfit is Misfit.TWICE
-                self.findings.report(
+                self.report(
                     "RG314",
                     f"'{name}' is given twice" if twice else f"'{name}' stands too far behind",
                     argument,
                     help=f"the order is {_listed(parameters)}",
                     notes=("arguments have the order of the parameters [K §3.10]",),
-                    related=self.findings.declared(symbol),
+                    related=self.declared(symbol),
                 )
 
     def _no_parameter(
@@ -189,12 +190,12 @@ class CallChecker:
         likely = closest(argument.name or "", names)
         shown = ", ".join(("\\" if optional else "") + n for n in names)
         what = "optional argument" if optional else "parameter"
-        self.findings.report(
+        self.report(
             "RG312",
             f"{symbol.name} has no {what} '{argument.name}'",
             argument,
             help=f"did you mean '{likely}'?" if likely else (f"it has {shown}" if shown else ""),
-            related=self.findings.declared(symbol),
+            related=self.declared(symbol),
         )
 
     # -- one argument --------------------------------------------------------------------
@@ -203,7 +204,7 @@ class CallChecker:
         is_switch = parameter.type.lower() == "switch"
         if argument.kind == "switch":
             if not is_switch:
-                self.findings.report(
+                self.report(
                     "RG312",
                     f"\\{parameter.name} needs a value",
                     argument,
@@ -215,7 +216,7 @@ class CallChecker:
             return
         value = argument.value
         if is_switch:
-            self.findings.report(
+            self.report(
                 "RG312",
                 f"the switch \\{parameter.name} takes no value",
                 argument,
@@ -234,7 +235,7 @@ class CallChecker:
             return
         if not isinstance(value, Name | Index | Member):
             self.types.type_of(value)
-            self.findings.report(
+            self.report(
                 "RG315",
                 f"{place} must be {_MODES[parameter.mode]}, not an expression",
                 argument,
@@ -256,12 +257,12 @@ class CallChecker:
         if may_pass(datum, mode):
             return
         held = {"VAR": "a variable", "PERS": "a persistent"}.get(held_as(datum), "read-only")
-        self.findings.report(
+        self.report(
             "RG315",
             f"the argument {parameter.name} must be {_MODES[mode]}; '{datum.name}' is {held}",
             argument,
             notes=("arguments by mode [K §5.1]",),
-            related=self.findings.declared(datum),
+            related=self.declared(datum),
         )
 
     def _conditional(self, parameter: Parameter, argument: Argument) -> None:
@@ -270,19 +271,17 @@ class CallChecker:
             return
         own = self.findings.find(value.name)
         if not isinstance(own, DataSymbol) or not own.optional:
-            self.findings.report(
+            self.report(
                 "RG316",
                 f"'{value.name}' is no optional parameter of this routine",
                 argument,
                 notes=("a conditional argument hands an optional parameter on [K §3.10]",),
-                related=self.findings.declared(own) if own else (),
+                related=self.declared(own) if own else (),
             )
             return
         wanted = parameter.type.lower()
         if (own.type.lower() == "switch") != (wanted == "switch"):
-            self.findings.report(
-                "RG316", f"'{value.name}' is {own.type}, not {parameter.type}", argument
-            )
+            self.report("RG316", f"'{value.name}' is {own.type}, not {parameter.type}", argument)
         elif wanted not in ("switch", "anytype"):
             base = self.findings.module.base(parameter.type)
             found = self.findings.module.type_of(own)
@@ -298,10 +297,8 @@ class CallChecker:
             return
         value = constant(argument.value, self.findings.here)
         if isinstance(value, int | float) and not 1 <= value <= _RAW_BYTES:
-            self.findings.report(
-                "RG319",
-                f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}",
-                argument,
+            self.report(
+                "RG319", f"a raw byte index lies in 1 to {_RAW_BYTES}, not {value:g}", argument
             )
 
 

@@ -44,6 +44,7 @@ class _ModuleChecker:
 
     def __init__(self, findings: Findings) -> None:
         self.findings = findings
+        self.report, self.warn, self.declared = findings.report, findings.warn, findings.declared
         self.scope = findings.module
         self.types = TypeChecker(findings)
 
@@ -67,16 +68,16 @@ class _ModuleChecker:
             self.findings.unknown("type", name, at, certain=self.findings.given.judges_routines)
             return None
         if not isinstance(symbol, TypeSymbol) or symbol.name == "anytype":
-            self.findings.report(
+            self.report(
                 "RG303",
                 f"'{symbol.name}' is no type",
                 at,
                 label=f"a {symbol.kind}",
-                related=self.findings.declared(symbol),
+                related=self.declared(symbol),
             )
             return None
         if name.lower() == "dnum" and not self.findings.given.dialect.has_dnum:
-            self.findings.report("RG325", "dnum came with RobotWare 5.12", at)
+            self.report("RG325", "dnum came with RobotWare 5.12", at)
         return self.scope.base(name)
 
     # -- types ---------------------------------------------------------------------------
@@ -86,19 +87,15 @@ class _ModuleChecker:
         for component in node.components:
             key = component.name.lower()
             if key in seen:
-                self.findings.report(
-                    "RG327", f"the component '{component.name}' is there twice", component
-                )
+                self.report("RG327", f"the component '{component.name}' is there twice", component)
             seen.add(key)
             base = self._type(component.type, component.first)
             if base is None:
                 continue
             if base == node.name.lower():
-                self.findings.report(
-                    "RG327", f"the record '{node.name}' contains itself", component
-                )
+                self.report("RG327", f"the record '{node.name}' contains itself", component)
             elif base == "switch" or self.scope.type_class(base) == "semivalue":
-                self.findings.report(
+                self.report(
                     "RG327",
                     f"a component cannot be {component.type}",
                     component,
@@ -109,7 +106,7 @@ class _ModuleChecker:
         target = self.findings.find(node.type)
         self._type(node.type, node.last - 2)
         if isinstance(target, TypeSymbol) and target.kind == "ALIAS":
-            self.findings.report(
+            self.report(
                 "RG327",
                 f"'{node.type}' is itself an alias",
                 node,
@@ -126,7 +123,7 @@ class _ModuleChecker:
         if node.kind == "PERS":
             self._persistent(node, routine=routine)
         if base == "switch":
-            self.findings.report("RG303", "switch is for optional parameters only", type_token)
+            self.report("RG303", "switch is for optional parameters only", type_token)
             return
         kind = self.scope.type_class(base) if base else "value"
         if kind in ("nonvalue", "semivalue") and (node.kind != "VAR" or node.initial is not None):
@@ -135,7 +132,7 @@ class _ModuleChecker:
                 if node.kind != "VAR"
                 else f"{node.type} takes no initial value"
             )
-            self.findings.report(
+            self.report(
                 "RG309",
                 message,
                 type_token,
@@ -156,7 +153,7 @@ class _ModuleChecker:
 
     def _persistent(self, node: DataDeclaration, *, routine: bool) -> None:
         if routine:
-            self.findings.report(
+            self.report(
                 "RG329",
                 "a routine has no PERS of its own",
                 node.name_token - 2,
@@ -164,7 +161,7 @@ class _ModuleChecker:
                 notes=("[K §2.18]",),
             )
         elif node.initial is None and node.scope:
-            self.findings.report(
+            self.report(
                 "RG317",
                 f"a {node.scope} PERS needs an initial value",
                 node.name_token,
@@ -173,7 +170,7 @@ class _ModuleChecker:
 
     def _dimensions(self, node: DataDeclaration) -> None:
         if len(node.dimensions) > _MAX_DEGREE:
-            self.findings.report(
+            self.report(
                 "RG318",
                 f"an array has at most {_MAX_DEGREE} dimensions",
                 node.dimensions[_MAX_DEGREE],
@@ -184,9 +181,7 @@ class _ModuleChecker:
             self.types.expect(size, "num", "a size")
             value = self.types.constant(size)
             if isinstance(value, int | float) and (value < 1 or value != int(value)):
-                self.findings.report(
-                    "RG318", f"a size is a whole number from 1, not {value:g}", size
-                )
+                self.report("RG318", f"a size is a whole number from 1, not {value:g}", size)
 
     def _literal(self, node: Expression) -> None:
         """A PERS starts from a literal, or an aggregate of literals [K §3.2]."""
@@ -198,7 +193,7 @@ class _ModuleChecker:
         if isinstance(node, Unary) and node.operator in ("+", "-"):
             node = node.operand
         if not isinstance(node, NumberLiteral | StringLiteral | BoolLiteral | Placeholder):
-            self.findings.report(
+            self.report(
                 "RG317",
                 "the initial value of a PERS is made of literals only",
                 node,
@@ -228,13 +223,13 @@ class _ModuleChecker:
                 self._not_constant(node, f"'{root.name}' ({root.kind})", root)
 
     def _not_constant(self, node: Expression, what: str, root: Symbol | None = None) -> None:
-        self.findings.report(
+        self.report(
             "RG317",
             f"{what} cannot stand in a constant expression",
             node,
             help="assign it as a statement",
             notes=("constant expressions [K §3.1, 2.22]",),
-            related=self.findings.declared(root) if root else (),
+            related=self.declared(root) if root else (),
         )
 
     # -- routines ------------------------------------------------------------------------
@@ -260,7 +255,7 @@ class _ModuleChecker:
                 self._no_return(node, flow.returns)
         for symbol in here.names.values():
             if symbol not in self.findings.used and isinstance(symbol.node, DataDeclaration):
-                self.findings.warn(
+                self.warn(
                     "RG324",
                     f"'{symbol.name}' is never read",
                     symbol.token,
@@ -271,18 +266,18 @@ class _ModuleChecker:
     def _declare(self, here: RoutineScope, symbol: DataSymbol) -> None:
         first = here.declare(symbol)
         if first is not None:
-            self.findings.report(
+            self.report(
                 "RG305",
                 f"'{symbol.name}' is declared twice in this routine",
                 symbol.token,
                 notes=("parameters count as data of the routine [K §2.20]",),
-                related=self.findings.declared(first),
+                related=self.declared(first),
             )
 
     def _result(self, node: RoutineDeclaration) -> None:
         base = self._type(node.type or "", node.name_token - 1)
         if base is not None and (base == "switch" or self.scope.type_class(base) != "value"):
-            self.findings.report(
+            self.report(
                 "RG309",
                 f"a function cannot return {node.type}",
                 node.name_token - 1,
@@ -294,14 +289,14 @@ class _ModuleChecker:
             return
         self._declare(here, parameter_symbol(parameter, self.scope, here.node))
         if parameter.dimensions > _MAX_DEGREE:
-            self.findings.report("RG318", "an array has at most 3 dimensions", parameter)
+            self.report("RG318", "an array has at most 3 dimensions", parameter)
         type_token = parameter.name_token - 1
         base = self._type(parameter.type, type_token)
         if base is None:
             return
         if base == "switch":
             if not parameter.optional or parameter.mode or parameter.dimensions:
-                self.findings.report(
+                self.report(
                     "RG328",
                     "a switch is an optional parameter without a mode",
                     parameter,
@@ -309,7 +304,7 @@ class _ModuleChecker:
                     notes=("[K §5.1]",),
                 )
         elif parameter.mode != "VAR" and self.scope.type_class(base) in ("nonvalue", "semivalue"):
-            self.findings.report(
+            self.report(
                 "RG328",
                 f"a parameter of type {parameter.type} must be VAR",
                 parameter,
@@ -323,7 +318,7 @@ class _ModuleChecker:
 
     def _no_return(self, node: RoutineDeclaration, returns: int) -> None:
         if returns == 0:
-            self.findings.report(
+            self.report(
                 "RG322",
                 f"the function '{node.name}' has no RETURN",
                 node.name_token,
@@ -331,7 +326,7 @@ class _ModuleChecker:
                 notes=("without RETURN a call ends in ERR_FNCNORET [K §5.4, 12]",),
             )
         else:
-            self.findings.warn(
+            self.warn(
                 "RG322",
                 f"the end of the function '{node.name}' can be reached without RETURN",
                 node.name_token,
@@ -351,10 +346,6 @@ class _ModuleChecker:
                 continue
             node = symbol.node
             if isinstance(node, RoutineDeclaration) and not late:
-                self.findings.warn(
-                    "RG324", f"the LOCAL '{symbol.name}' is never called", node.name_token
-                )
+                self.warn("RG324", f"the LOCAL '{symbol.name}' is never called", node.name_token)
             elif isinstance(node, DataDeclaration):
-                self.findings.warn(
-                    "RG324", f"the LOCAL '{symbol.name}' is never read", node.name_token
-                )
+                self.warn("RG324", f"the LOCAL '{symbol.name}' is never read", node.name_token)

@@ -116,12 +116,7 @@ class Findings:
         if certain:
             self.report(code, f"there is no {role} '{name}'", node, label="not declared", help=help)
         elif likely or self.given.judges_routines:
-            self.warn(
-                code,
-                f"no {role} '{name}' is declared here or built in",
-                node,
-                help=help,
-            )
+            self.warn(code, f"no {role} '{name}' is declared here or built in", node, help=help)
 
     def _candidates(self, kinds: frozenset[str]) -> Iterable[str]:
         task = self.module.task

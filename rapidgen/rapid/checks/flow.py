@@ -45,6 +45,7 @@ class FlowChecker:
 
     def __init__(self, findings: Findings, types: TypeChecker, routine: RoutineDeclaration) -> None:
         self.findings = findings
+        self.report, self.warn, self.declared = findings.report, findings.warn, findings.declared
         self.types = types
         self.calls = types.calls
         self.routine = routine
@@ -61,7 +62,7 @@ class FlowChecker:
                 continue
             if not alive and not told:
                 told = True
-                self.findings.warn(
+                self.warn(
                     "RG323",
                     "this statement cannot be reached",
                     statement.first,
@@ -86,7 +87,7 @@ class FlowChecker:
         if wanted is not None:
             kind = self.findings.module.type_class(wanted)
             if kind in ("nonvalue", "semivalue"):
-                self.findings.report(
+                self.report(
                     "RG309",
                     f"{wanted} cannot be assigned",
                     target,
@@ -117,12 +118,12 @@ class FlowChecker:
             why = f"{root.name} is read-only"
         else:
             return
-        self.findings.report(
+        self.report(
             "RG310",
             f"{why}: it cannot be assigned",
             target,
             notes=("assignment targets [K §4.4, 4.15]",),
-            related=self.findings.declared(root),
+            related=self.declared(root),
         )
 
     def _call_statement(self, node: ProcedureCall) -> bool:
@@ -139,9 +140,9 @@ class FlowChecker:
             self.calls.check_arguments(symbol, node)
             return True
         if symbol is not None:
-            self.findings.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
+            self.warn("RG306", f"'{symbol.name}' is no procedure", node.procedure)
         elif known and ":" not in known and self.findings.given.judges_routines:
-            self.findings.warn(
+            self.warn(
                 "RG301",
                 f"there is no procedure '{known}'",
                 node.procedure,
@@ -163,14 +164,14 @@ class FlowChecker:
             self._place(node, "RETURN", "the body, an ERROR or a BACKWARD handler", "4.7")
         elif routine.kind == "FUNC":
             if node.value is None:
-                self.findings.report(
+                self.report(
                     "RG321",
                     f"the function '{routine.name}' must return {routine.type}",
                     node,
                     notes=("RETURN in a function has a value [K §4.7]",),
                 )
         elif node.value is not None:
-            self.findings.report(
+            self.report(
                 "RG321",
                 f"a {routine.kind} returns no value",
                 node.value,
@@ -185,12 +186,7 @@ class FlowChecker:
         return False
 
     def _place(self, node: Statement, word: str, where: str, section: str) -> None:
-        self.findings.report(
-            "RG321",
-            f"{word} stands only in {where}",
-            node,
-            notes=(f"[K §{section}]",),
-        )
+        self.report("RG321", f"{word} stands only in {where}", node, notes=(f"[K §{section}]",))
 
     def _raise(self, node: Raise) -> bool:
         if node.number is None:
@@ -200,7 +196,7 @@ class FlowChecker:
             self.types.expect(node.number, "num", "the error number")
             if self.part == "ERROR":
                 # K forbids it, public programs do it: not an error here.
-                self.findings.warn(
+                self.warn(
                     "RG321",
                     "RAISE with a number does not belong in a handler [K §4.8]",
                     node,
@@ -212,7 +208,7 @@ class FlowChecker:
                 and not 1 <= value <= 90
                 and not isinstance(node.number, Name)
             ):
-                self.findings.report(
+                self.report(
                     "RG321",
                     f"an own error number lies in 1 to 90, not {value:g}",
                     node.number,
@@ -238,20 +234,20 @@ class FlowChecker:
             if found is not None and found != "num":
                 self.types.mismatch(target, "num", found, "the interrupt variable")
             elif root is not None and root.kind in ("CONST", "PERS", "LOOP"):
-                self.findings.report(
+                self.report(
                     "RG326",
                     f"'{root.name}' is no variable",
                     target,
                     help="declare VAR intnum at the head of the module",
                     notes=("CONNECT [K §4.12]",),
-                    related=self.findings.declared(root),
+                    related=self.declared(root),
                 )
             elif (
                 root is not None
                 and root.kind == "VAR"
                 and root.name.lower() in self.findings.locals
             ):
-                self.findings.warn(
+                self.warn(
                     "RG326",
                     f"the interrupt variable '{root.name}' ends with its routine",
                     target,
@@ -263,11 +259,8 @@ class FlowChecker:
                 "trap", node.trap, node.last - 1, certain=self.findings.given.judges_routines
             )
         elif trap.kind != "TRAP":
-            self.findings.report(
-                "RG306",
-                f"'{trap.name}' is no trap",
-                node.last - 1,
-                related=self.findings.declared(trap),
+            self.report(
+                "RG306", f"'{trap.name}' is no trap", node.last - 1, related=self.declared(trap)
             )
         return True
 
@@ -293,7 +286,7 @@ class FlowChecker:
         if node.step is not None:
             self.types.expect(node.step, "num", "the step")
             if self.types.constant(node.step) == 0:
-                self.findings.warn("RG319", "a step of 0 never comes to an end", node.step)
+                self.warn("RG319", "a step of 0 never comes to an end", node.step)
         around = self.findings.here
         assert isinstance(around, RoutineScope)
         self.findings.here = around.loop(node)

@@ -58,6 +58,7 @@ class TypeChecker:
 
     def __init__(self, findings: Findings) -> None:
         self.findings = findings
+        self.report, self.declared = findings.report, findings.declared
         self.calls = CallChecker(findings, self)
         self._depth = 0
 
@@ -77,12 +78,12 @@ class TypeChecker:
 
     def _number(self, node: NumberLiteral) -> str:
         if not is_single(node.value) and not self.findings.given.dialect.has_dnum:
-            self.findings.report("RG319", f"num cannot hold {node.text}", node)
+            self.report("RG319", f"num cannot hold {node.text}", node)
         return NUMBER
 
     def _string(self, node: StringLiteral) -> str:
         if len(node.value) > MAX_STRING:
-            self.findings.report(
+            self.report(
                 "RG319",
                 f"the string has {len(node.value)} characters; {MAX_STRING} is the limit",
                 node,
@@ -113,7 +114,7 @@ class TypeChecker:
         if kind == "semivalue":
             return array("num", degree(found))
         if kind == "nonvalue":
-            self.findings.report(
+            self.report(
                 "RG309",
                 f"{element(found)} has no value that could be used in an expression",
                 node,
@@ -133,12 +134,12 @@ class TypeChecker:
             return None
         if not isinstance(symbol, RoutineSymbol) or symbol.kind != "FUNC":
             what = "an array: its index stands in braces" if symbol.kind in DATA else "no function"
-            self.findings.report(
+            self.report(
                 "RG306",
                 f"'{symbol.name}' is {what}",
                 node.first,
                 label=f"a {symbol.kind}",
-                related=self.findings.declared(symbol),
+                related=self.declared(symbol),
             )
             return None
         self.calls.check_arguments(symbol, node)
@@ -176,14 +177,12 @@ class TypeChecker:
         components = self.findings.module.components(base)
         if components is None:
             if base in ATOMIC or degree(base):
-                self.findings.report(
-                    "RG304", f"{base} has no components", node.last, label="no record"
-                )
+                self.report("RG304", f"{base} has no components", node.last, label="no record")
             return None
         if node.component.lower() not in components:
             likely = closest(node.component, components)
             listed = ", ".join(components)
-            self.findings.report(
+            self.report(
                 "RG304",
                 f"{base} has no component '{node.component}'",
                 node.last,
@@ -208,13 +207,13 @@ class TypeChecker:
         # A module that is not here may declare a datum that hides the built-in routine.
         hidden = isinstance(symbol, RoutineSymbol) and symbol.node is None
         hidden = hidden and self.findings.given.extent < Extent.TASK
-        self.findings.report(
+        self.report(
             "RG306",
             f"'{symbol.name}' is no datum",
             node,
             label=f"a {symbol.kind}",
             help=help,
-            related=self.findings.declared(symbol),
+            related=self.declared(symbol),
             severity=Severity.WARNING if hidden else Severity.ERROR,
         )
 
@@ -226,12 +225,10 @@ class TypeChecker:
             return None
         dimensions = degree(base)
         if dimensions == 0:
-            self.findings.report(
-                "RG318", "only an array has an index", node, label=f"this is {base}"
-            )
+            self.report("RG318", "only an array has an index", node, label=f"this is {base}")
             return None
         if dimensions != len(node.indices):
-            self.findings.report(
+            self.report(
                 "RG318",
                 f"the array has {dimensions} dimension(s), not {len(node.indices)}",
                 node,
@@ -250,15 +247,13 @@ class TypeChecker:
                 continue
             size = sizes[k] if k < len(sizes) else None
             if value != int(value) or value < 1:
-                self.findings.report(
-                    "RG318", f"an index is a whole number from 1, not {value:g}", index
-                )
+                self.report("RG318", f"an index is a whole number from 1, not {value:g}", index)
             elif isinstance(size, int | float) and not isinstance(size, bool) and value > size:
-                self.findings.report(
+                self.report(
                     "RG318",
                     f"the index {value:g} is outside the array of {size:g}",
                     index,
-                    related=self.findings.declared(symbol) if symbol else (),
+                    related=self.declared(symbol) if symbol else (),
                 )
 
     def constant(self, node: Expression) -> Value | None:
@@ -310,7 +305,7 @@ class TypeChecker:
     def _operands(self, node: Binary) -> tuple[str | None, str | None]:
         """Types of both operands; one aggregate gets its type from the other side."""
         if isinstance(node.left, Aggregate) and isinstance(node.right, Aggregate):
-            self.findings.report(
+            self.report(
                 "RG330",
                 "neither side of the operator has a type",
                 node,
@@ -333,7 +328,7 @@ class TypeChecker:
             help = "convert with NumToDnum or DnumToNum"
         elif operator == "+" and "string" in (left, right):
             help = "convert with ValToStr or NumToStr"
-        self.findings.report(
+        self.report(
             "RG308",
             f"the operator {operator} does not take {both}",
             node,
@@ -344,7 +339,7 @@ class TypeChecker:
     def _long_string(self, node: Binary) -> None:
         value = self.constant(node)
         if isinstance(value, str) and len(value) > MAX_STRING:
-            self.findings.report(
+            self.report(
                 "RG319", f"the string has {len(value)} characters; {MAX_STRING} is the limit", node
             )
 
@@ -381,7 +376,7 @@ class TypeChecker:
         theirs = self._sizes(value)
         known = len(ours) == len(theirs) and None not in (*ours, *theirs)
         if known and ours != theirs:
-            self.findings.report("RG318", "the arrays differ in size", node)
+            self.report("RG318", "the arrays differ in size", node)
 
     def _sizes(self, node: Expression) -> Sequence[Value | None]:
         """Declared sizes of a whole array; None where one is not known, none for what is none."""
@@ -394,7 +389,7 @@ class TypeChecker:
             return
         size = sizes[0]
         if isinstance(size, int | float) and len(value.members) != size:
-            self.findings.report(
+            self.report(
                 "RG318",
                 f"the array has {size:g} elements here, the aggregate {len(value.members)}",
                 value,
@@ -413,7 +408,7 @@ class TypeChecker:
             help = "convert with ValToStr or NumToStr"
         elif wanted == "bool" and found in NUMERIC:
             help = "compare it: x = 1"
-        self.findings.report(
+        self.report(
             "RG307",
             f"{place} is {shown(found)}, not {shown(wanted)}",
             node,
@@ -426,11 +421,9 @@ class TypeChecker:
         """A literal in a place of type num."""
         value = node.value
         if not is_single(value):
-            self.findings.report(
-                "RG319", f"num cannot hold {node.text}", node, notes=("num [K §2.5]",)
-            )
+            self.report("RG319", f"num cannot hold {node.text}", node, notes=("num [K §2.5]",))
         elif isinstance(value, int) and value > 8_388_608 and not is_exact_single(value):
-            self.findings.report(
+            self.report(
                 "RG319",
                 f"num cannot hold {node.text} exactly",
                 node,
@@ -451,13 +444,13 @@ class TypeChecker:
         components = self.findings.module.components(wanted)
         if components is None:
             if wanted in ATOMIC:
-                self.findings.report(
+                self.report(
                     "RG330", f"{place} is an aggregate, but {wanted} has no components", node
                 )
             return
         if len(members) != len(components):
             names = ", ".join(components)
-            self.findings.report(
+            self.report(
                 "RG330",
                 f"{wanted} has {len(components)} components, the aggregate {len(members)}",
                 node,

@@ -71,15 +71,7 @@ class DataParser:
         elif kinds[at] != ";":
             at = self.semicolon_here(at, "';', ':=' or '{'" if not dimensions else "';' or ':='")
         return DataDeclaration(
-            first,
-            at,
-            scope,
-            cast(DataKind, kind),
-            type_name,
-            name,
-            dimensions,
-            initial,
-            i + 2,
+            first, at, scope, cast(DataKind, kind), type_name, name, dimensions, initial, i + 2
         )
 
     def _dimensions(self, i: int) -> tuple[list[Expression], int]:

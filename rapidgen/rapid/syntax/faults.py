@@ -112,12 +112,7 @@ def unexpected(
     lexical = _LEXICAL.get(kinds[at])
     if lexical:
         code, message, mend = lexical
-        return error(
-            code,
-            span,
-            f"{message}: {met(source, kinds, at)}",
-            mend,
-        )
+        return error(code, span, f"{message}: {met(source, kinds, at)}", mend)
     related, note = still_open(source, blocks)
     return error(
         "RG201",

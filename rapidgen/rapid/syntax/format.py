@@ -12,14 +12,7 @@ from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid.syntax import lexer
 from rapidgen.rapid.syntax.layout import line_starts
 from rapidgen.rapid.syntax.lexer import HOLDER, KEYWORDS
-from rapidgen.rapid.syntax.nodes import (
-    Argument,
-    FunctionCall,
-    LateCall,
-    Module,
-    Parameter,
-    Unary,
-)
+from rapidgen.rapid.syntax.nodes import Argument, FunctionCall, LateCall, Module, Parameter, Unary
 from rapidgen.rapid.syntax.parser import parse
 from rapidgen.rapid.syntax.walk import walk
 

@@ -313,10 +313,7 @@ _COLLECTOR = _Collector()
 
 
 def parse(
-    source: str | bytes,
-    *,
-    path: str | None = None,
-    dialect: Dialect | None = None,
+    source: str | bytes, *, path: str | None = None, dialect: Dialect | None = None
 ) -> Module:
     """The tree of one module; never raises for bad text, see `Module.diagnostics`.
 

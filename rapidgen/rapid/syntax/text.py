@@ -37,19 +37,9 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
             "split the module, or keep positions in a file that the program reads",
         )
     if not source.strip():
-        return error(
-            "RG208",
-            span,
-            "the file is empty",
-            "a module is MODULE name ... ENDMODULE",
-        )
+        return error("RG208", span, "the file is empty", "a module is MODULE name ... ENDMODULE")
     if isinstance(source, bytes) and source.startswith(_UTF16):
-        return error(
-            "RG218",
-            span,
-            "the file is UTF-16 text",
-            "save it as UTF-8 or Latin-1",
-        )
+        return error("RG218", span, "the file is UTF-16 text", "save it as UTF-8 or Latin-1")
     # Binary files show it early, or have a zero byte somewhere; other control characters in
     # the midst of a text are errors of their own places.
     if isinstance(source, bytes):
@@ -66,11 +56,7 @@ def refuse(source: str | bytes, path: str) -> Diagnostic | None:
             "ask its maker for the source, or leave it out",
             severity=Severity.WARNING,
         )
-    return error(
-        "RG218",
-        span,
-        "the file is binary, not RAPID text",
-    )
+    return error("RG218", span, "the file is binary, not RAPID text")
 
 
 def no_module(source: Source, kinds: Sequence[str]) -> Diagnostic:

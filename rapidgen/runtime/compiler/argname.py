@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import RapidError
@@ -62,7 +62,7 @@ def _places(program: "Program", frame: FrameType | None) -> Iterator[tuple[Routi
     while frame is not None:
         compiled = codes.get(frame.f_code.co_filename)
         if compiled is not None:
-            inner = compiled.role(frame.f_code) is not Role.ROUTINE
+            inner = compiled.role(frame.f_code) is not CodeRole.ROUTINE
             if inside is not compiled.routine:
                 yield compiled.routine, compiled.tokens[frame.f_lineno]
             # A handler's or a deep part's own frame comes before that of its routine.

@@ -26,7 +26,7 @@ BUDGET: Final = "b"
 """What the task has left, while its routine counts down."""
 
 
-class Role(Enum):
+class CodeRole(Enum):
     """What a Python function of a compiled routine is."""
 
     ROUTINE = ""
@@ -38,7 +38,7 @@ class Role(Enum):
     @property
     def is_handler(self) -> bool:
         """Whether it is an ERROR or UNDO handler."""
-        return self is Role.HANDLER or self is Role.UNDO
+        return self is CodeRole.HANDLER or self is CodeRole.UNDO
 
 
 @dataclass(slots=True, eq=False)
@@ -54,7 +54,7 @@ class Compiled:
     """By Python line: what the rest of its block was paid, ns."""
     synced: set[int]
     """Python lines before which the budget was written back."""
-    roles: dict[str, Role]
+    roles: dict[str, CodeRole]
     """Of the functions inside the routine's, by name."""
 
     @property
@@ -63,9 +63,9 @@ class Compiled:
         node = self.routine.node
         return node is not None and node.error is not None
 
-    def role(self, code: CodeType) -> Role:
+    def role(self, code: CodeType) -> CodeRole:
         """What one of the routine's functions is."""
-        return self.roles.get(code.co_name, Role.ROUTINE)
+        return self.roles.get(code.co_name, CodeRole.ROUTINE)
 
     def handler(self, frame: FrameType) -> Callable[[], int] | None:
         """The ERROR handler of a routine that is being executed, once it is made."""

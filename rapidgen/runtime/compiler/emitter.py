@@ -6,7 +6,7 @@ from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.context import CALLS, SILENT, CannotCompile, E, Unit
 from rapidgen.runtime.compiler.writer import CodeLine, Writer
 from rapidgen.runtime.values import NUM
@@ -23,7 +23,7 @@ class PythonFunction:
 
     depth: int
     """Indentation of its own statements."""
-    handler: Role
+    handler: CodeRole
     """HANDLER or UNDO inside a handler, ROUTINE in the body."""
     guarded: bool
     """The routine has an ERROR clause, and this is not one of its handlers."""
@@ -51,8 +51,8 @@ class Emitter:
         self.unit = unit
         self.options = unit.options
         self.w = Writer(unit.options.accounting)
-        self.function = PythonFunction(1, Role.ROUTINE, unit.node.error is not None)
-        self.roles: dict[str, Role] = {}
+        self.function = PythonFunction(1, CodeRole.ROUTINE, unit.node.error is not None)
+        self.roles: dict[str, CodeRole] = {}
         self.resumed: set[int] = set()
         """Tokens of FORs that go on behind the value that their variable has."""
         self._compile = compile
@@ -270,7 +270,7 @@ class Emitter:
 
     # -- functions inside ------------------------------------------------------------------------
 
-    def handler(self, name: str, body: Sequence[n.Statement], role: Role) -> list[CodeLine]:
+    def handler(self, name: str, body: Sequence[n.Statement], role: CodeRole) -> list[CodeLine]:
         """A handler as a nested function that shares the routine's variables."""
         w, node = self.w, self.unit.node
         w.token = body[0].first if body else node.name_token
@@ -299,7 +299,7 @@ class Emitter:
         w.leave = leave
         name = f"_a{self.unit.temporary()}"
         w.token = node.first
-        outer.apart += self._defined(name, Role.PART, inner, lines, node.first)
+        outer.apart += self._defined(name, CodeRole.PART, inner, lines, node.first)
         w.depth = depth
         w.emit("R.b = b")
         w.emit(f"_k = {name}()")
@@ -319,7 +319,7 @@ class Emitter:
         return w.cut(mark)
 
     def _defined(
-        self, name: str, role: Role, inner: PythonFunction, body: list[CodeLine], last: int
+        self, name: str, role: CodeRole, inner: PythonFunction, body: list[CodeLine], last: int
     ) -> list[CodeLine]:
         """A function that returns 4 at its end, where the token is `last`."""
         w = self.w

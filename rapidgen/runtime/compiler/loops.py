@@ -20,11 +20,13 @@ def if_statement(
     branches: Sequence[tuple[n.Expression, Sequence[n.Statement]]],
     otherwise: Sequence[n.Statement] | None,
 ) -> None:
+    """IF: also the compact one."""
     conditions = [emitter.unit.condition(c) for c, _ in branches]
     _select(emitter, [c.code for c in conditions], conditions, [b for _, b in branches], otherwise)
 
 
 def test_statement(emitter: Emitter, node: n.Test) -> None:
+    """TEST: its subject is looked at once."""
     subject = emitter.unit.expression(node.subject)
     name = emitter.unit.temporary()
     codes, parts = [], []
@@ -89,6 +91,7 @@ def _branch(emitter: Emitter, body: Sequence[n.Statement], looked: int) -> None:
 
 
 def while_loop(emitter: Emitter, node: n.While) -> None:
+    """WHILE."""
     w = emitter.w
     condition = emitter.unit.condition(node.condition)
     if condition.effect == SILENT and not condition.fails:
@@ -125,6 +128,7 @@ def _silent_while(emitter: Emitter, node: n.While, condition: E) -> None:
 
 
 def for_loop(emitter: Emitter, node: n.For) -> None:
+    """FOR: limits and step are worked out once [K §4.15]."""
     w = emitter.w
     start = emitter.unit.value_of(node.start, NUM, (), "start")
     end = emitter.unit.value_of(node.end, NUM, (), "end")

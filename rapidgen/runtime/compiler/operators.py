@@ -10,6 +10,7 @@ POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
 def unary(unit: Unit, node: n.Unary, want: Type | None) -> E:
+    """NOT, + and -."""
     if node.operator == "NOT":
         inner = unit.value_of(node.operand, BOOL, (), "operand of NOT")
         return E(f"(not {inner.code})", BOOL, ops=1).take(inner)
@@ -37,6 +38,7 @@ def unary(unit: Unit, node: n.Unary, want: Type | None) -> E:
 
 
 def binary(unit: Unit, node: n.Binary, want: Type | None) -> E:
+    """Compile an operator between two operands; `want` types literals."""
     operator = node.operator
     if operator in ("AND", "OR", "XOR"):
         left = unit.value_of(node.left, BOOL, (), f"left operand of {operator}")

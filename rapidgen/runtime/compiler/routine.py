@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts
-from rapidgen.runtime.compiler.compiled import HANDLER, LISTED, UNDO, Compiled, Role
+from rapidgen.runtime.compiler.compiled import HANDLER, LISTED, UNDO, CodeRole, Compiled
 from rapidgen.runtime.compiler.context import CannotCompile, Options, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.expressions import compile_expression
@@ -116,7 +116,7 @@ class RoutineCompiler:
         """Functions of ERROR and UNDO; one that is made once goes before `top`."""
         lines: list[CodeLine] = []
         if node.error is not None:
-            handler = self.emitter.handler(HANDLER, node.error.body, Role.HANDLER)
+            handler = self.emitter.handler(HANDLER, node.error.body, CodeRole.HANDLER)
             if any("v_" in line.text for line in handler):
                 lines += handler
             else:  # it uses none of the routine's variables: made once, not at each call
@@ -127,7 +127,7 @@ class RoutineCompiler:
                 lines.append(CodeLine(1, f"{HANDLER} = {apart}", node.error.first))
             lines += self._recovery_list(node.error)
         if node.undo is not None:
-            lines += self.emitter.handler(UNDO, node.undo.body, Role.UNDO)
+            lines += self.emitter.handler(UNDO, node.undo.body, CodeRole.UNDO)
         return lines
 
     def _recovery_list(self, handler: n.ErrorHandler) -> list[CodeLine]:

@@ -3,7 +3,7 @@
 from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.calls import call
-from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.context import CALLS, CannotCompile, E, calling, failing
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.late import late_call
@@ -70,7 +70,7 @@ def _procedure(emitter: Emitter, node: n.ProcedureCall) -> None:
 def _return(emitter: Emitter, node: n.Return) -> None:
     w = emitter.w
     kind = emitter.unit.routine.type
-    if emitter.function.handler is Role.UNDO:
+    if emitter.function.handler is CodeRole.UNDO:
         raise CannotCompile("RETURN may not stand in UNDO", node)
     if kind is not None:
         if node.value is None:
@@ -104,14 +104,14 @@ def _return(emitter: Emitter, node: n.Return) -> None:
 def _raise(emitter: Emitter, node: n.Raise) -> None:
     w = emitter.w
     if node.number is None:
-        if emitter.function.handler is not Role.HANDLER:
+        if emitter.function.handler is not CodeRole.HANDLER:
             raise CannotCompile("RAISE without a number stands only in an error handler", node)
         emitter.pay(E("", NUM))
         w.emit("R.b = b")
         w.emit("return 3")
         w.close()
         return
-    if emitter.function.handler is Role.HANDLER:
+    if emitter.function.handler is CodeRole.HANDLER:
         number = emitter.unit.value_of(node.number, NUM)
         emitter.simple(calling(f"R.instead({number.code})", NUM, number))
         w.emit("return 3")
@@ -124,7 +124,7 @@ def _raise(emitter: Emitter, node: n.Raise) -> None:
 
 
 def _recover(emitter: Emitter, node: n.Retry | n.TryNext) -> None:
-    if emitter.function.handler is not Role.HANDLER:
+    if emitter.function.handler is not CodeRole.HANDLER:
         raise CannotCompile("RETRY and TRYNEXT stand only in an error handler", node)
     emitter.pay(E("", NUM))
     emitter.w.emit("R.b = b")

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from types import FrameType, TracebackType
 from typing import TypeAlias
 
-from rapidgen.runtime.compiler.compiled import Compiled, Role
+from rapidgen.runtime.compiler.compiled import CodeRole, Compiled
 from rapidgen.runtime.errors import Location
 
 Codes: TypeAlias = Mapping[str, Compiled]
@@ -67,4 +67,4 @@ def stack_at(codes: Codes, frame: FrameType | None) -> tuple[Location, ...]:
 
 
 def _is_part(codes: Codes, frame: FrameType) -> bool:
-    return codes[frame.f_code.co_filename].role(frame.f_code) is Role.PART
+    return codes[frame.f_code.co_filename].role(frame.f_code) is CodeRole.PART

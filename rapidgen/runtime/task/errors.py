@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NoReturn
 
 from greenlet import GreenletExit
 
-from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.errors import (
     LARGEST_USER_ERROR,
     RECOVERABLE,
@@ -237,7 +237,7 @@ class Errors:
             own = None if in_handler else compiled.listed(at)
             if own is not None and lists(own, number):
                 return at
-            in_handler = in_handler and role is Role.PART
+            in_handler = in_handler and role is CodeRole.PART
         return None
 
     def _has_handler_above(self, frame: FrameType) -> bool:
@@ -296,7 +296,7 @@ class Errors:
                 listed = compiled.listed(at)
                 if listed is None or lists(listed, number):
                     return at, handler, inside
-            elif role is Role.ROUTINE:
+            elif role is CodeRole.ROUTINE:
                 first = False
         return None, None, inside
 

@@ -12,7 +12,7 @@ from types import FrameType
 from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import Role
+from rapidgen.runtime.compiler.compiled import CodeRole
 from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
@@ -60,7 +60,7 @@ def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[
         if path is None:
             return None
         key, values = id(frame), dict(frame.f_locals)
-        if role is Role.PART:
+        if role is CodeRole.PART:
             key = list(found)[-1]
             values = {**found[key].values, **values}
         found[key] = Standing(compiled.routine, path, values)

@@ -1,0 +1,67 @@
+"""A transport is a file and a line in the registry: URL, login, opening and errors follow."""
+
+import pytest
+
+from rapidgen.deploy import Access, connect, parse_target
+from rapidgen.deploy.secrets import Credentials
+from rapidgen.deploy.target import credentials
+from rapidgen.deploy.transports import folder
+from rapidgen.deploy.transports.registry import SCHEMES, Scheme
+from rapidgen.diagnostics import DiagnosticError
+
+
+def message(url):
+    with pytest.raises(DiagnosticError) as caught:
+        parse_target(url)
+    (found,) = caught.value.diagnostics
+    return found.code, found.message, found.help
+
+
+def test_a_line_in_the_registry_is_enough(monkeypatch, tmp_path):
+    opened = []
+
+    def open_usb(target, login, timeout):
+        opened.append((target, login, timeout))
+        return folder.FolderTransport(tmp_path)
+
+    monkeypatch.setattr(folder, "open_usb", open_usb, raising=False)
+    monkeypatch.setitem(SCHEMES, "usb", Scheme("folder:open_usb", 4711))
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "word")
+    target = parse_target("usb://me@cell/HOME")
+    assert (target.port, target.shown) == (4711, "usb://cell/HOME")
+    assert parse_target("usb://[::1]:80/HOME").shown == "usb://[::1]:80/HOME"
+    assert connect(target, Access(timeout=3)).entries("") == ()
+    ((asked, login, timeout),) = opened
+    assert (asked, login.user, login.password.get(), timeout) == (target, "me", "word", 3)
+    assert message("usp://cell") == (
+        "RG509",
+        "--to usp://cell: unknown scheme 'usp'",
+        "did you mean 'usb'?",
+    )
+
+
+def test_an_unknown_scheme_is_told_what_there_is():
+    assert message("gopher://cell") == (
+        "RG509",
+        "--to gopher://cell: unknown scheme 'gopher'",
+        "there are dir://, ftp://, sftp://",
+    )
+    assert "not a transport yet" in message("rws://cell")[1]
+
+
+def test_a_folder_of_this_machine_needs_no_login(monkeypatch, tmp_path):
+    monkeypatch.setattr("rapidgen.deploy.target.credentials", lambda *_: pytest.fail("asked"))
+    assert connect(parse_target(f"dir://{tmp_path}"), Access(ask=True)).entries("") == ()
+
+
+def test_only_where_keys_are_taken_one_stands_for_a_password(monkeypatch):
+    asked = []
+
+    def find(login, host, port, *, secrets, ask):
+        asked.append(ask)
+        return Credentials("u")
+
+    monkeypatch.setattr("rapidgen.deploy.target.find_password", find)
+    for url in ("sftp://h/", "ftp://h/"):
+        credentials(parse_target(url), Access(identity="key", ask=True))
+    assert asked == [False, True]

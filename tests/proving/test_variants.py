@@ -1,0 +1,124 @@
+"""What a configuration asks for besides, and controllers that are quicker, slower or unlike."""
+
+from dataclasses import replace
+from functools import cache
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.controller.cell import in_its_cell
+from rapidgen.generate import build, make_system
+from rapidgen.machine.costs import Costs
+from rapidgen.motion.settings import MotionSettings
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.run import Starter
+from rapidgen.proving.settings import NEEDED, Setting
+from rapidgen.proving.stream import BEGIN, Streamer
+from rapidgen.proving.suite import CASES
+from rapidgen.runtime.switches import parse_dialect
+
+BY_NAME = {case.name: case for case in CASES}
+SIGNALS = [
+    "signals.valve={kind: DO, access: write}",
+    "signals.lamp={kind: DO}",
+    "signals.part={kind: DI}",
+    "signals.code={kind: GO, access: write}",
+    "signals.line={kind: GI}",
+    "signals.flow={kind: AO, access: write}",
+    "signals.weight={kind: AI}",
+]
+VARIANTS = {
+    "no control port": (["ports.control=0"], "hello starves progress-ended again-after-stop"),
+    "slowed down": (["trajectory.too_fast=slow_down"], "slowed-down each-value each-duration"),
+    "slow TCP": (["tcp_speed_limit=250"], "tcp-too-fast whole-trajectory"),
+    "zone": (["trajectory.corners=zone"], "corners"),
+    "z0": (["trajectory.zone=z0"], "corners"),
+    "fine": (["trajectory.zone=fine"], "corners"),
+    "100 Hz": (["state.rate=100"], "braking state-stream"),
+    "1 Hz": (["state.rate=1"], "short-movements first-of-all"),
+    "0.5 Hz": (["state.rate=0.5"], "there-and-back hello-in-pieces"),
+    "signals": (SIGNALS, "signals hello control-stop"),
+    "some clients": (["network.allowed_clients=[10.0.0.9]"], "strangers single-point"),
+    "impatient": (["network.receive_timeout=3"], "stalls half-header"),
+    "small ring": (
+        ["trajectory.ring=64", "trajectory.preload=10"],
+        "room overrun batch-full-ring",
+    ),
+    "RobotWare 5": (["controller.robotware=5.61"], "starves stream-control move-fails"),
+    "RobotWare 7": (
+        ["controller.robotware=7.10", "controller.type=omnicore"],
+        "starves stream-control move-fails",
+    ),
+}
+CONTROLLERS = {
+    "quick": Setting(costs=Costs().scaled(0.25)),
+    "slow": Setting(costs=Costs().scaled(4.0)),
+    "plans early": Setting(motion=MotionSettings(planning_lead=0.3)),
+}
+ON_ANY = (
+    "whole-trajectory",
+    "stop-on-path",
+    "program-stop",
+    "e-stop",
+    "starves",
+    "stream-control",
+    "stream-ended",
+    "ring-is-empty",
+)
+
+
+@cache
+def configured(*overrides):
+    config = load_config("irb120", overrides=overrides)
+    return config, in_its_cell(make_system(config, build(config)), config)
+
+
+def broken(config, system, names, setting=None):
+    starter = Starter(config, system, setting or Setting())
+    verdicts = [starter.attempt(BY_NAME[name]) for name in names]
+    starter.close()
+    return {verdict.case: verdict.detail for verdict in verdicts if not verdict.passed}
+
+
+@pytest.mark.parametrize("name", VARIANTS)
+def test_what_a_configuration_asks_for(name):
+    overrides, names = VARIANTS[name]
+    assert broken(*configured(*overrides), names.split()) == {}
+
+
+def test_a_signal_that_the_controller_does_not_have_is_refused_the_others_work():
+    config, system = configured(*SIGNALS)
+    there = tuple(s for s in system.signals if s.name not in ("valve", "weight"))
+    assert broken(config, replace(system, signals=there), ["signals", "stop-on-path"]) == {}
+
+
+@pytest.mark.parametrize("name", CONTROLLERS)
+def test_quicker_and_slower_controllers(name):
+    assert broken(*configured(), ON_ANY, CONTROLLERS[name]) == {}
+
+
+@pytest.mark.parametrize(
+    "switch", ["unpack_ulint=single", "unpack_ulint=error", "alias_by_name=false"]
+)
+def test_a_controller_with_which_the_driver_cannot_work_moves_nothing(switch):
+    """A task ends at its start, the first message breaks the link, or a stream is refused."""
+    assert switch.partition("=")[0] in NEEDED
+    bench = Bench(*configured(), Setting(dialect=parse_dialect(switch)))
+    try:
+        bench.run(0.5)
+        if any(task.state == "error" for task in bench.controller.tasks.values()):
+            return
+        if switch.endswith("single"):
+            stream = Streamer(bench)
+            stream.put(bench.wave(20), BEGIN)
+            assert stream.last.reason in (10, 16)
+            bench.stays(2, "its words cannot be read exactly")
+            return
+        for _ in range(3):
+            link = bench.motion()
+            link.send(bench.download(bench.wave(5)))
+            bench.stays(3, "its bytes cannot be read")
+            assert link.lost
+            assert link.read() == []
+    finally:
+        bench.close()
