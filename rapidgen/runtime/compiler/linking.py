@@ -5,7 +5,14 @@ classes are common to all tasks.
 """
 
 from rapidgen.diagnostics import Diagnostic, error
-from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, builtin, installed_objects
+from rapidgen.rapid.binding.names import (
+    ModuleScope,
+    Scope,
+    TaskScope,
+    builtin,
+    called,
+    installed_objects,
+)
 from rapidgen.rapid.binding.symbols import (
     DataSymbol,
     ModuleSymbol,
@@ -177,7 +184,7 @@ class Linker:
     def routine(self, symbol: Symbol | None) -> Routine | None:
         """The routine that a symbol stands for; None for anything else."""
         if not isinstance(symbol, RoutineSymbol):
-            symbol = _meant(symbol)
+            symbol = called(_meant(symbol))
             if not isinstance(symbol, RoutineSymbol):
                 return None
         if symbol not in self._routines:
