@@ -12,17 +12,19 @@ from rapidgen.machine.network.interface import (
     NetworkFault,
     NetworkReason,
 )
+from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
 from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
 from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.sockets import SocketDevice, SocketStatus
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, register_type
 
 DEFAULT_TIME = 60.0
 WAIT_MAX = 9_999_999
 """A \\Time of this or more waits for ever."""
+
+register_type("socketdev", SocketDevice)
 
 _REFUSED = {
     "timeout": "ERR_SOCK_TIMEOUT",
