@@ -15,8 +15,11 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Literal, TypeAlias, TypeVar
 
+from rapidgen.rapid.builtins.signatures import routine
 from rapidgen.runtime.values import Value
 
+Arguments: TypeAlias = Mapping[str, Value]
+"""By the names of the parameters; None: left out."""
 Cost: TypeAlias = Literal["call", "string", "socket", "move"]
 COSTS: dict[Cost, int] = {"call": 5_000, "string": 50_000, "socket": 500_000, "move": 1_000_000}
 """Nanoseconds of the reference cost model, on top of the statement's own."""
@@ -61,6 +64,31 @@ def builtins(
     """Bind a table of functions, each of which says in one expression what its built-in does."""
     for name, function in functions.items():
         builtin(name, cost=cost, pure=pure)(function)
+
+
+def by_name(*names: str, cost: Cost = "call") -> Callable[[_Function], _Function]:
+    """Bind a function that is called `function(task, name, arguments)`: built-ins of many."""
+
+    def bind(function: _Function) -> _Function:
+        for name in names:
+            builtin(name, cost=cost)(_named(name, function))
+        return function
+
+    return bind
+
+
+def _named(name: str, function: Callable[..., Value]) -> Callable[..., Value]:
+    def call(task: object, *arguments: Value) -> Value:
+        return function(task, name, dict(zip(_parameters(name), arguments, strict=True)))
+
+    return call
+
+
+@cache
+def _parameters(name: str) -> tuple[str, ...]:
+    signature = routine(name)
+    assert signature is not None
+    return tuple(parameter.name for parameter in signature.parameters)
 
 
 def bound(name: str) -> Builtin | None:

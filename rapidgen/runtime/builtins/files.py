@@ -121,19 +121,10 @@ def _put(task: Task, device: IODevice, data: bytes, *, binary: bool = False) -> 
 
 
 @builtin("Write", cost="socket")
-def write(
-    task: Task,
-    device: IODevice,
-    text: str,
-    num: float | None,
-    boolean: bool | None,
-    pos: object,
-    orient: object,
-    dnum: float | None,
-    no_new_line: bool | None,
-) -> None:
+def write(task: Task, device: IODevice, text: str, *values: Value) -> None:
     """Write a text, a value in the standard format and a line feed."""
-    line = appended(task, text, num, boolean, pos, orient, dnum)
+    *shown, no_new_line = values
+    line = appended(task, text, *shown)
     _put(task, device, (line + ("" if no_new_line else "\n")).encode("latin-1"))
 
 

@@ -1,11 +1,10 @@
 """Move instructions to robtargets: one place where RAPID's arguments become a Move."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TypeAlias
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import FINE, CartesianMove, JointMove, Move, PathEvent
-from rapidgen.rapid.builtins.signatures import routine
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, here, moving_group
 from rapidgen.runtime.builtins.motion.arguments import dwell_of, frame, speed_of, time_of, zone_of
 from rapidgen.runtime.builtins.motion.targets import (
@@ -16,15 +15,12 @@ from rapidgen.runtime.builtins.motion.targets import (
 )
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.motion_faults import planned
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import Arguments, by_name
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Value
 
-MoveArguments: TypeAlias = Mapping[str, Value]
-"""Arguments of a move by the names of its parameters; None: left out."""
 
-
-def _common(task: Task, group: MotionGroup, given: MoveArguments) -> dict[str, Value]:
+def _common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value]:
     """What every move to a robtarget has. Without a `Zone` (searches) it ends in a stop point."""
     tool = given["Tool"].get()
     work_object = given["WObj"].get() if given["WObj"] is not None else None
@@ -44,7 +40,7 @@ def _common(task: Task, group: MotionGroup, given: MoveArguments) -> dict[str, V
 
 
 def joint_move(
-    task: Task, given: MoveArguments, events: tuple[PathEvent, ...] = ()
+    task: Task, given: Arguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget with all axes together."""
     group = moving_group(task)
@@ -60,7 +56,7 @@ def joint_move(
 
 
 def cartesian_move(
-    task: Task, given: MoveArguments, events: tuple[PathEvent, ...] = ()
+    task: Task, given: Arguments, events: tuple[PathEvent, ...] = ()
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
@@ -80,28 +76,19 @@ def cartesian_move(
     )
 
 
-Maker: TypeAlias = Callable[[Task, MoveArguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
+Maker: TypeAlias = Callable[[Task, Arguments, tuple[PathEvent, ...]], tuple[MotionGroup, Move]]
 """joint_move or cartesian_move."""
 
 
 def bind(
     name: str,
     make: Maker,
-    events_of: Callable[[Task, MoveArguments], tuple[PathEvent, ...]] = lambda _task, _given: (),
+    events_of: Callable[[Task, Arguments], tuple[PathEvent, ...]] = lambda _task, _given: (),
 ) -> None:
     """Bind a move instruction to what makes its move and its events on the path."""
-    names = parameter_names(name)
 
-    @builtin(name, cost="move")
+    @by_name(name, cost="move")
     @planned
-    def execute(task: Task, *arguments: Value) -> None:
-        given = dict(zip(names, arguments, strict=True))
+    def execute(task: Task, _name: str, given: Arguments) -> None:
         group, move = make(task, given, events_of(task, given))
         group.move(task, together(task, group, move, given.get("ID")))
-
-
-def parameter_names(name: str) -> tuple[str, ...]:
-    """Names of a built-in's parameters in order."""
-    signature = routine(name)
-    assert signature is not None
-    return tuple(parameter.name for parameter in signature.parameters)

@@ -12,17 +12,16 @@ from dataclasses import dataclass, field
 from rapidgen.axes.kinematics import Posture
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import Move
 from rapidgen.runtime.builtins.motion.access import data_of
-from rapidgen.runtime.builtins.motion.request import MoveArguments, cartesian_move, parameter_names
+from rapidgen.runtime.builtins.motion.request import cartesian_move
 from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.builtins.motion.together import together
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import planned
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import Arguments, by_name
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, Value
+from rapidgen.runtime.values import Ref
 
 _REASON = "search"
 _NO_HIT = 49_906
@@ -75,7 +74,7 @@ _EDGES = {
 }
 
 
-def _edges(given: MoveArguments) -> _Edges:
+def _edges(given: Arguments) -> _Edges:
     chosen = next((name for name in _EDGES if given[name]), None)
     return _Edges(True, False, supervised=True) if chosen is None else _EDGES[chosen]
 
@@ -91,7 +90,12 @@ def _source(signal: AnySignal | None, flag: Ref | None) -> tuple[WaitSet, Callab
     return cell, lambda: bool(cell.v)
 
 
-def _search(task: Task, group: MotionGroup, move: Move, given: MoveArguments) -> None:
+@by_name("SearchL", "SearchC", cost="move")
+@planned
+def search(task: Task, _name: str, given: Arguments) -> None:
+    """Moves, and keeps where the TCP was at the hit. ERR_WHLSEARCH: none, ERR_SIGSUPSEARCH."""
+    group, wanted = cartesian_move(task, given)
+    move = together(task, group, wanted, given["ID"])
     edges, hard = _edges(given), bool(given["Stop"])
     change, read = _source(given["Signal"], given["PersBool"])
     halting = bool(hard or given["PStop"] or given["SStop"])
@@ -129,18 +133,3 @@ def _search(task: Task, group: MotionGroup, move: Move, given: MoveArguments) ->
         raise RapidError("ERR_WHLSEARCH", f"{len(hits.found)} hits")
     offsets = data_of(task, group).external_offset
     given["SearchPoint"].set(rob_target(group, hits.found[0], move.carrier, offsets))
-
-
-def _bind(name: str) -> None:
-    names = parameter_names(name)
-
-    @builtin(name, cost="move")
-    @planned
-    def execute(task: Task, *arguments: Value) -> None:
-        given = dict(zip(names, arguments, strict=True))
-        group, move = cartesian_move(task, given)
-        _search(task, group, together(task, group, move, given["ID"]), given)
-
-
-_bind("SearchL")
-_bind("SearchC")

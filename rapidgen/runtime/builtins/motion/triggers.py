@@ -12,11 +12,10 @@ from rapidgen.motion.moves import From, PathEvent
 from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.builtins.motion.path import MOVE_TASK
-from rapidgen.runtime.builtins.motion.request import MoveArguments, bind, cartesian_move, joint_move
+from rapidgen.runtime.builtins.motion.request import bind, cartesian_move, joint_move
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
-from rapidgen.runtime.registry import builtin, builtins
-from rapidgen.runtime.signals import AnySignal
+from rapidgen.runtime.registry import Arguments, builtins, by_name
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value, register_type
 
@@ -42,157 +41,99 @@ _RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
 """opnum [mem]"""
 
 
-def _where(distance: float, start: bool | None, time: bool | None) -> tuple[From, float]:
+def _where(given: Arguments) -> tuple[From, float]:
+    """The place, and m from there or (\\Time) s. ERR_ARGVALERR: negative."""
+    distance = given["Distance"]
     if distance < 0:
         raise RapidError("ERR_ARGVALERR", f"Distance {distance:g}")
-    if time:
+    if given.get("Time"):
         return From.BEFORE_END, distance
-    return (From.START if start else From.END), distance / 1000
+    return (From.START if given["Start"] else From.END), distance / 1000
 
 
-def _inhibited(inhibit: Ref | None) -> bool:
+def _inhibited(given: Arguments) -> bool:
+    inhibit = given["Inhib"]
     return inhibit is not None and bool(inhibit.get())
 
 
-def _output(
-    task: Task,
-    signals: tuple[AnySignal | None, AnySignal | None, AnySignal | None],
-    values: tuple[float | None, float | None],
-    delay: float,
-    inhibit: Ref | None,
-    instead: Ref | None,
-) -> Callable[[], None]:
+def _first(given: Arguments, *names: str) -> Value:
+    """The argument that there is of several alternatives."""
+    return next((given[name] for name in names if given[name] is not None), None)
+
+
+def _output(task: Task, given: Arguments) -> Callable[[], None]:
     """Sets an output; inhibited, 0 or the given value is written (S4 datasys 2-TriggIO-4).
 
     ERR_AO_LIM, ERR_GO_LIM: the value does not fit the signal.
     """
-    chosen = next((s for s in signals if s is not None), None)
-    value = next((v for v in values if v is not None), 0.0)
+    chosen = _first(given, "DOp", "GOp", "AOp")
+    value = _first(given, "SetValue", "SetDvalue") or 0.0
     if chosen is None:
         raise FatalError(NOT_SIMULATED, "Process events are not simulated", "\\ProcID")
-    signal = chosen.signal
+    signal, instead = chosen.signal, given["InhibSetValue"]
     fitting(signal, value)
-    io = task.controller.io
+    io, delay = task.controller.io, given.get("DODelay") or 0.0
 
     def act() -> None:
         wanted = value
-        if _inhibited(inhibit):
+        if _inhibited(given):
             wanted = instead.get() if instead is not None else 0.0
         io.set(signal, wanted, delay=delay)
 
     return act
 
 
-@builtin("TriggIO")
-def trigg_io(
-    task: Task,
-    data: TriggData,
-    distance: float,
-    start: bool | None,
-    _next: bool | None,
-    time: bool | None,
-    digital: AnySignal | None,
-    group: AnySignal | None,
-    analogue: AnySignal | None,
-    _process: float | None,
-    value: float | None,
-    large: float | None,
-    delay: float | None,
-    inhibit: Ref | None,
-    instead: Ref | None,
-    _mode: float | None,
-) -> None:
+@by_name("TriggIO")
+def trigg_io(task: Task, _name: str, given: Arguments) -> None:
     """An output at a place."""
-    where, amount = _where(distance, start, time)
-    act = _output(task, (digital, group, analogue), (value, large), delay or 0.0, inhibit, instead)
-    data.set(where, amount, act)
+    where = _where(given)
+    given["TriggData"].set(*where, _output(task, given))
 
 
-@builtin("TriggEquip")
-def trigg_equip(
-    task: Task,
-    data: TriggData,
-    distance: float,
-    start: bool | None,
-    _next: bool | None,
-    lag: float,
-    digital: AnySignal | None,
-    group: AnySignal | None,
-    analogue: AnySignal | None,
-    _process: float | None,
-    value: float | None,
-    large: float | None,
-    inhibit: Ref | None,
-    instead: Ref | None,
-    _mode: float | None,
-) -> None:
+@by_name("TriggEquip")
+def trigg_equip(task: Task, _name: str, given: Arguments) -> None:
     """An output at a place, earlier by the equipment's lag (negative: later)."""
-    where, amount = _where(distance, start, None)
-    act = _output(task, (digital, group, analogue), (value, large), 0.0, inhibit, instead)
-    data.set(where, amount, act, lag)
+    where = _where(given)
+    given["TriggData"].set(*where, _output(task, given), given["EquipLag"])
 
 
-@builtin("TriggInt")
-def trigg_int(
-    task: Task,
-    data: TriggData,
-    distance: float,
-    start: bool | None,
-    _next: bool | None,
-    time: bool | None,
-    interrupt: Ref,
-    inhibit: Ref | None,
-    _mode: float | None,
-) -> None:
+@by_name("TriggInt")
+def trigg_int(task: Task, _name: str, given: Arguments) -> None:
     """An interrupt at a place. ERR_UNKINO: not connected."""
-    where, amount = _where(distance, start, time)
-    ordered = task.interrupts.find(interrupt.get())
+    where = _where(given)
+    ordered = task.interrupts.find(given["Interrupt"].get())
 
     def act() -> None:
-        if not _inhibited(inhibit):
+        if not _inhibited(given):
             task.interrupts.happen(ordered)
 
-    data.set(where, amount, act)
+    given["TriggData"].set(*where, act)
 
 
-@builtin("TriggCheckIO")
-def trigg_check_io(
-    task: Task,
-    data: TriggData,
-    distance: float,
-    start: bool | None,
-    _next: bool | None,
-    time: bool | None,
-    signal: Value,
-    relation: float,
-    value: float | None,
-    large: float | None,
-    stop: bool | None,
-    interrupt: Ref,
-    inhibit: Ref | None,
-    _mode: float | None,
-) -> None:
+@by_name("TriggCheckIO")
+def trigg_check_io(task: Task, _name: str, given: Arguments) -> None:
     """Looks at a signal at a place; when the relation does not hold, an interrupt (and a stop)."""
-    where, amount = _where(distance, start, time)
-    ordered = task.interrupts.find(interrupt.get())
+    where = _where(given)
+    ordered = task.interrupts.find(given["Interrupt"].get())
+    relation, signal = given["Relation"], given["Signal"]
     compare = _RELATIONS.get(int(relation))
     if compare is None:
         raise RapidError("ERR_ARGVALERR", f"relation {relation:g}")
-    wanted = value if value is not None else large or 0.0
+    wanted = _first(given, "CheckValue", "CheckDvalue") or 0.0
     watched = signal.get() if isinstance(signal, Ref) else signal
     group = group_of(task)
 
     def act() -> None:
-        if _inhibited(inhibit) or compare(watched.value, wanted):
+        if _inhibited(given) or compare(watched.value, wanted):
             return
-        if stop:
+        if given["StopMove"]:
             group.stop(MOVE_TASK)
         task.interrupts.happen(ordered)
 
-    data.set(where, amount, act)
+    given["TriggData"].set(*where, act)
 
 
-def _prepared(_task: Task, given: MoveArguments) -> tuple[PathEvent, ...]:
+def _prepared(_task: Task, given: Arguments) -> tuple[PathEvent, ...]:
     array = given["TriggArray"]
     if array is not None:
         held = array.get() if isinstance(array, Ref) else array
