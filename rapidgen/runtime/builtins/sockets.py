@@ -18,7 +18,7 @@ from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
 from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
-from rapidgen.runtime.registry import builtin, builtins
+from rapidgen.runtime.registry import Arguments, builtin, builtins, by_name
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value, register_type
 
@@ -229,16 +229,9 @@ def _payload(
 
 
 @builtin("SocketSend", cost="socket")
-def socket_send(
-    task: Task,
-    socket: SocketDevice,
-    text: str | None,
-    raw: RawBytes | None,
-    data: dict[int, float] | None,
-    count: float | None,
-) -> None:
+def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
     """Send bytes; waits while the connection has no room for them."""
-    payload = _payload(text, raw, data, count)
+    payload = _payload(*content)
     endpoint = _stream(socket)
     network = task.controller.network
     left = payload
@@ -264,35 +257,32 @@ def socket_send(
             interrupts.disabled = disabled
 
 
-@builtin("SocketReceive", cost="socket")
-def socket_receive(
-    task: Task,
-    socket: SocketDevice,
-    text: Ref | None,
-    raw: RawBytes | None,
-    data: Ref | None,
-    read_count: float | None,
-    received_count: Ref | None,
-    time: float | None,
-) -> None:
+@by_name("SocketReceive", cost="socket")
+def socket_receive(task: Task, _name: str, given: Arguments) -> None:
     """Wait for bytes: some, or exactly \\ReadNoOfBytes."""
-    endpoint = _stream(socket)
-    limit = _limit(text, raw, data, read_count)
-    received = _wait_for_bytes(
-        task, socket, endpoint, limit, exact=read_count is not None, time=time
-    )
-    _deliver(received, text, raw, data, received_count)
+    endpoint = _stream(given["Socket"])
+    _receive(task, given, endpoint, exact=given["ReadNoOfBytes"] is not None)
+
+
+def _receive(task: Task, given: Arguments, endpoint: Endpoint, *, exact: bool) -> None:
+    """Wait for bytes and put them where the program wants them."""
+    text, raw, data = given["Str"], given["RawData"], given["Data"]
+    limit = _limit(text, raw, data, given["ReadNoOfBytes"])
+    received = _wait_for_bytes(task, given, endpoint, limit, exact=exact)
+    if text is not None:
+        text.set(received.decode("latin-1"))
+    elif raw is not None:
+        raw.data[:] = received
+    elif data is not None:
+        data.set({**data.get(), **dict(enumerate(received, 1))})
+    if given["NoRecBytes"] is not None:
+        given["NoRecBytes"].set(len(received))
 
 
 def _wait_for_bytes(
-    task: Task,
-    socket: SocketDevice,
-    endpoint: Endpoint,
-    limit: int,
-    *,
-    exact: bool,
-    time: float | None,
+    task: Task, given: Arguments, endpoint: Endpoint, limit: int, *, exact: bool
 ) -> bytes:
+    socket: SocketDevice = given["Socket"]
     network = task.controller.network
     result: bytes | None = None
 
@@ -302,7 +292,7 @@ def _wait_for_bytes(
         return result is not None
 
     try:
-        there = task.wait_for(try_it, on=(endpoint.changed,), timeout=_seconds(time))
+        there = task.wait_for(try_it, on=(endpoint.changed,), timeout=_seconds(given["Time"]))
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if not there or result is None:
@@ -331,23 +321,6 @@ def _limit(
     if not 0 < wanted <= room:
         raise RapidError("ERR_ARGVALERR", f"\\ReadNoOfBytes:={wanted} of at most {room}")
     return wanted
-
-
-def _deliver(
-    received: bytes,
-    text: Ref | None,
-    raw: RawBytes | None,
-    data: Ref | None,
-    received_count: Ref | None,
-) -> None:
-    if text is not None:
-        text.set(received.decode("latin-1"))
-    elif raw is not None:
-        raw.data[:] = received
-    elif data is not None:
-        data.set({**data.get(), **dict(enumerate(received, 1))})
-    if received_count is not None:
-        received_count.set(len(received))
 
 
 @builtin("SocketPeek", cost="socket")
@@ -380,17 +353,10 @@ def _datagrams(task: Task, socket: SocketDevice) -> Endpoint:
 
 @builtin("SocketSendTo", cost="socket")
 def socket_send_to(
-    task: Task,
-    socket: SocketDevice,
-    address: str,
-    port: float,
-    text: str | None,
-    raw: RawBytes | None,
-    data: dict[int, float] | None,
-    count: float | None,
+    task: Task, socket: SocketDevice, address: str, port: float, *content: Value
 ) -> None:
     """Send one datagram."""
-    payload = _payload(text, raw, data, count)
+    payload = _payload(*content)
     endpoint = _datagrams(task, socket)
     try:
         task.controller.network.send(endpoint, payload, (address, _port(port)))
@@ -398,27 +364,14 @@ def socket_send_to(
         raise _error(fault) from fault
 
 
-@builtin("SocketReceiveFrom", cost="socket")
-def socket_receive_from(
-    task: Task,
-    socket: SocketDevice,
-    text: Ref | None,
-    raw: RawBytes | None,
-    data: Ref | None,
-    read_count: float | None,
-    received_count: Ref | None,
-    address: Ref,
-    port: Ref,
-    time: float | None,
-) -> None:
+@by_name("SocketReceiveFrom", cost="socket")
+def socket_receive_from(task: Task, _name: str, given: Arguments) -> None:
     """Wait for one datagram; what does not fit is lost, as with every BSD socket."""
-    endpoint = _datagrams(task, socket)
-    limit = _limit(text, raw, data, read_count)
-    received = _wait_for_bytes(task, socket, endpoint, limit, exact=False, time=time)
-    _deliver(received, text, raw, data, received_count)
+    endpoint = _datagrams(task, given["Socket"])
+    _receive(task, given, endpoint, exact=False)
     sender = endpoint.sender or ("", 0)
-    address.set(sender[0])
-    port.set(sender[1])
+    given["RemoteAddress"].set(sender[0])
+    given["RemotePort"].set(sender[1])
 
 
 # SocketGetStatus is the program's own view: a peer that vanished still shows as connected.
