@@ -11,6 +11,8 @@ from rapidgen.cli import options
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rich.progress import TaskID
+
     from rapidgen.config.model import RobotConfig
     from rapidgen.proving.model import Proof
 
@@ -120,7 +122,7 @@ class _Progress:
         from rich.progress import Progress
 
         self._bars = Progress(console=Console(stderr=True), disable=not sys.stderr.isatty())
-        self._tasks: dict[str, object] = {}
+        self._tasks: dict[str, TaskID] = {}
 
     def __enter__(self) -> "Callable[[str, int, int], None]":
         self._bars.start()
@@ -132,7 +134,7 @@ class _Progress:
     def _step(self, what: str, done: int, total: int) -> None:
         if what not in self._tasks:
             self._tasks[what] = self._bars.add_task(what, total=total)
-        self._bars.update(self._tasks[what], completed=done)  # type: ignore[arg-type]
+        self._bars.update(self._tasks[what], completed=done)
 
 
 def _show(report: "Proof", uncovered: bool) -> None:

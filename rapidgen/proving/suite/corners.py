@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 from rapidgen.axes import frames
 from rapidgen.config.model import Joint
@@ -96,7 +96,12 @@ def _corner(bench: Bench, arriving: _Leg, leaving: _Leg) -> Zone:
         )
         for part, speed in sums.items()
     }
-    return replace(zone, **cast("dict[str, Any]", parts))
+    return replace(
+        zone,
+        angle=parts.get("angle", zone.angle),
+        linear=parts.get("linear", zone.linear),
+        rotary=parts.get("rotary", zone.rotary),
+    )
 
 
 def _part(joint: Joint) -> str:

@@ -4,13 +4,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.instructions import at_call, fails
+from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason, TrajectoryState
 from rapidgen.proving.model import Broken, Theme
@@ -100,24 +99,23 @@ def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
     """
     view = bench.controller.task(bench.task("ROS_motion"))
     asked, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
-    program, left = view.rapid.program, 2
     under_way: list[float] = []
-    routine = program.find_routine(None, "moveabsj")
-    assert routine is not None
-    as_before = program.space[routine.code]
+    left = 2
 
-    def fails(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-        nonlocal left
-        left -= 1
-        if left:
-            return as_before(*arguments)
-        program.space[routine.code] = as_before
-        under_way.append(bench.now)
-        while view[asked] == view[done]:
-            view.rapid.sleep(0.001)
-        raise RapidError(error)
+    def wrap(as_before: Instruction) -> Instruction:
+        def failing(*arguments: object) -> object:
+            nonlocal left
+            left -= 1
+            if left != 0:
+                return as_before(*arguments)
+            under_way.append(bench.now)
+            while view[asked] == view[done]:
+                view.rapid.sleep(0.001)
+            raise RapidError(error)
 
-    program.space[routine.code] = fails
+        return failing
+
+    wrapped(bench.rapid_task("ROS_motion"), "MoveAbsJ", wrap)
     return under_way
 
 
