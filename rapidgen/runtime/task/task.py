@@ -12,10 +12,10 @@ from typing import Literal, TypeAlias
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.linking import LoadedModule, Shared
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host
 from rapidgen.runtime.registry import COSTS
