@@ -61,14 +61,11 @@ def test_motion_begins_at_once_however_long_the_trajectory():
 
 
 def test_a_fault_that_only_the_driver_finds(monkeypatch):
-    def unchecked(ordered, group, wire, durations, start, before):
-        return []
-
     with driven() as (robot, _):
         points = list(wave(200))
         points[120][1][2] = 9.0
         stream = robot.stream()
-        monkeypatch.setattr(client_checks, "_content", unchecked)
+        monkeypatch.setattr(client_checks, "_content", lambda _: [])
         monkeypatch.setattr(client_checks, "on_the_grid", lambda wire, group: wire)
         stream.extend(points)
         with pytest.raises(MotionFailed, match="point 120, joint_3: a joint is outside") as error:

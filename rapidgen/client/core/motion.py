@@ -13,7 +13,7 @@ from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Progress, State
 from rapidgen.client.core.state_port import StatePort
-from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
+from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, fault
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message import messages
@@ -135,11 +135,9 @@ class CommandedMotion(ABC):
         if silent <= self._silence:
             return False
         self.failed(
-            RobotTimeout.because(
-                "RG603",
+            state_port.late(
                 f"no state for {silent:.1f} s while the robot may be moving",
                 "look at the robot; a STOP was sent",
-                **state_port.evidence(),
             )
         )
         return True

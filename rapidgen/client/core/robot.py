@@ -226,11 +226,9 @@ class Core:
             return
         if not run.is_over and self.heartbeat.is_late(self.clock()):
             run.failed(
-                RobotTimeout.because(
-                    "RG603",
+                self.state_port.late(
                     "the control port does not answer any more while the robot may be moving",
                     "a STOP was sent; look at the robot",
-                    **self.evidence(),
                 )
             )
         run.step()

@@ -18,7 +18,6 @@ from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import (
     MotionStopped,
     ProtocolError,
-    RobotTimeout,
     TrajectoryRefused,
 )
 from rapidgen.wire.simple_message import messages
@@ -172,11 +171,9 @@ class PointStream(CommandedMotion):
         waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
         if waited > self._patience:
             self.failed(
-                RobotTimeout.because(
-                    "RG603",
+                self._state_port.late(
                     f"the controller did not answer a batch of points within {waited:.1f} s",
                     "a STOP was sent; look at the robot",
-                    **self._state_port.evidence(),
                 )
             )
             return
