@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.diagnostics import DiagnosticError, error, refusal, suggest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -79,7 +80,6 @@ def test(
 
 
 def _check_names(names: list[str]) -> None:
-    from rapidgen.diagnostics import DiagnosticError, error, suggest
     from rapidgen.proving.suite import CASES
 
     known = [case.name for case in CASES]
@@ -99,7 +99,6 @@ def _check_names(names: list[str]) -> None:
 def _check_writable(path: Path | None) -> None:
     """Say before a long run that its report has nowhere to go."""
     from rapidgen._writing import check_writable
-    from rapidgen.diagnostics import refusal
 
     if path is None:
         return
