@@ -22,11 +22,11 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.proving.link import RawLink, point_frame
 from rapidgen.proving.messages import (
     PROTOCOL_VERSION,
-    Comm,
-    Hello,
-    HelloReply,
-    Progress,
-    Status,
+    RawComm,
+    RawHello,
+    RawHelloReply,
+    RawProgress,
+    RawStatus,
     encode,
 )
 from rapidgen.proving.model import Broken
@@ -39,7 +39,7 @@ from rapidgen.system.model import System
 Lines: TypeAlias = dict[str, dict[int, int]]
 """How often each line of RAPID with a statement was reached, by module file."""
 
-HELLO = Hello(PROTOCOL_VERSION, (0, 0, 0), 1)
+HELLO = RawHello(PROTOCOL_VERSION, (0, 0, 0), 1)
 """As a client says it that wants PROGRESS."""
 
 FAILURES = (Broken, Deadlock, FatalError, NetworkFault)
@@ -291,22 +291,22 @@ class Bench:
         """A connection from an address that no configuration allows."""
         return self._link(port, address="203.0.113.77")
 
-    def status(self, link: RawLink, seconds: float = 2) -> Status:
+    def status(self, link: RawLink, seconds: float = 2) -> RawStatus:
         """The next STATUS on a state connection."""
         link.read()
-        return link.expect(Status, seconds, "a STATUS arrives")
+        return link.expect(RawStatus, seconds, "a STATUS arrives")
 
     def watcher(self) -> RawLink:
         """A new connection to the state server that asked for PROGRESS."""
         link = self.state()
-        link.send(encode(HELLO, Comm.REQUEST))
-        link.expect(HelloReply, 2, "HELLO is answered")
+        link.send(encode(HELLO, RawComm.REQUEST))
+        link.expect(RawHelloReply, 2, "HELLO is answered")
         return link
 
-    def progress(self, link: RawLink, seconds: float = 2) -> Progress:
+    def progress(self, link: RawLink, seconds: float = 2) -> RawProgress:
         """The next PROGRESS on a connection that asked for it."""
         link.read()
-        return link.expect(Progress, seconds, "a PROGRESS arrives")
+        return link.expect(RawProgress, seconds, "a PROGRESS arrives")
 
     # -- trajectories ---------------------------------------------------------------------------
 
@@ -363,7 +363,7 @@ class Bench:
         step = min(size, 0.2 * duration * joint.speed, 0.5 * room)
         return step if room_up >= room_down else -step
 
-    def download(self, points: Sequence[Point], comm: Comm = Comm.TOPIC) -> bytes:
+    def download(self, points: Sequence[Point], comm: RawComm = RawComm.TOPIC) -> bytes:
         """The frames of a trajectory as the ROS-Industrial node sends them."""
         return b"".join(
             point_frame(number, len(points), joints, duration, comm)

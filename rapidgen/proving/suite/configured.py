@@ -2,7 +2,14 @@
 
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, raw_point
-from rapidgen.proving.messages import JOINT_TRAJ_PT, STATUS, Acknowledged, Reason, Status, decode
+from rapidgen.proving.messages import (
+    JOINT_TRAJ_PT,
+    STATUS,
+    RawAcknowledged,
+    RawReason,
+    RawStatus,
+    decode,
+)
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.refusals import refused
@@ -55,14 +62,14 @@ def _tcp_too_fast(bench: Bench) -> None:
     if bench.tcp_seconds(here, away) < 1.2 * seconds:
         return
     points = [(here, 1.0), (away, seconds), (here, 9.0)]
-    refused(bench, bench.download(points), [Reason.TCP_TOO_FAST], point=1)
+    refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     good = bench.wave(8)
     stream = Streamer(bench)
     stream.put(good, BEGIN)
     stream.accepted("the first points")
     end = good[-1][0]
     stream.put([(changed(end, 0, end[0] + step), seconds)], END)
-    told = stream.refused(Reason.TCP_TOO_FAST, "a TCP that is too fast")
+    told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
     if (told.accepted, told.point, told.joint) != (8, 8, 0):
         raise Broken(f"eight points were right, the reply is {told}")
     bench.wait_until_at(end, 20)
@@ -115,7 +122,7 @@ def _control_silent(bench: Bench) -> None:
         bench.wait_until_moving()
         bench.run(0.3)
         link.send(STOP)
-        if link.reply(JOINT_TRAJ_PT) != Acknowledged():
+        if link.reply(JOINT_TRAJ_PT) != RawAcknowledged():
             raise Broken("STOP is not confirmed while a control client does not read")
         bench.wait_until_standing(3)
         bench.run(0.5)
@@ -142,9 +149,9 @@ def _braking(bench: Bench) -> None:
             raise Broken("the robot stands, STATUS says that it is in motion")
 
 
-def _told(link: RawLink, since: float) -> list[tuple[float, Status]]:
+def _told(link: RawLink, since: float) -> list[tuple[float, RawStatus]]:
     found = [(t, decode(f)) for t, f in link.frames if t >= since and f.number == STATUS]
-    return [(t, status) for t, status in found if isinstance(status, Status)]
+    return [(t, status) for t, status in found if isinstance(status, RawStatus)]
 
 
 @reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")

@@ -4,7 +4,13 @@ from dataclasses import replace
 from functools import partial
 
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.messages import Mode, Reason, TrajectoryState, TriState, split_error_code
+from rapidgen.proving.messages import (
+    RawMode,
+    RawReason,
+    RawTrajectoryState,
+    RawTriState,
+    split_error_code,
+)
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("controller")
@@ -49,9 +55,9 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
 @case("not-executing", "what comes while nothing executes is refused", "R7a", background=True)
 def _refused_while_not_executing(bench: Bench) -> None:
     for action, reasons in (
-        ("stop", (Reason.NOT_EXECUTING,)),
-        ("motors-off", (Reason.MOTORS_OFF, Reason.NOT_EXECUTING)),
-        ("e-stop", (Reason.EMERGENCY_STOP, Reason.MOTORS_OFF)),
+        ("stop", (RawReason.NOT_EXECUTING,)),
+        ("motors-off", (RawReason.MOTORS_OFF, RawReason.NOT_EXECUTING)),
+        ("e-stop", (RawReason.EMERGENCY_STOP, RawReason.MOTORS_OFF)),
     ):
         state, link = bench.watcher(), bench.motion()
         bench.controller.perform(action)
@@ -59,7 +65,7 @@ def _refused_while_not_executing(bench: Bench) -> None:
         link.send(bench.download(bench.wave(4)))
         bench.stays(5, f"the controller is in {action}")
         status, told = bench.status(state), bench.progress(state)
-        if (told.state, told.point, told.joint) != (TrajectoryState.REFUSED, -1, 0):
+        if (told.state, told.point, told.joint) != (RawTrajectoryState.REFUSED, -1, 0):
             raise Broken(f"after {action} a trajectory is refused for no point, PROGRESS: {told}")
         reason, _ = split_error_code(status.error_code)
         if status.in_error != 1 or reason not in reasons:
@@ -93,7 +99,7 @@ def _manual_mode_shows(bench: Bench) -> None:
     state = bench.state()
     bench.controller.perform("manual")
     bench.run(0.5)
-    if bench.status(state).mode != Mode.MANUAL:
+    if bench.status(state).mode != RawMode.MANUAL:
         raise Broken("in manual mode STATUS does not say so")
 
 
@@ -119,7 +125,7 @@ def _without_signals(bench: Bench) -> None:
     try:
         state, link = other.state(), other.motion()
         status = other.status(state)
-        if status.drives_powered != TriState.UNKNOWN:
+        if status.drives_powered != RawTriState.UNKNOWN:
             raise Broken(f"without signals STATUS says {status}")
         other.moves_through(link, other.wave(4))
     finally:
@@ -146,7 +152,7 @@ def _mixed_builds(bench: Bench) -> None:
             other.run(0.5)
             told = other.progress(state)
             if (told.state, told.reason, told.point, told.joint) != (
-                TrajectoryState.REFUSED, Reason.BUILD_MISMATCH, -1, 0
+                RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH, -1, 0
             ):  # fmt: skip
                 raise Broken(f"{path} is of another build, PROGRESS says {told}")
             link.send(frames[68:])

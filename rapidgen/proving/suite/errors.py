@@ -8,7 +8,7 @@ from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import STATUS, Reason, TrajectoryState, TriState, text_of
+from rapidgen.proving.messages import STATUS, RawReason, RawTrajectoryState, RawTriState, text_of
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.runtime.builtins.clocks import StopWatch
 
@@ -97,8 +97,8 @@ def _instructions_fail(bench: Bench) -> None:
 @case("move-fails", "a move that fails ends its trajectory with its own reason", "R11, R14")
 def _move_fails(bench: Bench) -> None:
     for error, reason in (
-        ("ERR_COLL_STOP", Reason.COLLISION),
-        ("ERR_PATH_STOP", Reason.MOTION_ERROR),
+        ("ERR_COLL_STOP", RawReason.COLLISION),
+        ("ERR_PATH_STOP", RawReason.MOTION_ERROR),
     ):
         watcher, link = bench.watcher(), bench.motion()
         errors = _errors(bench)
@@ -111,7 +111,7 @@ def _move_fails(bench: Bench) -> None:
         bench.stays(3, f"a move ended with {error}")
         bench.run(0.3)
         told, status = bench.progress(watcher), bench.status(watcher)
-        if (told.state, told.reason) != (TrajectoryState.FAILED, reason):
+        if (told.state, told.reason) != (RawTrajectoryState.FAILED, reason):
             raise Broken(f"a move ended with {error}, PROGRESS says {told}")
         if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
             raise Broken(f"a move ended with {error}, STATUS says {status}")
@@ -271,7 +271,7 @@ def _signal_units_fail(bench: Bench) -> None:
     fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
     bench.run(1)
     status = bench.status(state)
-    unknown = TriState.UNKNOWN
+    unknown = RawTriState.UNKNOWN
     if (status.drives_powered, status.e_stopped, status.in_motion) != (unknown, unknown, 0):
         raise Broken(f"no signal can be read, STATUS says {status}")
     if status.in_error:
@@ -292,7 +292,7 @@ def _stopped_without_signals(bench: Bench) -> None:
         link.send(STOP)
         other.run(3)
         told = other.progress(watcher)
-        if (told.state, told.reason) != (TrajectoryState.STOPPED, Reason.STOPPED):
+        if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
             raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
         if told.point != told.reached or not 0 < told.planned <= told.received:
             raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")

@@ -7,7 +7,7 @@ from itertools import pairwise
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import TrajectoryState
+from rapidgen.proving.messages import RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point, distance
 from rapidgen.runtime.values import PersistentCell
@@ -45,7 +45,7 @@ def _loop(bench: Bench) -> None:
     since = bench.now
     link.send(bench.download(points))
     bench.wait_until_moving()
-    while bench.progress(watcher).state == TrajectoryState.MOVING:
+    while bench.progress(watcher).state == RawTrajectoryState.MOVING:
         if bench.now - since > 20:
             raise Broken("a loop does not end")
     if bench.now - since < sum(d for _, d in points[1:]) - 0.5:

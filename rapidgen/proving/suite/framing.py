@@ -4,7 +4,7 @@ import random
 
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import raw_point
-from rapidgen.proving.messages import POINT_BYTES, Comm, ReplyCode
+from rapidgen.proving.messages import POINT_BYTES, RawComm, RawReplyCode
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("framing")
@@ -70,7 +70,7 @@ def _unknown_request(bench: Bench) -> None:
     link = bench.motion()
     link.send(_word(12) + _word(20) + _word(2) + _word(0))
     frame = link.expect_reply(2, "a request of an unknown type is answered")
-    if (frame.comm, frame.reply) != (Comm.REPLY, ReplyCode.FAILURE):
+    if (frame.comm, frame.reply) != (RawComm.REPLY, RawReplyCode.FAILURE):
         raise Broken(f"a request of an unknown type is answered by {frame}")
 
 

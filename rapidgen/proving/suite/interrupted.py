@@ -11,7 +11,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason, TrajectoryState
+from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.errors import set_counters
 from rapidgen.proving.suite.motion_task import begins, datum, patience, unit_of
@@ -23,11 +23,11 @@ case = Theme("interrupted")
 _TRAJ = JOINT_TRAJ_PT
 
 
-def _ended(bench: Bench, watcher: RawLink, reason: Reason, what: str) -> messages.Progress:
+def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
     """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
     told = bench.progress(watcher)
-    stopped = reason is Reason.STOPPED
-    state = TrajectoryState.STOPPED if stopped else TrajectoryState.FAILED
+    stopped = reason is RawReason.STOPPED
+    state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.FAILED
     if (told.state, told.reason) != (state, reason):
         raise Broken(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
     return told
@@ -56,7 +56,7 @@ def _before_a_move(bench: Bench) -> None:
         bench.run(pause)
         bench.controller.perform("start")
         bench.stays(patience(bench), f"the program was stopped before move {number}, and started")
-        told = _ended(bench, watcher, Reason.PROGRAM_STOPPED, "the program was stopped")
+        told = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
         if (told.planned, told.reached) != (number + 1, max(1, number - 1)):
             raise Broken(f"the program was stopped before move {number}, PROGRESS says {told}")
         _works(bench, link)
@@ -74,7 +74,7 @@ def _first_reason(bench: Bench) -> None:
     link.reply(_TRAJ)
     bench.controller.perform("stop")
     bench.run(patience(bench))
-    _ended(bench, watcher, Reason.STOPPED, "STOP, then a stop of the program")
+    _ended(bench, watcher, RawReason.STOPPED, "STOP, then a stop of the program")
     bench.controller.perform("start")
     bench.run(patience(bench))
     # A move that fails just when the supervisor has asked for a halt.
@@ -85,7 +85,7 @@ def _first_reason(bench: Bench) -> None:
     link.reply(_TRAJ)
     bench.wait_until_standing(2)
     bench.run(patience(bench))
-    _ended(bench, watcher, Reason.STOPPED, "STOP, then a move that fails")
+    _ended(bench, watcher, RawReason.STOPPED, "STOP, then a move that fails")
     _works(bench, link)
     said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
     if said:
@@ -132,7 +132,7 @@ def _late_point(bench: Bench) -> None:
     link.send(STOP)
     link.reply(_TRAJ)
     bench.run(patience(bench))
-    told = _ended(bench, watcher, Reason.STOPPED, "STOP")
+    told = _ended(bench, watcher, RawReason.STOPPED, "STOP")
     points = list(task[ring].values())
     place = int(task[head]) % len(points)
     points[place].session, points[place].index = told.trajectory, told.planned + 1
@@ -174,9 +174,9 @@ def _unseen(bench: Bench) -> None:
     with _beside(bench, _bare(bench.system)) as other:
         watcher, link = other.watcher(), other.motion()
         for action, reason, restarts in (
-            ("manual", Reason.MODE_CHANGED, False),
-            ("stop", Reason.STOPPED, False),
-            ("stop", Reason.PROGRAM_STOPPED, True),
+            ("manual", RawReason.MODE_CHANGED, False),
+            ("stop", RawReason.STOPPED, False),
+            ("stop", RawReason.PROGRAM_STOPPED, True),
         ):
             _moves(other, link)
             last = other.last_event
@@ -185,7 +185,7 @@ def _unseen(bench: Bench) -> None:
             halted = other.now
             if restarts:
                 other.controller.perform("pp-to-main")
-            elif reason is Reason.STOPPED:
+            elif reason is RawReason.STOPPED:
                 other.run(3)
                 link.send(STOP)
                 halted = other.now
@@ -218,10 +218,10 @@ def _start_alone(bench: Bench) -> None:
             other.wait_until_standing(1)
             other.run(patience(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
-                _ended(other, watcher, Reason.PROGRAM_STOPPED, action)
+                _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
             other.start_again()
             other.stays(patience(other), f"{action}, then Start")
-            _ended(other, watcher, Reason.PROGRAM_STOPPED, f"{action}, then Start")
+            _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
             if action in ("stop", "e-stop"):
                 _works(other, link)
 
@@ -244,15 +244,17 @@ def _without_routines(bench: Bench) -> None:
                 raise Broken(f"the last trajectory was {number}, {other.progress(watcher)}")
         _refills(other, link)
         for action, reason in (
-            ("stop", Reason.PROGRAM_STOPPED),
-            ("e-stop", Reason.EMERGENCY_STOP),
-            ("motors-off", Reason.MOTORS_OFF),
+            ("stop", RawReason.PROGRAM_STOPPED),
+            ("e-stop", RawReason.EMERGENCY_STOP),
+            ("motors-off", RawReason.MOTORS_OFF),
         ):
             _moves(other, link)
             if control is not None:
                 _pause(other, control, 1)
             other.controller.perform(action)
-            if control is not None and control.ask(messages.Pause(0)) != messages.NotDone(reason):
+            if control is not None and control.ask(messages.RawPause(0)) != messages.RawNotDone(
+                reason
+            ):
                 raise Broken(f"a pause ends right behind {action}")
             other.wait_until_standing(1)
             other.run(patience(other))
@@ -267,16 +269,16 @@ def _without_routines(bench: Bench) -> None:
         other.start_again()
         other.stays(2, "a power failure without event routines, then Start")
         if control is not None:
-            told = control.expect(messages.Stopped, 1, "STOPPED arrives")
-            if told.reason != Reason.POWER_FAILURE:
+            told = control.expect(messages.RawStopped, 1, "STOPPED arrives")
+            if told.reason != RawReason.POWER_FAILURE:
                 raise Broken(f"a power failure has ended a trajectory, STOPPED says {told}")
         _works(other, other.motion())
 
 
 def _pause(bench: Bench, control: RawLink, paused: int) -> None:
-    told = control.ask(messages.Pause(paused))
+    told = control.ask(messages.RawPause(paused))
     bench.run(0.1)
-    if told != messages.Acknowledged() or bench.standing != bool(paused):
+    if told != messages.RawAcknowledged() or bench.standing != bool(paused):
         raise Broken(f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}")
 
 
@@ -299,7 +301,7 @@ def _pauses_at_its_end(
             raise Broken("a trajectory is paused, STATUS says that another one may come")
     bench.run(2.5 * unit)
     told, status = bench.progress(watcher), bench.status(watcher)
-    if (told.state, status.motion_possible) != (TrajectoryState.DONE, 1):
+    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
         raise Broken(f"a trajectory that was paused in its last stay is over: {told}, {status}")
 
 
@@ -339,5 +341,5 @@ def _stale_build(bench: Bench) -> None:
         link.send(other.download(other.wave(3)))
         other.stays(1, "modules of the motion task are of different builds")
         told = other.progress(watcher)
-        if (told.state, told.reason) != (TrajectoryState.REFUSED, Reason.BUILD_MISMATCH):
+        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
             raise Broken(f"modules of the motion task are of different builds, {told}")

@@ -5,7 +5,7 @@ from functools import partial
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
-from rapidgen.proving.messages import PING, Comm, Reason, decode, encode
+from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.track import SETTLED, Point, distance
@@ -28,9 +28,9 @@ def _leaves_in_a_download(bench: Bench) -> None:
 def _has_no_start(bench: Bench) -> None:
     """Nothing of what one client has sent counts for the next."""
     link = bench.motion()
-    link.send(raw_point(5, bench.position, 1.0, Comm.REQUEST))
+    link.send(raw_point(5, bench.position, 1.0, RawComm.REQUEST))
     told = decode(link.expect_reply(2, "a point without a start is answered"))
-    if not isinstance(told, messages.Refused) or told.reason != Reason.NO_START:
+    if not isinstance(told, messages.RawRefused) or told.reason != RawReason.NO_START:
         raise Broken(f"a point without a start is answered by {told}")
     link.close()
     bench.run(0.2)
@@ -109,12 +109,12 @@ def _many_come_and_go(bench: Bench) -> None:
 
 def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = False) -> None:
     """PING and its reply; `slowly`: in single bytes."""
-    data = encode(messages.Ping(), Comm.REQUEST)
+    data = encode(messages.RawPing(), RawComm.REQUEST)
     for byte in data[:-1] if slowly else b"":
         link.send(bytes([byte]))
         bench.run(0.012)
     link.send(data[-1:] if slowly else data)
-    if not isinstance(link.reply(PING, seconds), messages.Acknowledged):
+    if not isinstance(link.reply(PING, seconds), messages.RawAcknowledged):
         raise Broken("PING is not confirmed")
 
 

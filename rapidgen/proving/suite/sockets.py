@@ -6,16 +6,16 @@ from itertools import product
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, PING, Comm, encode
+from rapidgen.proving.messages import JOINT_TRAJ_PT, PING, RawComm, encode
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("framing")
 
-_PING = encode(messages.Ping(), Comm.REQUEST)
+_PING = encode(messages.RawPing(), RawComm.REQUEST)
 
 
 def _pings(link: RawLink, what: str) -> None:
-    if not isinstance(link.reply(PING, 0.3), messages.Acknowledged):
+    if not isinstance(link.reply(PING, 0.3), messages.RawAcknowledged):
         raise Broken(f"{what}: PING is not confirmed")
 
 
@@ -26,7 +26,7 @@ def _whole_headers(bench: Bench) -> None:
     for length, number in product(lengths, (PING, JOINT_TRAJ_PT, 1399)):
         for before in (b"", _PING):
             link = bench.motion()
-            head = struct.pack("<4i", length, number, Comm.REQUEST, 0)
+            head = struct.pack("<4i", length, number, RawComm.REQUEST, 0)
             link.send(before + head)
             what = f"a message of type {number} and {length} bytes"
             if before:
@@ -49,7 +49,7 @@ def _whole_headers(bench: Bench) -> None:
         bench.run(0.02)
     for _ in range(3):
         _pings(link, "PING in pieces, and another one behind it")
-    longest = struct.pack("<4i", 1020, 1399, Comm.TOPIC, 0) + bytes(1008)
+    longest = struct.pack("<4i", 1020, 1399, RawComm.TOPIC, 0) + bytes(1008)
     for size in (16, 500, 1024):
         for at in range(0, len(longest), size):
             link.send(longest[at : at + size])

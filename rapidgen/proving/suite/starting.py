@@ -2,7 +2,7 @@
 
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import raw_point
-from rapidgen.proving.messages import POINT_BYTES, Reason, TrajectoryState
+from rapidgen.proving.messages import POINT_BYTES, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
 
@@ -27,7 +27,7 @@ def _one_other(bench: Bench) -> None:
         link.send(raw_point(-1, other.position, 1.0))
         other.run(0.3)
         told = other.progress(watcher)
-        if (told.state, told.reason) != (TrajectoryState.REFUSED, Reason.BUILD_MISMATCH):
+        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
             raise Broken(f"{path} is of another build, PROGRESS says {told}")
         if other.status(watcher).motion_possible:
             raise Broken("modules of several builds: STATUS says that motion is possible")
@@ -54,8 +54,8 @@ def _power_returns(bench: Bench) -> None:
         watcher, link = bench.watcher(), bench.motion()
         told, status = bench.progress(watcher), bench.status(watcher)
         if told.trajectory != number or told.state in (
-            TrajectoryState.RECEIVING,
-            TrajectoryState.MOVING,
+            RawTrajectoryState.RECEIVING,
+            RawTrajectoryState.MOVING,
         ):
             raise Broken(f"trajectory {number} was there when the power failed: {told}")
         if status.motion_possible != 1 or status.in_motion:

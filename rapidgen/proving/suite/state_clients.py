@@ -17,9 +17,9 @@ from rapidgen.proving.messages import (
     JOINT_POSITION,
     PING,
     STATE_BYTES,
-    Comm,
-    Feature,
-    Reason,
+    RawComm,
+    RawFeature,
+    RawReason,
     decode,
     encode,
 )
@@ -54,7 +54,7 @@ def _several_watch(bench: Bench) -> None:
         on_turn(bench, rounds(links[0], came - 1), f"client {number + 1} came")
     for leaves, abort in ((1, False), (0, True)):
         served = [link for link in links if not link.lost]
-        subscribe(bench, Feature.PROGRESS | Feature.FEEDBACK, served[leaves])
+        subscribe(bench, RawFeature.PROGRESS | RawFeature.FEEDBACK, served[leaves])
         since = bench.now
         served[leaves].close(abort=abort)
         bench.run(1)
@@ -83,7 +83,7 @@ def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
     while left:
         size = left if left <= 1024 else min(1024, left - 16)
         # A reply, as nobody has asked for: it is in no round.
-        frame = struct.pack("<4i", size - 4, PING, Comm.REPLY, 0)
+        frame = struct.pack("<4i", size - 4, PING, RawComm.REPLY, 0)
         while len(pipe.waiting) + size > BUFFER:
             bench.run(0.001)
         try:
@@ -148,9 +148,9 @@ def _does_not_read(bench: Bench) -> None:
     # It has room for all rounds until the next event, and for no event behind them.
     slow.close()
     bench.run(0.5)
-    silent = subscribe(bench, Feature.EVENTS)
+    silent = subscribe(bench, RawFeature.EVENTS)
     silent.stop_reading()
-    subscribe(bench, Feature.EVENTS, reader)
+    subscribe(bench, RawFeature.EVENTS, reader)
     since = bench.now
     _write(bench, 1, "First")
     bench.until(lambda: bool(_events_of(reader, since)), 1, "an event is told")
@@ -186,15 +186,15 @@ def _breaks_in_a_send(bench: Bench) -> None:
     _fails_to_send(bench, reader)
 
 
-def _feedback_of(link: RawLink) -> list[tuple[float, messages.JointFeedback]]:
+def _feedback_of(link: RawLink) -> list[tuple[float, messages.RawJointFeedback]]:
     found = [(when, decode(frame)) for when, frame in link.frames]
-    return [(when, told) for when, told in found if isinstance(told, messages.JointFeedback)]
+    return [(when, told) for when, told in found if isinstance(told, messages.RawJointFeedback)]
 
 
 @case("feedback", "JOINT_FEEDBACK: time, positions and velocities")
 def _feedback(bench: Bench) -> None:
-    first = subscribe(bench, Feature.FEEDBACK)
-    link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
+    first = subscribe(bench, RawFeature.FEEDBACK)
+    link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
     motion = bench.motion()
     points: list[Point] = bench.wave(8)
     motion.send(bench.download(points))
@@ -206,14 +206,14 @@ def _feedback(bench: Bench) -> None:
             raise Broken(f"{len(told)} JOINT_FEEDBACK came")
         _is_motion(bench, told[2:])
     joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
-    seen = {j.joints for j in joints if isinstance(j, messages.JointPosition)}
+    seen = {j.joints for j in joints if isinstance(j, messages.RawJointPosition)}
     if any(told.positions not in seen for _, told in _feedback_of(link)):
         raise Broken("JOINT_FEEDBACK tells other joints than JOINT")
     if _feedback_of(bench.state()):
         raise Broken("JOINT_FEEDBACK comes to a client that did not ask for it")
 
 
-def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.JointFeedback]]) -> None:
+def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.RawJointFeedback]]) -> None:
     """Positions, times and velocities belong together."""
     count = len(bench.position)
     moved = False
@@ -243,9 +243,9 @@ def _write(bench: Bench, number: int, title: str, kind: EventType = EventType.WA
     bench.controller.log.write(10_000 * (number % 9 + 1) + number, kind, title, task=task)
 
 
-def _events_of(link: RawLink, since: float) -> list[tuple[float, messages.Event]]:
+def _events_of(link: RawLink, since: float) -> list[tuple[float, messages.RawEvent]]:
     found = [(when, decode(frame)) for when, frame in link.frames if when >= since]
-    return [(when, told) for when, told in found if isinstance(told, messages.Event)]
+    return [(when, told) for when, told in found if isinstance(told, messages.RawEvent)]
 
 
 def _are_told(link: RawLink, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
@@ -280,8 +280,8 @@ def _burst(
 
 @case("events", "EVENT tells the controller's events to those who ask")
 def _events(bench: Bench) -> None:
-    links = [subscribe(bench, Feature.EVENTS), bench.state()]
-    links.append(subscribe(bench, Feature.EVENTS | Feature.PROGRESS))
+    links = [subscribe(bench, RawFeature.EVENTS), bench.state()]
+    links.append(subscribe(bench, RawFeature.EVENTS | RawFeature.PROGRESS))
     server = bench.controller.task(bench.task("ROS_stateServer"))
     for name in ("events_put", "events_taken"):
         # The last values of counters come after years.
@@ -295,8 +295,8 @@ def _events(bench: Bench) -> None:
             raise Broken("EVENT comes to a client that did not ask for it")
     # Nobody wants those that still wait, nor the number of the others.
     since, wanted = _burst(bench, links[0], 20)
-    subscribe(bench, Feature.PROGRESS, links[2])
-    subscribe(bench, Feature.PROGRESS, links[0])
+    subscribe(bench, RawFeature.PROGRESS, links[2])
+    subscribe(bench, RawFeature.PROGRESS, links[0])
     bench.run(0.3)
     seen, begun = len(_events_of(links[0], since)), since
     for number in range(100):
@@ -304,7 +304,7 @@ def _events(bench: Bench) -> None:
     bench.run(0.5)
     bench.healthy()
     since = bench.now
-    subscribe(bench, Feature.EVENTS, links[2])
+    subscribe(bench, RawFeature.EVENTS, links[2])
     bench.run(0.5)
     if seen > 8 or len(_events_of(links[0], begun)) > seen or _events_of(links[2], since):
         raise Broken("events from before HELLO are told")
@@ -334,8 +334,8 @@ def _limits_of_the_controller(bench: Bench) -> None:
     other = bench.beside(bench.system, robots)
     try:
         link = other.state()
-        link.send(encode(HELLO, Comm.REQUEST))
-        told = link.expect(messages.HelloReply, 2, "HELLO is answered")
+        link.send(encode(HELLO, RawComm.REQUEST))
+        told = link.expect(messages.RawHelloReply, 2, "HELLO is answered")
         if abs(told.lower[0] - narrow.lower) + abs(told.upper[0] - narrow.upper) > 1e-4:
             raise Broken(
                 f"joint 1 may move from {narrow.lower:.4f} to {narrow.upper:.4f}, HELLO says "
@@ -347,7 +347,7 @@ def _limits_of_the_controller(bench: Bench) -> None:
         for value in (narrow.lower - 0.05 * half, narrow.upper + 0.05 * half):
             points = [(p, 60.0) for p, _ in other.wave(4)]
             points[2] = ((value, *points[2][0][1:]), 60.0)
-            refused(other, other.download(points), [Reason.JOINT_LIMIT], 1, 2)
+            refused(other, other.download(points), [RawReason.JOINT_LIMIT], 1, 2)
         for value in (narrow.lower, narrow.upper):
             here = other.position
             target = (value, *here[1:])

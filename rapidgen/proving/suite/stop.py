@@ -146,5 +146,5 @@ def _state_tells_of_the_stop(bench: Bench) -> None:
     if (status.in_error, status.in_motion, status.motion_possible) != (0, 0, 1):
         raise Broken(f"after a STOP STATUS says {status}")
     joints = [decode(f) for f in state.read() if f.number == JOINT_POSITION]
-    if any(not isinstance(j, messages.JointPosition) for j in joints):
+    if any(not isinstance(j, messages.RawJointPosition) for j in joints):
         raise Broken("JOINT cannot be read")
