@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.config.model import GroupConfig, RobotConfig
@@ -156,6 +156,12 @@ class Bench:
         """Give the controller back."""
         self.controller.close()
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     # -- time -----------------------------------------------------------------------------------
 
     @property
@@ -221,6 +227,15 @@ class Bench:
     def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
         """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
         on_path([sample for sample in self.track if sample[0] >= since], path, corner)
+
+    def arrives(self, points: Sequence[Point], since: float, seconds: float) -> None:
+        """Wait until the robot stands at the last point; Broken unless it was on the way to it."""
+        self.wait_until_at(points[-1][0], seconds)
+        self.executed(points, since)
+
+    def executed(self, points: Sequence[Point], since: float) -> None:
+        """Broken unless the robot was on the way through these points since then."""
+        self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
 
     def forget(self) -> None:
         """Drop the record so far, for campaigns that would not end in the memory there is."""
@@ -299,9 +314,13 @@ class Bench:
     def watcher(self) -> RawLink:
         """A new connection to the state server that asked for PROGRESS."""
         link = self.state()
-        link.send(encode(HELLO, RawComm.REQUEST))
-        link.expect(RawHelloReply, 2, "HELLO is answered")
+        self.says_hello(link)
         return link
+
+    def says_hello(self, link: RawLink, subscribe: int = 1) -> RawHelloReply:
+        """HELLO on a state connection, and its answer."""
+        link.send(encode(HELLO._replace(subscribe=subscribe), RawComm.REQUEST))
+        return link.expect(RawHelloReply, 2, "HELLO is answered")
 
     def progress(self, link: RawLink, seconds: float = 2) -> RawProgress:
         """The next PROGRESS on a connection that asked for it."""
@@ -370,6 +389,13 @@ class Bench:
             for number, (joints, duration) in enumerate(points)
         )
 
+    def sets_off(self, link: RawLink, points: Sequence[Point], then: float | None = None) -> None:
+        """Send a trajectory, wait for the robot to move, and let it move for `then` s."""
+        link.send(self.download(points))
+        self.wait_until_moving()
+        if then is not None:
+            self.run(then)
+
     def moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
         """Send a trajectory and see it executed whole, in order, in time and without a complaint.
 
@@ -378,8 +404,7 @@ class Bench:
         since, asked = self.now, sum(d for _, d in points[1:])
         last = self.last_event
         link.send(self.download(points))
-        self.wait_until_at(points[-1][0], 30 + 3 * asked)
-        self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
+        self.arrives(points, since, 30 + 3 * asked)
         group = self.motion_group
         if group.override < 1 or group.reduced:
             return

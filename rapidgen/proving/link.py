@@ -171,10 +171,21 @@ class RawLink:
         self._bench.until(arrived, seconds, f"a reply of type {number} arrives")
         return decode(found[0])
 
-    def close(self, *, abort: bool = False) -> None:
-        """End the connection (FIN), or reset it (RST)."""
+    def stop(self, seconds: float = 2) -> RawContent:
+        """Send STOP; the reply to it."""
+        self.send(STOP)
+        return self.reply(JOINT_TRAJ_PT, seconds)
+
+    def wait_until_lost(self, seconds: float, what: str) -> None:
+        """Wait for the controller to end the connection."""
+        self._bench.until(lambda: self.lost, seconds, what)
+
+    def close(self, *, abort: bool = False, then: float | None = None) -> None:
+        """End the connection (FIN), or reset it (RST), and let `then` s pass."""
         self._network.close(self.endpoint, abort=abort)
         self.lost = True
+        if then is not None:
+            self._bench.run(then)
 
 
 def point_frame(

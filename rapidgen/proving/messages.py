@@ -357,31 +357,12 @@ class RawFailure(NamedTuple):
     """A failure reply without data."""
 
 
+_Told: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
+_Asked: TypeAlias = RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal
+_Done: TypeAlias = RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted
+_Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
 RawContent: TypeAlias = (
-    RawTrajectoryPoint
-    | RawJointPosition
-    | RawStatus
-    | RawPing
-    | RawJointFeedback
-    | RawHello
-    | RawHelloReply
-    | RawHelloRefusal
-    | RawProgress
-    | RawStopped
-    | RawPause
-    | RawSpeed
-    | RawHeartbeat
-    | RawSignal
-    | RawEvent
-    | RawPointsAccepted
-    | RawPointsRefused
-    | RawNotDone
-    | RawHeartbeatReply
-    | RawSignalReply
-    | RawAccepted
-    | RawRefused
-    | RawAcknowledged
-    | RawFailure
+    _Told | _Asked | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
 )
 _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     # Number, reply code (0: a topic or a request), and for each field a code of struct.

@@ -45,6 +45,11 @@ class Streamer:
             told = self.reply()
         return told
 
+    def say(self, frame: bytes) -> messages.RawContent:
+        """Send a batch as bytes, right or wrong; the reply to it."""
+        self.link.send(frame)
+        return self.reply()
+
     def reply(self) -> messages.RawContent:
         """The next reply to a batch."""
         self.last = self.link.reply(POINTS, 5)

@@ -491,11 +491,11 @@ def test_a_motion_that_begins_late_is_seen(bench):
     link = bench.motion()
     bench.run(0.5)
     link.send(bench.download(bench.wave(3)))
-    motion_task.begins(bench, bench.now)
+    motion_task.begins_soon(bench, bench.now)
     bench.wait_until_standing()
     link.send(bench.download(bench.wave(3)))
     with red("behind the end frame"):
-        motion_task.begins(bench, bench.now - 0.5)
+        motion_task.begins_soon(bench, bench.now - 0.5)
 
 
 # -- rounds of the state port ---------------------------------------------------------------------
@@ -612,9 +612,7 @@ def test_an_order_behind_a_stop_is_seen(given):
 def test_orders_are_heard(bench):
     heard = watched_orders(bench)
     link = bench.motion()
-    link.send(bench.download(bench.wave(6)))
-    bench.wait_until_moving()
-    bench.run(0.3)
+    bench.sets_off(link, bench.wave(6), 0.3)
     assert {o.instruction for o in heard if o.free} == {"MoveAbsJ"}
     link.send(STOP)
     bench.run(0.5)
@@ -628,8 +626,7 @@ def test_an_instruction_fails_as_often_as_told(bench):
     at_call(bench, "ROS_motion", "ClearPath", 3, lambda: calls.append(bench.now))
     link = bench.motion()
     for _ in range(2):
-        link.send(bench.download(bench.wave(6)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(6))
         link.send(STOP)
         bench.wait_until_standing()
         bench.run(1)

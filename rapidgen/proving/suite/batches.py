@@ -1,19 +1,9 @@
 """Batches of points one by one: what each reply says, and each way to spoil one."""
 
-from functools import partial
-
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import (
-    INDEX_WRAP,
-    JOINT_TRAJ_PT,
-    RawReason,
-    RawStreamFlag,
-    RawTrajectoryState,
-    point_pairs,
-)
+from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streams import way
@@ -100,16 +90,14 @@ def _no_number(bench: Bench) -> None:
     last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
     for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
         stream = Streamer(bench, number=3)
-        stream.link.send(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
-        stream.reply()
+        stream.say(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
         told = stream.last
         if not isinstance(told, messages.RawPointsRefused) or told.accepted or told.stream != whose:
             raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
         if place >= 32 and told.reason != RawReason.CHECKSUM:
             raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
         bench.stays(1, "a beginning is damaged")
-        stream.link.close()
-        bench.run(0.5)
+        stream.link.close(then=0.5)
 
 
 @case("batch-beginning", "a damaged beginning while a stream moves")
@@ -123,8 +111,7 @@ def _damaged_beginning(bench: Bench) -> None:
         wrong = Streamer(bench, stream.link, number=number)
         data = bytearray(wrong.frame(way(bench, 3), BEGIN))
         data[60] ^= 1
-        stream.link.send(bytes(data))
-        stream.reply()
+        stream.say(bytes(data))
         told = stream.refused(RawReason.CHECKSUM, "a damaged beginning")
         if told.stream != number:
             raise Broken(f"a damaged beginning of stream {number}: the reply is {told}")
@@ -135,16 +122,15 @@ def _damaged_beginning(bench: Bench) -> None:
         else:
             stream.refused(RawReason.CHECKSUM, "points behind a damaged beginning")
             bench.wait_until_at(points[19][0], 20)
-        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
-        stream.link.close()
-        bench.run(1.2)
+        bench.executed(points, since)
+        stream.link.close(then=1.2)
 
 
 @case("batch-padding", "a value for a joint that is not there")
 def _padding(bench: Bench) -> None:
     """Where a point has a place for a joint that the robot lacks that place is zero."""
     joints = len(bench.position)
-    if 2 * point_pairs(joints) == joints + 1:
+    if 2 * messages.point_pairs(joints) == joints + 1:
         return
     stream = Streamer(bench)
     here = bench.position
@@ -172,8 +158,7 @@ def _enough(bench: Bench) -> None:
             bench.stays(2, f"{(count - 1) * duration:g} s wait in the ring")
         stream.put((), FLUSH)
         bench.wait_until_at(points[-1][0], 10)
-        stream.link.close()
-        bench.run(1.2)
+        stream.link.close(then=1.2)
 
 
 @case("batch-not-now", "a stream while no motion is possible", "R7a", background=True)
@@ -196,8 +181,7 @@ def _not_now(bench: Bench) -> None:
             raise Broken(f"after {action} points are answered by {told}")
         bench.start_again()
         bench.stays(3, f"points came after {action}")
-        stream.link.close()
-        bench.run(1.2)
+        stream.link.close(then=1.2)
 
 
 @case("batch-ends-early", "streams that end before they move", "R5")
@@ -210,8 +194,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.refused(RawReason.BAD_DURATION, "a second point without a duration")
     stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
-    stream.link.send(STOP)
-    stream.link.reply(JOINT_TRAJ_PT)
+    stream.link.stop()
     stream.put(way(bench, 20))
     refusal = stream.refused(RawReason.STOPPED, "points behind a STOP")
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
@@ -231,8 +214,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
             stream.sent = 17
             stream.put(way(bench, 3), _NONE)
             stream.refused(RawReason.SEQUENCE_GAP, "points behind a hole")
-        stream.link.close()
-        bench.run(1)
+        stream.link.close(then=1)
         told = bench.progress(watcher)
         wanted = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
         if wanted and ((told.state, told.reason) != wanted or (told.point, told.joint) != (0, 0)):
@@ -294,19 +276,15 @@ def _silent(bench: Bench) -> None:
     bench.run(2.5)
     stream.put(points[25:50], END)
     stream.accepted("points after 2.5 s of silence")
-    bench.until(partial(_is_lost, stream), 2, "a client whose stream has ended gives way")
+    stream.link.wait_until_lost(2, "a client whose stream has ended gives way")
     bench.wait_until_standing(2)
     bench.stays(1, "its client was replaced")
-
-
-def _is_lost(stream: Streamer) -> bool:
-    return stream.link.lost
 
 
 @case("batch-index-wraps", "more points than numbers")
 def _index_wraps(bench: Bench) -> None:
     """Points are counted anew behind the last number that a controller counts exactly."""
-    last = INDEX_WRAP
+    last = messages.INDEX_WRAP
     stream, since = Streamer(bench), bench.now
     points = way(bench, 40)
     stream.put(points[:10], BEGIN)
@@ -324,14 +302,13 @@ def _index_wraps(bench: Bench) -> None:
     stream.sent = 5
     stream.put(points[20:], END)
     stream.accepted("points behind the last number")
-    bench.wait_until_at(points[-1][0], 20)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 20)
 
 
 @case("batch-unreadable", "bytes of a batch that cannot be read", "R3")
 def _unreadable(bench: Bench) -> None:
     """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
-    joints = point_pairs(len(bench.position))
+    joints = messages.point_pairs(len(bench.position))
     # The frame's own and the kind of message; two words of the head, those of two points, the
     # checksum.
     # An error of the former passes through routines without a handler, where errors do that.
@@ -351,11 +328,10 @@ def _unreadable(bench: Bench) -> None:
             if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
                 raise Broken(f"read {after} of a batch has failed, the reply is {told}")
         bench.wait_until_standing(10)
-        bench.followed([bench.track_at(since), *(p for p, _ in points[:8])], since=since)
+        bench.executed(points[:8], since)
         bench.stays(0.3, f"read {after} of a batch has failed")
         bench.healthy()
-        stream.link.close()
-        bench.run(0.3)
+        stream.link.close(then=0.3)
 
 
 @case("batch-behind-end", "points behind the end")

@@ -94,8 +94,7 @@ def _state_is_true(bench: Bench) -> None:
     if (idle.mode, idle.motion_possible) != (2, 1):
         raise Broken(f"a robot in automatic mode with its program running says {idle}")
     points = bench.wave(6)
-    motion.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(motion, points)
     if bench.status(link).in_motion != 1:
         raise Broken("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])

@@ -7,16 +7,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    MAX_JOINTS,
-    STOPPED,
-    RawComm,
-    RawReason,
-    RawStreamFlag,
-    RawTrajectoryState,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.motion_task import patience
@@ -25,13 +16,12 @@ from rapidgen.proving.track import distance
 
 case = Theme("controlling", port="control")
 
-_TRAJ = JOINT_TRAJ_PT
+_TRAJ = messages.JOINT_TRAJ_PT
 
 
 def stop(link: RawLink, seconds: float = 1) -> None:
     """STOP over this connection; Broken unless it is confirmed in time."""
-    link.send(STOP)
-    if not isinstance(link.reply(_TRAJ, seconds), messages.RawAcknowledged):
+    if not isinstance(link.stop(seconds), messages.RawAcknowledged):
         raise Broken("STOP on the control port is not confirmed")
 
 
@@ -54,9 +44,7 @@ def _stops(bench: Bench) -> None:
     stop(control)
     for delay in (0.0, 0.02, 0.7):
         link, since, points = bench.motion(), bench.now, bench.wave(12)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(delay)
+        bench.sets_off(link, points, delay)
         asked = bench.now
         control.read()
         stop(control)
@@ -66,7 +54,7 @@ def _stops(bench: Bench) -> None:
         bench.followed([p for p, _ in points], since=since)
         told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
-        here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
+        here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
         if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-4:
             raise Broken(f"the robot stands at {here}, STOPPED says {told.joints}")
         if (told.trajectory, told.reached, told.reason) != (
@@ -77,8 +65,7 @@ def _stops(bench: Bench) -> None:
             raise Broken(f"STOPPED says {told}, PROGRESS {progress}")
         bench.stays(2, "it was stopped over the control port")
         bench.moves_through(link, bench.wave(3))
-        link.close()
-        bench.run(1.5)
+        link.close(then=1.5)
 
 
 @case("stop-under-load", "STOP is answered whatever lies before the motion server", "R5")
@@ -87,7 +74,7 @@ def _stop_under_load(bench: Bench) -> None:
     control = bench.control()
     # Others that have to be told everything, and a client that beats.
     for _ in range(3):
-        bench.state().send(encode(HELLO._replace(subscribe=49), RawComm.REQUEST))
+        bench.state().send(messages.encode(HELLO._replace(subscribe=49), RawComm.REQUEST))
     control.ask(messages.RawHeartbeat(5))
     orders = watched_orders(bench)
     for _ in range(4):
@@ -107,8 +94,7 @@ def _stop_under_load(bench: Bench) -> None:
             raise Broken(f"under load the robot is told to stop after {late - asked:.3f} s")
         bench.wait_until_standing(3)
         bench.stays(1, "it was stopped under load")
-        stream.link.close()
-        bench.run(2)
+        stream.link.close(then=2)
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
@@ -122,12 +108,10 @@ def _stop_at_any_moment(bench: Bench) -> None:
         bench.run(step * 0.004)
         stop(control)
         if step % 3 == 0:
-            link.send(STOP)
-            link.reply(_TRAJ, 2)
+            link.stop()
         bench.wait_until_standing(5)
         bench.run(0.3)
-        link.send(STOP)
-        link.reply(_TRAJ, 2)
+        link.stop()
         bench.stays(0.4, f"STOP came {step * 4} ms behind a trajectory")
     bench.moves_through(link, bench.wave(4))
 
@@ -139,8 +123,7 @@ def _pauses(bench: Bench) -> None:
     not_done(control.ask(messages.RawPause(1)), RawReason.IDLE, "a pause of nothing")
     not_done(control.ask(messages.RawPause(0)), RawReason.IDLE, "an end of no pause")
     link, since, points = bench.motion(), bench.now, bench.wave(14)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     for _ in range(3):
         bench.run(0.8)
         done(control.ask(messages.RawPause(1)), "PAUSE")
@@ -166,14 +149,11 @@ def _pause_ends(bench: Bench) -> None:
     """What halts a motion halts a paused one; nothing of it goes on."""
     for action in ("STOP", "control STOP", "e-stop", "motors-off", "stop", "leaves", "another"):
         control, link = bench.control(), bench.motion()
-        link.send(bench.download(bench.wave(14)))
-        bench.wait_until_moving()
-        bench.run(0.5)
+        bench.sets_off(link, bench.wave(14), 0.5)
         done(control.ask(messages.RawPause(1)), "PAUSE")
         bench.wait_until_standing(3)
         if action == "STOP":
-            link.send(STOP)
-            link.reply(_TRAJ, 2)
+            link.stop()
         elif action == "control STOP":
             stop(control)
         elif action == "leaves":
@@ -192,8 +172,7 @@ def _pause_ends(bench: Bench) -> None:
         bench.start_again()
         bench.stays(3, f"it was paused, then came {action} and a start of the program")
         control.close()
-        link.close()
-        bench.run(2)
+        link.close(then=2)
         bench.moves_through(bench.motion(), bench.wave(3))
         bench.run(1.5)
 
@@ -206,8 +185,7 @@ def _speed(bench: Bench) -> None:
     taken = []
     for percent in (100.0, 50.0, 0.0):
         points, since = bench.wave(12), bench.now
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         if percent:
             done(control.ask(messages.RawSpeed(1)), "SPEED 1")
             done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
@@ -228,8 +206,7 @@ def _speed(bench: Bench) -> None:
 def _nobody_answers(bench: Bench) -> None:
     """Whoever asks something of a motion task that does not run is told so, soon."""
     control, link = bench.control(), bench.motion()
-    link.send(bench.download(bench.wave(12)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(12))
     bench.controller.perform("stop")
     bench.run(0.5)
     asked = bench.now
@@ -239,8 +216,7 @@ def _nobody_answers(bench: Bench) -> None:
     bench.controller.perform("start")
     bench.stays(3, "the program was stopped and started")
     bench.moves_through(link, bench.wave(3))
-    link.send(bench.download(bench.wave(12)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(12))
     fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM")
     not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
     done(control.ask(messages.RawSpeed(50)), "SPEED")
@@ -250,13 +226,10 @@ def _nobody_answers(bench: Bench) -> None:
 def _own_stop(bench: Bench) -> None:
     """Where a StopMove belongs to its task, the control server takes back its own."""
     motion = replace(bench.setting.motion, stop_owner="task")
-    other = bench.beside(bench.system, setting=replace(bench.setting, motion=motion))
-    try:
+    with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
         control, link = other.control(), other.motion()
         for leaves, failing in ((False, False), (True, False), (False, True)):
-            link.send(other.download(other.wave(12)))
-            other.wait_until_moving()
-            other.run(0.3)
+            other.sets_off(link, other.wave(12), 0.3)
             if failing:
                 fails(other, "ROS_control", "StartMove", "ERR_PATHDIST", 2)
             stop(control)
@@ -267,15 +240,12 @@ def _own_stop(bench: Bench) -> None:
             other.moves_through(link, other.wave(3))
             if leaves:
                 control = other.control()
-        link.send(other.download(other.wave(12)))
-        other.wait_until_moving()
+        other.sets_off(link, other.wave(12))
         done(control.ask(messages.RawPause(1)), "PAUSE")
         other.wait_until_standing(3)
         stop(control)
         other.stays(1, "it was paused, and stopped over the control port")
         other.moves_through(link, other.wave(3))
-    finally:
-        other.close()
 
 
 @case("heartbeats", "a missing heartbeat stops the robot", "R12")
@@ -288,8 +258,7 @@ def _heartbeats(bench: Bench) -> None:
         if before:
             control.ask(beat)
         points = bench.wave(30)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         told = control.ask(beat)
         for _ in range(12):
             bench.run(0.3)
@@ -308,8 +277,7 @@ def _heartbeats(bench: Bench) -> None:
         bench.stays(3, "a heartbeat is missing")
         # It is missed once.
         bench.moves_through(link, bench.wave(6))
-        link.send(bench.download(bench.wave(30)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(30))
         control.ask(beat)
         bench.wait_until_standing(3)
         told = control.ask(messages.RawHeartbeat(0))
@@ -324,8 +292,7 @@ def _heartbeats(bench: Bench) -> None:
         for wrong in (-1.0, 3601.0, 1e5, math.nan, math.inf):
             not_done(control.ask(messages.RawHeartbeat(wrong)), RawReason.BAD_VALUE, f"{wrong:g} s")
         link.close()
-        control.close()
-        bench.run(2)
+        control.close(then=2)
 
 
 @case("heartbeat-in-time", "the stop for a missing heartbeat comes in time", "R12")
@@ -334,8 +301,7 @@ def _heartbeat_in_time(bench: Bench) -> None:
     control, link = bench.control(), bench.motion()
     orders = watched_orders(bench)
     for seconds in (0.25, 0.53):
-        link.send(bench.download(bench.wave(20)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(20))
         control.ask(messages.RawHeartbeat(seconds))
         last = bench.now
         bench.wait_until_standing(3)
@@ -362,10 +328,9 @@ def _instructions_fail(bench: Bench) -> None:
             continue
         control, link = bench.control(), bench.motion()
         points = bench.wave(30)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         recovers = fails(bench, "ROS_control", instruction, error)
-        control.send(encode(HELLO, RawComm.REQUEST))
+        control.send(messages.encode(HELLO, RawComm.REQUEST))
         bench.run(0.3)
         control.send(STOP)
         bench.run(1)
@@ -378,15 +343,13 @@ def _instructions_fail(bench: Bench) -> None:
         bench.stays(1, f"it was stopped; {instruction} of the control server has failed")
         bench.moves_through(link, bench.wave(3))
         control.close()
-        link.close()
-        bench.run(1.3)
+        link.close(then=1.3)
 
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
 def _supervisor_is_gone(bench: Bench) -> None:
     """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
-    other = bench.beside(bench.system)
-    try:
+    with bench.beside(bench.system) as other:
         control, link = other.control(), other.motion()
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(1)
@@ -399,39 +362,29 @@ def _supervisor_is_gone(bench: Bench) -> None:
                 raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
         not_done(control.ask(messages.RawPause(1), 3), RawReason.INTERNAL, "PAUSE")
         other.stays(1, "the supervisor does not answer")
-    finally:
-        other.close()
-    other = bench.beside(bench.system)
-    try:
+    with bench.beside(bench.system) as other:
         control, link = other.control(), other.motion()
-        link.send(other.download(other.wave(30)))
-        other.wait_until_moving()
+        other.sets_off(link, other.wave(30))
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(0.5)
-        control.send(STOP)
-        control.reply(_TRAJ, 3)
+        control.stop(3)
         other.wait_until_standing(1)
         other.stays(3, "it was stopped, the supervisor does not answer")
-    finally:
-        other.close()
 
 
 @case("old-end", "STOPPED tells what ends, not what has ended")
 def _old_end(bench: Bench) -> None:
     """A client that comes later is not told of what ended before; a cut tells joint and place."""
     link = bench.motion()
-    link.send(bench.download(bench.wave(12)))
-    bench.wait_until_moving()
-    link.send(STOP)
-    link.reply(_TRAJ, 2)
+    bench.sets_off(link, bench.wave(12))
+    link.stop()
     bench.wait_until_standing(3)
     bench.run(patience(bench))
     control = bench.control()
     bench.run(1)
-    if any(f.number == STOPPED for f in control.read()):
+    if any(f.number == messages.STOPPED for f in control.read()):
         raise Broken("a client is told of a trajectory that had ended before it came")
-    link.close()
-    bench.run(1.2)
+    link.close(then=1.2)
     stream = Streamer(bench)
     points = way(bench, 20)
     stream.put(points, BEGIN)
@@ -469,8 +422,7 @@ def _stream_over_control(bench: Bench) -> None:
     stream.accepted("points behind a pause")
     stream.put(points[70:], END)
     stream.accepted("the end of a stream behind a pause")
-    bench.wait_until_at(points[-1][0], 60)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 60)
     stream = Streamer(bench, stream.link, number=2)
     stream.put(way(bench, 25), BEGIN)
     bench.wait_until_moving()

@@ -2,30 +2,18 @@
 
 import math
 import struct
-from functools import partial
 
 from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, RawLink, raw_point
-from rapidgen.proving.messages import (
-    HEARTBEAT,
-    JOINT_TRAJ_PT,
-    PAUSE,
-    SIGNAL,
-    SPEED,
-    RawComm,
-    RawReason,
-    RawReplyCode,
-    decode,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawReplyCode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.control import done, not_done, stop
 from rapidgen.proving.track import distance
 
 case = Theme("controlling", port="control")
 
-_TRAJ = JOINT_TRAJ_PT
+_TRAJ = messages.JOINT_TRAJ_PT
 
 
 @case("control-leaves", "a control client leaves")
@@ -34,8 +22,7 @@ def _control_client_leaves(bench: Bench) -> None:
     for heartbeats in (True, False, True):
         control, link = bench.control(), bench.motion()
         points = bench.wave(12)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         if heartbeats:
             control.ask(messages.RawHeartbeat(0.8))
         bench.run(0.3)
@@ -47,8 +34,7 @@ def _control_client_leaves(bench: Bench) -> None:
             bench.stays(2, "the client that beats has left")
         else:
             bench.wait_until_at(points[-1][0], 20)
-        link.close()
-        bench.run(2)
+        link.close(then=2)
 
 
 @case("newest-control", "the newest control client is served", "R12")
@@ -57,13 +43,12 @@ def _newest_control_client(bench: Bench) -> None:
     old = bench.control()
     for _ in range(2):
         control = bench.control()
-        bench.until(partial(_is_lost, old), 1, "the client before gives way")
+        old.wait_until_lost(1, "the client before gives way")
         old = control
         bench.run(0.5)
         link = bench.motion()
         bench.run(1.2)
-        link.send(bench.download(bench.wave(12)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(12))
         stop(control)
         bench.wait_until_standing(3)
         bench.stays(1, "the newest client has stopped it")
@@ -81,13 +66,13 @@ def _control_hello(bench: Bench) -> None:
     control.send(b"\x0c\0\0\0\x14\0\0\0\x02\0\0\0\0\0\0\0")
     if not isinstance(_failure(control), messages.RawFailure):
         raise Broken("a request of an unknown type is not answered by a failure")
-    for byte in encode(messages.RawHeartbeat(0), RawComm.REQUEST):
+    for byte in messages.encode(messages.RawHeartbeat(0), RawComm.REQUEST):
         control.send(bytes([byte]))
         bench.run(0.003)
-    control.reply(HEARTBEAT)
+    control.reply(messages.HEARTBEAT)
     # All at once, each answered in turn.
-    control.send(STOP + encode(messages.RawSpeed(5), RawComm.REQUEST) + STOP)
-    for number in (_TRAJ, SPEED, _TRAJ):
+    control.send(STOP + messages.encode(messages.RawSpeed(5), RawComm.REQUEST) + STOP)
+    for number in (_TRAJ, messages.SPEED, _TRAJ):
         control.reply(number)
 
 
@@ -96,11 +81,7 @@ def _failure(link: RawLink) -> object:
     frame = link.expect_reply(2, "a request of an unknown type is answered")
     if (frame.comm, frame.reply, frame.data) == (RawComm.REPLY, RawReplyCode.FAILURE, b""):
         return messages.RawFailure()
-    return decode(frame)
-
-
-def _is_lost(link: RawLink) -> bool:
-    return link.lost
+    return messages.decode(frame)
 
 
 @case("control-junk", "junk drops its client and stops nothing", "R3")
@@ -114,19 +95,18 @@ def _control_junk(bench: Bench) -> None:
         struct.pack("<i", 1021),
         bytes(topic),
         raw_point(3, bench.position, 1.0, RawComm.REQUEST),
-        struct.pack("<5i", 16, PAUSE, 1, 0, 1),
-        struct.pack("<6i", 20, PAUSE, 2, 0, 1, 1),
-        struct.pack("<4i", 12, SPEED, 2, 0),
-        struct.pack("<4i", 12, HEARTBEAT, 2, 0),
+        struct.pack("<5i", 16, messages.PAUSE, 1, 0, 1),
+        struct.pack("<6i", 20, messages.PAUSE, 2, 0, 1, 1),
+        struct.pack("<4i", 12, messages.SPEED, 2, 0),
+        struct.pack("<4i", 12, messages.HEARTBEAT, 2, 0),
     ]
     link = bench.motion()
     points = bench.wave(40)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     for data in wrong:
         control = bench.control()
         control.send(data)
-        bench.until(partial(_is_lost, control), 3, f"{data[:24].hex()} drops its client")
+        control.wait_until_lost(3, f"{data[:24].hex()} drops its client")
         if bench.standing:
             raise Broken(f"the robot stopped for {data[:24].hex()}")
     bench.wait_until_at(points[-1][0], 30)
@@ -141,9 +121,9 @@ def _signals(bench: Bench) -> None:
     exposed = bench.config.signals
     count = len(exposed)
     for index in (-1, count, 99, 2**31 - 1, -(2**31)):
-        control.send(encode(messages.RawSignal(index, 0, 0.0), RawComm.REQUEST))
+        control.send(messages.encode(messages.RawSignal(index, 0, 0.0), RawComm.REQUEST))
         if count:
-            told = control.reply(SIGNAL)
+            told = control.reply(messages.SIGNAL)
             not_done(told, RawReason.NO_SIGNAL, f"signal {index} of {count}")
         elif not isinstance(_failure(control), messages.RawFailure):
             raise Broken("a driver without signals answers SIGNAL")

@@ -4,14 +4,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    MAX_JOINTS,
-    RawComm,
-    RawReason,
-    RawTrajectoryState,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.control import not_done, stop
@@ -19,9 +12,9 @@ from rapidgen.proving.suite.streams import way
 
 case = Theme("controlling", port="control")
 
-_TRAJ = JOINT_TRAJ_PT
+_TRAJ = messages.JOINT_TRAJ_PT
 _FAILED = RawTrajectoryState.FAILED
-_PING = encode(messages.RawPing(), RawComm.REQUEST)
+_PING = messages.encode(messages.RawPing(), RawComm.REQUEST)
 
 
 @case("stops-alone", "STOP while the supervisor hangs", "R7b")
@@ -30,9 +23,7 @@ def _alone(bench: Bench) -> None:
     control, link = bench.control(), bench.motion()
     supervisor = bench.controller.task(bench.task("ROS_supervisor"))
     points = bench.wave(12)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
-    bench.run(0.5)
+    bench.sets_off(link, points, 0.5)
     orders = watched_orders(bench)
     supervisor.stop()
     asked = bench.now
@@ -64,15 +55,13 @@ def _beats(bench: Bench) -> None:
     if not isinstance(told, messages.RawHeartbeatReply) or told.state != RawTrajectoryState.NONE:
         raise Broken(f"a heartbeat at rest is answered by {told}")
     points = bench.wave(12)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     for seconds in (0.3, 0.0):
         control.ask(messages.RawHeartbeat(seconds))
     bench.wait_until_at(points[-1][0], 10)
     orders = watched_orders(bench)
     for seconds in (0.25, 1.03):
-        link.send(bench.download(bench.wave(12)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(12))
         orders.clear()
         control.ask(messages.RawHeartbeat(0.1))
         control.ask(messages.RawHeartbeat(seconds))
@@ -99,8 +88,7 @@ def _leave(bench: Bench) -> None:
     link, control = bench.motion(), bench.control()
     for how in ("leaves", "is replaced", "is reset", "has not beaten", "is dropped", "leaves"):
         points = bench.wave(6, duration=0.25)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         if how != "has not beaten":
             control.ask(messages.RawHeartbeat(0.6))
         bench.run(0.2)
@@ -137,7 +125,7 @@ def _not_begun(bench: Bench) -> None:
     number = stream.accepted("the first points").trajectory
     stop(control)
     told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
-    here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
+    here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
     if (
         told[:3] != (number, 0, RawReason.STOPPED)
         or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5

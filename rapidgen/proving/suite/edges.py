@@ -34,8 +34,7 @@ def _taken(bench: Bench, points: list[Point], why: str) -> None:
     link.send(STOP)
     link.expect_reply(2, "STOP is answered")
     bench.wait_until_standing(5)
-    link.close()
-    bench.run(1.2)
+    link.close(then=1.2)
 
 
 @case("durations", "the longest duration and those beyond", "R10")
@@ -94,8 +93,7 @@ def _fastest(bench: Bench) -> None:
                 link = bench.motion()
                 link.send(point_frame(0, 2, here, 1.0) + point_frame(1, 2, here, 1.0))
                 bench.wait_until_at(here)
-                link.close()
-                bench.run(1.2)
+                link.close(then=1.2)
             else:
                 refused(bench, bench.download(points), [RawReason.TOO_FAST], axis + 1, 1)
 
@@ -137,8 +135,7 @@ def _start_tolerance(bench: Bench) -> None:
         link.send(bench.download([(start, 10.0 if axis % 2 else 1e-3), (end, 0.5), (end, 0.5)]))
         bench.wait_until_at(end, 30)
         _slow_to(bench, start, since, policy.approach_speed * joint.speed)
-        link.close()
-        bench.run(1.2)
+        link.close(then=1.2)
         start = changed(bench.position, axis, _inward(bench, axis, 1.03 * near))
         end = changed(start, axis, _inward(bench, axis, 1.03 * near + 0.02 * joint.speed))
         frames = bench.download([(start, 10.0), (end, 0.5), (end, 0.5)])
@@ -196,8 +193,7 @@ def _takes_its_time(bench: Bench) -> None:
         bench.run(1)
         link.send(bench.download([(bench.position, 10.0), (first[0], 2.0), (first[0], 0.5)]))
         bench.wait_until_at(first[0], 30)
-        link.close()
-        bench.run(1.2)
+        link.close(then=1.2)
 
 
 def _stood_at(bench: Bench, place: Position, since: float, seconds: float) -> bool:

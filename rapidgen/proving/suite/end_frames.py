@@ -250,7 +250,7 @@ def _fed(bench: Bench) -> None:
     if bench.now - since > 1.4 * asked + 1:
         raise Broken(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
     _done(bench, table, len(points), 0.1)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.executed(points, since)
 
 
 @case("ends-while-fed", "the end of a trajectory that is still fed", "R5", background=True)

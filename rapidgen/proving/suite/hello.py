@@ -1,7 +1,6 @@
 """What the paired client is told on the state port: HELLO and PROGRESS."""
 
 import struct
-from functools import partial
 from itertools import pairwise
 
 from rapidgen import __version__
@@ -11,20 +10,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    MAX_JOINTS,
-    PING,
-    POINT_BYTES,
-    PROGRESS,
-    PROTOCOL_VERSION,
-    RawComm,
-    RawFeature,
-    RawReason,
-    RawTrajectoryState,
-    batch_points,
-    decode,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawFeature, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point
 
@@ -36,17 +22,16 @@ def _float32(value: float) -> float:
 
 
 def _padded(values: list[float]) -> tuple[float, ...]:
-    return tuple(_float32(v) for v in (*values, *[0.0] * (MAX_JOINTS - len(values))))
+    return tuple(_float32(v) for v in (*values, *[0.0] * (messages.MAX_JOINTS - len(values))))
 
 
 @case("hello", "HELLO tells limits and capacities as they were configured")
 def _hello_tells_all(bench: Bench) -> None:
     link = bench.state()
-    link.send(encode(HELLO, RawComm.REQUEST))
-    told = link.expect(messages.RawHelloReply, 2, "HELLO is answered")
+    told = bench.says_hello(link)
     joints, policy = bench.group.joints, bench.config.trajectory
     wanted: dict[str, object] = {
-        "protocol": PROTOCOL_VERSION,
+        "protocol": messages.PROTOCOL_VERSION,
         "driver": tuple(int(part) for part in __version__.split(".")[:3]),
         "build_id": bench.system.build_id,
         "mapping": Group.of(bench.config, bench.group).mapping,
@@ -64,7 +49,7 @@ def _hello_tells_all(bench: Bench) -> None:
         "control_port": bench.group.ports.control,
         "ring": policy.ring - 1,
         "preload": _float32(policy.preload),
-        "batch": batch_points(len(joints)),
+        "batch": messages.batch_points(len(joints)),
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
     for name, value in wanted.items():
@@ -89,25 +74,25 @@ def _same(told: object, wanted: object) -> bool:
 @case("hello-versions", "a HELLO of another version is refused, PROGRESS only where asked for")
 def _other_versions(bench: Bench) -> None:
     link = bench.state()
-    older = HELLO._replace(protocol=PROTOCOL_VERSION - 1)
-    link.send(encode(older, RawComm.REQUEST))
+    older = HELLO._replace(protocol=messages.PROTOCOL_VERSION - 1)
+    link.send(messages.encode(older, RawComm.REQUEST))
     told = link.expect(messages.RawHelloRefusal, 2, "an older HELLO is answered")
-    if told.protocol != PROTOCOL_VERSION:
+    if told.protocol != messages.PROTOCOL_VERSION:
         raise Broken(f"an older HELLO is answered by version {told.protocol}")
     bench.run(1)
-    if any(f.number == PROGRESS for f in link.read()):
+    if any(f.number == messages.PROGRESS for f in link.read()):
         raise Broken("PROGRESS comes although HELLO was refused")
-    link.send(encode(HELLO._replace(subscribe=2), RawComm.REQUEST))
+    link.send(messages.encode(HELLO._replace(subscribe=2), RawComm.REQUEST))
     link.expect(messages.RawHelloReply, 2, "the next HELLO on the same link is answered")
     bench.run(1)
-    if any(f.number == PROGRESS for f in link.read()):
+    if any(f.number == messages.PROGRESS for f in link.read()):
         raise Broken("PROGRESS comes although it was not asked for")
 
 
 @case("hello-in-pieces", "a HELLO in pieces is answered", "R2")
 def _hello_in_pieces(bench: Bench) -> None:
     link = bench.state()
-    data = encode(HELLO, RawComm.REQUEST)
+    data = messages.encode(HELLO, RawComm.REQUEST)
     for size in (1, 3, len(data) - 5):
         link.send(data[:size])
         data = data[size:]
@@ -118,11 +103,11 @@ def _hello_in_pieces(bench: Bench) -> None:
 
 @case("state-port-junk", "what is no HELLO breaks that link and no other")
 def _state_port_takes_nothing_else(bench: Bench) -> None:
-    good = encode(HELLO, RawComm.REQUEST)
+    good = messages.encode(HELLO, RawComm.REQUEST)
     words = struct.unpack(f"<{len(good) // 4}i", good)
     wrong = {
         "another length": (words[0] - 1, *words[1:]),
-        "another type": (words[0], PING, *words[2:]),
+        "another type": (words[0], messages.PING, *words[2:]),
         "a topic": (*words[:2], 1, *words[3:]),
         "a reply": (*words[:2], 3, *words[3:]),
     }
@@ -134,13 +119,9 @@ def _state_port_takes_nothing_else(bench: Bench) -> None:
         link = bench.state()
         bench.status(link)
         link.send(data)
-        bench.until(partial(_is_lost, link), 3, f"HELLO as {name} breaks the link")
+        link.wait_until_lost(3, f"HELLO as {name} breaks the link")
         bench.status(bench.state(), 5)
         bench.run(0.5)
-
-
-def _is_lost(link: RawLink) -> bool:
-    return link.lost
 
 
 def _straight(bench: Bench, count: int, duration: float = 0.3) -> list[Point]:
@@ -175,9 +156,7 @@ def _progress_tells_the_way(bench: Bench) -> None:
     before = bench.progress(link).trajectory
     for number in range(1, 3):
         points = _straight(bench, 12)
-        motion.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(bench.config.state_period)
+        bench.sets_off(motion, points, bench.config.state_period)
         told: list[messages.RawProgress] = []
         while not told or told[-1].state != RawTrajectoryState.DONE:
             told.append(bench.progress(link))
@@ -217,7 +196,7 @@ def _is_consistent(told: messages.RawProgress, number: int, count: int) -> None:
 def _progress_of_a_download(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     frames = bench.download(bench.wave(6))
-    size = POINT_BYTES
+    size = messages.POINT_BYTES
     for sent in range(1, 5):
         motion.send(frames[(sent - 1) * size : sent * size])
         told = _newest(bench, link)
@@ -271,9 +250,7 @@ def _progress_of_an_early_end(bench: Bench) -> None:
     ):
         link, motion = bench.watcher(), bench.motion()
         points = _straight(bench, 16)
-        motion.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(1.5)
+        bench.sets_off(motion, points, 1.5)
         if action == "STOP":
             motion.send(STOP)
         elif action == "leaves":
@@ -295,16 +272,13 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         bench.start_again()
         bench.run(1)
         link.close()
-        motion.close()
-        bench.run(1.5)
+        motion.close(then=1.5)
 
 
 @case("progress-superseded", "PROGRESS is of the newest trajectory")
 def _progress_of_a_successor(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
-    motion.send(bench.download(bench.wave(30)))
-    bench.wait_until_moving()
-    bench.run(0.5)
+    bench.sets_off(motion, bench.wave(30), 0.5)
     number = bench.progress(link).trajectory
     motion.send(bench.download(bench.wave(4))[:68])
     told = _newest(bench, link)
@@ -316,7 +290,7 @@ def _progress_of_a_successor(bench: Bench) -> None:
     states = {
         content.state
         for frame in link.read()
-        if isinstance(content := decode(frame), messages.RawProgress)
+        if isinstance(content := messages.decode(frame), messages.RawProgress)
     }
     if states != {RawTrajectoryState.RECEIVING}:
         raise Broken(f"half a trajectory was received, PROGRESS says {states}")
@@ -358,16 +332,16 @@ def _progress_in_between(bench: Bench) -> None:
 def _other_hellos(bench: Bench) -> None:
     """Of a newer client, with wishes that nobody knows, and one that cannot be read."""
     link, later = bench.state(), 1 << 20
-    newer = HELLO._replace(protocol=PROTOCOL_VERSION + 1, subscribe=later | 1)
-    link.send(encode(newer, RawComm.REQUEST))
+    newer = HELLO._replace(protocol=messages.PROTOCOL_VERSION + 1, subscribe=later | 1)
+    link.send(messages.encode(newer, RawComm.REQUEST))
     link.expect(messages.RawHelloReply, 2, "a newer HELLO is answered")
     bench.progress(link)
     fails(bench, "ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
-    link.send(encode(HELLO, RawComm.REQUEST))
-    bench.until(lambda: link.lost, 1, "a HELLO that cannot be read breaks the link")
-    good = encode(HELLO, RawComm.REQUEST)
+    link.send(messages.encode(HELLO, RawComm.REQUEST))
+    link.wait_until_lost(1, "a HELLO that cannot be read breaks the link")
+    good = messages.encode(HELLO, RawComm.REQUEST)
     for data in (good + b"\0", good[:8] + b"\3" + good[9:], b"\x21" + good[1:]):
         link = bench.watcher()
         link.send(data)
-        bench.until(partial(_is_lost, link), 1, "what is no HELLO breaks the link")
+        link.wait_until_lost(1, "what is no HELLO breaks the link")
     bench.progress(bench.watcher())

@@ -1,7 +1,5 @@
 """Stops at the worst moments, and a driver that lacks parts of what it usually has."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 
@@ -36,9 +34,8 @@ def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> mess
 def _works(bench: Bench, link: RawLink) -> None:
     """A trajectory begins soon, and comes to its end in time."""
     unit = unit_of(bench)
-    points, sent = bench.wave(2, duration=unit), bench.now
-    link.send(bench.download(points))
-    begins(bench, sent)
+    points = bench.wave(2, duration=unit)
+    begins(bench, link, points)
     bench.wait_until_at(points[1][0], unit + 0.3)
     bench.run(0.1)
 
@@ -67,11 +64,9 @@ def _first_reason(bench: Bench) -> None:
     """Of two that come together the first one counts, and the trajectory ends once."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     last = bench.last_event
-    link.send(bench.download(bench.wave(5, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(5, duration=unit))
     bench.run(unit)
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.controller.perform("stop")
     bench.run(patience(bench))
     _ended(bench, watcher, RawReason.STOPPED, "STOP, then a stop of the program")
@@ -81,8 +76,7 @@ def _first_reason(bench: Bench) -> None:
     under_way = _fails_with_a_halt(bench, "ERR_COLL_STOP")
     link.send(bench.download(bench.wave(5, duration=unit)))
     bench.until(lambda: bool(under_way), 2 * unit, "the second move begins")
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.wait_until_standing(2)
     bench.run(patience(bench))
     _ended(bench, watcher, RawReason.STOPPED, "STOP, then a move that fails")
@@ -126,11 +120,9 @@ def _late_point(bench: Bench) -> None:
     task = bench.controller.task(bench.task("ROS_motion"))
     ring, head = datum(bench, "ros_ring"), datum(bench, "ros_head")
     last = bench.last_event
-    link.send(bench.download(bench.wave(5, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(5, duration=unit))
     bench.run(1.15 * unit)
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.run(patience(bench))
     told = _ended(bench, watcher, RawReason.STOPPED, "STOP")
     points = list(task[ring].values())
@@ -144,14 +136,9 @@ def _late_point(bench: Bench) -> None:
         raise Broken("a point of a stopped trajectory came late, and is told as an error")
 
 
-@contextmanager
-def _beside(bench: Bench, system: System, *, early: bool = False) -> Iterator[Bench]:
+def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
     """Another controller; `early`: none of its tasks has run yet."""
-    other = bench.beside(system, setting=bench.setting.early() if early else None)
-    try:
-        yield other
-    finally:
-        other.close()
+    return bench.beside(system, setting=bench.setting.early() if early else None)
 
 
 def _bare(system: System, *events: str) -> System:
@@ -163,8 +150,7 @@ def _bare(system: System, *events: str) -> System:
 def _moves(bench: Bench, link: RawLink) -> None:
     """A trajectory is on its way from its point 1 to 2."""
     unit = unit_of(bench)
-    link.send(bench.download(bench.wave(6, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(6, duration=unit))
     bench.run(1.6 * unit)
 
 
@@ -288,8 +274,7 @@ def _pauses_at_its_end(
     """A trajectory that is paused on its way, and in the stay at its end."""
     unit = unit_of(bench)
     way = bench.wave(2, duration=unit)
-    link.send(bench.download([*way, (way[1][0], 2 * unit)]))
-    begins(bench, bench.now)
+    begins(bench, link, [*way, (way[1][0], 2 * unit)])
     if control is not None:
         for paused in (1, 0):
             _pause(bench, control, paused)
@@ -311,13 +296,10 @@ def _refills(bench: Bench, link: RawLink) -> None:
     if count > bench.config.trajectory.capacity:
         return
     seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
-    link.send(bench.download(bench.wave(count, duration=seconds, size=0.01)))
-    bench.wait_until_moving()
-    bench.run(20 * seconds)
+    bench.sets_off(link, bench.wave(count, duration=seconds, size=0.01), 20 * seconds)
     if bench.standing:
         raise Broken("a trajectory longer than the ring stops on its way")
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.wait_until_standing(1)
     bench.run(patience(bench))
 

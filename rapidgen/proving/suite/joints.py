@@ -98,8 +98,7 @@ def _away_from_zero(bench: Bench) -> None:
     stream, since = Streamer(bench, link), bench.now
     points = way(bench, 12)
     stream.all(points)
-    bench.wait_until_at(points[-1][0], 20)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 20)
 
 
 @case("controller-error", "an error of the controller is in STATUS")

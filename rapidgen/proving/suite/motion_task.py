@@ -9,16 +9,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    SPEED,
-    RawComm,
-    RawMode,
-    RawReason,
-    RawTrajectoryState,
-    decode,
-    encode,
-    text_of,
-)
+from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
@@ -85,7 +76,7 @@ def watched(
     found: list[tuple[float, messages.RawProgress, messages.RawStatus]] = []
     status: messages.RawStatus | None = None
     for when, frame in link.frames:
-        content = decode(frame) if when >= since else None
+        content = messages.decode(frame) if when >= since else None
         if isinstance(content, messages.RawStatus):
             status = content
         elif isinstance(content, messages.RawProgress) and status is not None:
@@ -112,12 +103,19 @@ def _goes_by(
             raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
-def begins(bench: Bench, sent: float) -> float:
+def begins_soon(bench: Bench, sent: float) -> float:
     """When the motion begins that was asked for at `sent`: soon."""
     bench.wait_until_moving(2)
     if bench.now - sent > SOON + 2 * bench.setting.motion.settle:
         raise Broken(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
     return bench.now
+
+
+def begins(bench: Bench, link: RawLink, points: Sequence[Point]) -> float:
+    """Send a trajectory; when its motion begins: soon."""
+    sent = bench.now
+    link.send(bench.download(points))
+    return begins_soon(bench, sent)
 
 
 class _Meter:
@@ -161,7 +159,7 @@ def _step_by_step(bench: Bench) -> None:
         meter.end("while points are awaited")
         sent = bench.now
         link.send(frames[68:])
-        begun = begins(bench, sent)
+        begun = begins_soon(bench, sent)
         number += 1
         bench.run(8 * unit)
         meter.end("while the robot moves")
@@ -179,9 +177,8 @@ def _step_by_step(bench: Bench) -> None:
         bench.run(0.53)
         meter.end("when nothing is under way")
         # One point, sent twice, from wherever the robot stands.
-        target, sent = bench.wave(2, duration=2 * unit)[1][0], bench.now
-        link.send(bench.download([(target, 2 * unit)] * 2))
-        begun = begins(bench, sent)
+        target = bench.wave(2, duration=2 * unit)[1][0]
+        begun = begins(bench, link, [(target, 2 * unit)] * 2)
         number += 1
         bench.run(3 * unit)
         steps = _scaled(unit, _Step(0, 2, 1, 0), _Step(2, _EVER, 2, 2, done))
@@ -206,7 +203,7 @@ def _stream_by_step(bench: Bench) -> None:
             bench.run(0.03)
 
     stream.put(points[:3], BEGIN | FLUSH)
-    begun = begins(bench, bench.now)
+    begun = begins_soon(bench, bench.now)
     ask(2.5 * unit)
     meter.begin()
     bench.run(0.5)
@@ -237,7 +234,7 @@ def _stream_by_step(bench: Bench) -> None:
     stream.number, stream.sent = 2, 0
     points = bench.wave(3, duration=unit)
     stream.put(points[:2], BEGIN | FLUSH)
-    begun = begins(bench, bench.now)
+    begun = begins_soon(bench, bench.now)
     bench.run(0.5 * unit)
     beyond = (bench.group.joints[0].upper + 1, *points[2][0][1:])
     stream.put([(beyond, 30.0)])
@@ -270,9 +267,7 @@ def _speed_by_step(bench: Bench) -> None:
         if percent == 50 and slower == 1.0:
             continue
         points = bench.wave(3, duration=unit)
-        sent = bench.now
-        link.send(bench.download(points))
-        begun = begins(bench, sent)
+        begun = begins(bench, link, points)
         if percent:
             for _ in range(2):
                 asked = bench.now
@@ -293,20 +288,18 @@ def _speed_at_the_start(bench: Bench) -> None:
     task = bench.rapid_task("ROS_motion")
 
     def ask() -> None:
-        control.at_once(encode(speed, RawComm.REQUEST))
+        control.at_once(messages.encode(speed, RawComm.REQUEST))
         # Long enough for the control server and an interrupt.
         task.sleep(0.05)
 
-    link.send(bench.download(bench.wave(2, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(2, duration=unit))
     control.ask(speed)
     bench.wait_until_standing(3 * unit)
     at_call(bench, "ROS_motion", "SpeedRefresh", 1, ask)
     points = bench.wave(3, duration=unit)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     begun = bench.now
-    told = control.reply(SPEED, SOON)
+    told = control.reply(messages.SPEED, SOON)
     if told != messages.RawAcknowledged():
         raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
     bench.wait_until_at(points[2][0], 10 * unit)
@@ -359,8 +352,7 @@ def _halts(bench: Bench) -> None:
     for _ in range(7):
         link.send(STOP)
         link.expect_reply(SOON, "STOP at a standstill is answered")
-    link.send(bench.download(bench.wave(4, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(4, duration=unit))
     bench.run(1.15 * unit)
     since = bench.now
     link.send(STOP)
@@ -369,8 +361,7 @@ def _halts(bench: Bench) -> None:
     if (told.planned, told.reached) != (3, 1):
         raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
     way = bench.wave(3, duration=unit)
-    link.send(bench.download([*way[:2], (way[1][0], 5.0), way[2]]))
-    begins(bench, bench.now)
+    begins(bench, link, [*way[:2], (way[1][0], 5.0), way[2]])
     bench.wait_until_at(way[1][0], 5)
     bench.run(0.5)
     since = bench.now
@@ -382,8 +373,7 @@ def _halts(bench: Bench) -> None:
     if not hangs(bench) and _cycles(bench) != cycles:
         raise Broken("main of the motion task began anew although it answers")
     for _ in range(2):
-        link.send(bench.download(bench.wave(5, duration=unit)))
-        begins(bench, bench.now)
+        begins(bench, link, bench.wave(5, duration=unit))
         bench.run(1.15 * unit)
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
         link.send(STOP)
@@ -416,7 +406,7 @@ def _gives_up(bench: Bench) -> None:
         points, last = bench.wave(6, duration=unit), bench.last_event
         link.send(bench.download(points))
         number += 1
-        begun = begins(bench, bench.now)
+        begun = begins_soon(bench, bench.now)
         if error:
             fails(bench, "ROS_motion", "MoveAbsJ", error, after=1)
         else:
@@ -435,12 +425,12 @@ def _gives_up(bench: Bench) -> None:
         points = bench.wave(2, duration=unit)
         link.send(bench.download(points))
         number += 1
-        begins(bench, bench.now)
+        begins_soon(bench, bench.now)
         bench.wait_until_at(points[1][0], 2 * unit)
         bench.wait_until_standing(1)
         said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
         if len(said) != 1 or said[0].texts[:2] != (
-            text_of(reason),
+            messages.text_of(reason),
             f"At point {planned - 1}.",
         ):
             raise Broken(f"{reason.name}, the event log says {[str(e) for e in said]}")

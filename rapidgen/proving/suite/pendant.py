@@ -69,8 +69,7 @@ def _refusals_are_said(bench: Bench) -> None:
     bench.run(1.5)
     pendant.says(RawReason.NO_START, 0, 0, after="a point came alone")
     link.send(frames[0] + frames[1])
-    link.close()
-    bench.run(1.5)
+    link.close(then=1.5)
     pendant.says(RawReason.INCOMPLETE, 2, 0, after="the client left after two points")
 
 
@@ -119,16 +118,14 @@ def _peace_is_quiet(bench: Bench) -> None:
     for _ in range(3):
         link, state = bench.motion(), bench.state()
         bench.moves_through(link, bench.wave(4))
-        link.send(bench.download(bench.wave(8)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(8))
         link.send(STOP)
         bench.wait_until_standing(5)
         bench.run(0.5)
         # It is at its end a while before it has settled there.
         bench.run(2 * bench.setting.motion.settle)
         link.close()
-        state.close(abort=True)
-        bench.run(1.2)
+        state.close(abort=True, then=1.2)
     lines, events = pendant.take()
     if lines or events:
         raise Broken(

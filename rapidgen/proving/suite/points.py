@@ -6,17 +6,8 @@ from collections.abc import Sequence
 from rapidgen.config.model import Joint
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, raw_point
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    MAX_JOINTS,
-    RawComm,
-    RawReason,
-    RawSpecial,
-    RawTrajectoryState,
-    decode,
-    text_of,
-)
+from rapidgen.proving.link import RawLink, raw_point
+from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.motion_task import datum
 from rapidgen.proving.track import Position, changed, small_unit
@@ -59,16 +50,14 @@ class Table:
         """Send the rows. Broken when a reply is another one."""
         self.link.send(b"".join(frame for frame, _, _ in self._rows))
         for _, wanted, what in self._rows:
-            told = decode(self.link.expect_reply(5, f"{what} is answered"))
+            told = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
             if type(told) is not type(wanted) or told != wanted:
                 raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
         self._rows.clear()
 
     def stop(self, link: RawLink | None = None) -> None:
         """STOP, here or over another connection, and its reply."""
-        chosen = link if link is not None else self.link
-        chosen.send(STOP)
-        told = chosen.reply(JOINT_TRAJ_PT)
+        told = (link or self.link).stop()
         if not isinstance(told, messages.RawAcknowledged):
             raise Broken(f"STOP is answered by {told}")
 
@@ -140,7 +129,7 @@ def _each_value(bench: Bench) -> None:
                     table.row(3, one, seconds, _TAKEN)
         table.ask()
     missing = len(here)
-    for axis in range(missing, MAX_JOINTS):
+    for axis in range(missing, messages.MAX_JOINTS):
         zeros = (*here, *[0.0] * (axis - missing))
         for value in (0.5, 1e-45, math.nan):
             wrong = messages.RawRefused(RawReason.BAD_PADDING, 1, axis + 1)
@@ -356,7 +345,7 @@ def _one_more(bench: Bench) -> None:
         table.ask()
         bench.run(1.05)
         said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
-        text = text_of(reason)
+        text = messages.text_of(reason)
         if said != [f"{text} Point 0. {place} {more}".split()]:
             raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
         if lines != [f"ROS refused: {text}"]:

@@ -6,16 +6,7 @@ from collections.abc import Sequence
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame, raw_point
-from rapidgen.proving.messages import (
-    MAX_JOINTS,
-    POINT_BYTES,
-    RawComm,
-    RawReason,
-    RawTrajectoryState,
-    decode,
-    split_error_code,
-    text_of,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point
 
@@ -35,9 +26,9 @@ def refused(
     """
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
-    bench.stays(3, f"it had to be refused: {text_of(reasons[0])}")
+    bench.stays(3, f"it had to be refused: {messages.text_of(reasons[0])}")
     status, told = bench.status(state), bench.progress(state)
-    reason, wrong = split_error_code(status.error_code)
+    reason, wrong = messages.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
         names = " or ".join(r.name for r in reasons)
         raise Broken(
@@ -56,8 +47,7 @@ def refused(
     if bench.status(state).in_error != 0:
         raise Broken("in_error stays after a good trajectory")
     state.close()
-    link.close()
-    bench.run(0.5)
+    link.close(then=0.5)
 
 
 def _changed(points: Sequence[Point], index: int, joints: Sequence[float]) -> list[Point]:
@@ -175,7 +165,7 @@ def _segment_too_short(bench: Bench) -> None:
 @case("padding", "values for joints that the robot does not have")
 def _padding(bench: Bench) -> None:
     count = len(bench.position)
-    for extra in range(count, MAX_JOINTS):
+    for extra in range(count, messages.MAX_JOINTS):
         points = bench.wave(3)
         padded = [
             raw_point(s, [*p, *[0.0] * (extra - count), 0.5], d)
@@ -188,7 +178,7 @@ def _padding(bench: Bench) -> None:
 def _no_end(bench: Bench) -> None:
     points = bench.wave(5)
     link = bench.motion()
-    link.send(bench.download(points)[: -(POINT_BYTES - 4) - 4])
+    link.send(bench.download(points)[: -(messages.POINT_BYTES - 4) - 4])
     bench.stays(5, "its end frame has not come")
 
 
@@ -202,7 +192,7 @@ def _requests_are_told_why(bench: Bench) -> None:
     for number, (target, duration) in enumerate(points):
         link.send(point_frame(number, len(points), target, duration, RawComm.REQUEST))
         replies.append(link.expect_reply(2, f"point {number} is answered"))
-    content = decode(replies[-1])
+    content = messages.decode(replies[-1])
     if not isinstance(content, messages.RawRefused) or content.reason != RawReason.JOINT_LIMIT:
         raise Broken(f"the reply to the end frame is {content}")
     if (content.point, content.joint) != (2, 1):

@@ -31,18 +31,17 @@ def _whole_headers(bench: Bench) -> None:
             what = f"a message of type {number} and {length} bytes"
             if before:
                 _pings(link, f"in front of {what}")
-            bench.until(lambda: link.lost, 0.2, f"{what} breaks the link")  # noqa: B023
+            link.wait_until_lost(0.2, f"{what} breaks the link")
             if link.read():
                 raise Broken(f"{what} is answered")
         link = bench.motion()
         link.send(head[:4])
-        bench.until(lambda: link.lost, 0.2, f"{length} as a length breaks the link")  # noqa: B023
+        link.wait_until_lost(0.2, f"{length} as a length breaks the link")
     # What one client began is nothing to the next one.
     link = bench.motion()
     link.send(_PING[:10])
     bench.run(0.05)
-    link.close()
-    bench.run(0.05)
+    link.close(then=0.05)
     link = bench.motion()
     for piece in (_PING[:10], _PING[10:] + _PING + _PING[:4], _PING[4:]):
         link.send(piece)

@@ -16,8 +16,9 @@ def _one_other(bench: Bench) -> None:
     build = bench.system.build_id.encode()
     # A module that several tasks load.
     path, data = next((m.path, m.data) for t in tasks for m in t.modules if m.name == "ROS_limits")
-    other = bench.beside(with_module(bench.system, path, data.replace(build, b"0123456789ab")))
-    try:
+    with bench.beside(
+        with_module(bench.system, path, data.replace(build, b"0123456789ab"))
+    ) as other:
         watcher, link = other.watcher(), other.motion()
         other.run(0.3)
         events = [" ".join(e.texts) for e in other.controller.log if "different builds" in str(e)]
@@ -31,8 +32,6 @@ def _one_other(bench: Bench) -> None:
             raise Broken(f"{path} is of another build, PROGRESS says {told}")
         if other.status(watcher).motion_possible:
             raise Broken("modules of several builds: STATUS says that motion is possible")
-    finally:
-        other.close()
 
 
 @case("power-returns", "a power failure while a trajectory is received")
@@ -64,5 +63,4 @@ def _power_returns(bench: Bench) -> None:
         bench.stays(0.5, "half of it came before the power failed")
         bench.moves_through(link, bench.wave(2))
         link.close()
-        watcher.close()
-        bench.run(0.1)
+        watcher.close(then=0.1)

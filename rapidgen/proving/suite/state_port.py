@@ -6,23 +6,10 @@ from typing import NamedTuple, TypeVar
 
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.proving import messages
-from rapidgen.proving.bench import HELLO, Bench
+from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    JOINT_FEEDBACK,
-    JOINT_POSITION,
-    PROGRESS,
-    STATUS,
-    RawComm,
-    RawFeature,
-    RawFrame,
-    RawMode,
-    RawReason,
-    RawTrajectoryState,
-    decode,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawFeature, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import distance, small_unit
 from rapidgen.runtime.builtins.clocks import StopWatch
@@ -37,7 +24,7 @@ class Round(NamedTuple):
     """What one client is told at one time."""
 
     time: float
-    frames: list[RawFrame]
+    frames: list[messages.RawFrame]
 
     @property
     def numbers(self) -> list[int]:
@@ -47,7 +34,7 @@ class Round(NamedTuple):
 
 def content(one: Round, kind: type[C]) -> C:
     """The first message of a kind in a round."""
-    found = next((c for frame in one.frames if isinstance(c := decode(frame), kind)), None)
+    found = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
     if found is None:
         raise Broken(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
     return found
@@ -59,7 +46,7 @@ def rounds(link: RawLink, since: float) -> list[Round]:
     for when, frame in link.frames:
         if when < since or frame.comm == RawComm.REPLY:
             continue
-        if frame.number == JOINT_POSITION or not found:
+        if frame.number == messages.JOINT_POSITION or not found:
             found.append(Round(when, []))
         found[-1].frames.append(frame)
     return found
@@ -69,8 +56,7 @@ def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -
     """A client, new or not, that says HELLO to just these features."""
     client = link if link is not None else bench.state()
     client.read()
-    client.send(encode(HELLO._replace(subscribe=int(features)), RawComm.REQUEST))
-    client.expect(messages.RawHelloReply, 2, "HELLO is answered")
+    bench.says_hello(client, int(features))
     return client
 
 
@@ -95,11 +81,11 @@ def _pause(bench: Bench, link: RawLink) -> float:
     return bench.now
 
 
-PLAIN = [JOINT_POSITION, STATUS]
+PLAIN = [messages.JOINT_POSITION, messages.STATUS]
 """Messages of a round for those who asked for nothing."""
 _FOLLOW = {
-    RawFeature.PROGRESS: PROGRESS,
-    RawFeature.FEEDBACK: JOINT_FEEDBACK,
+    RawFeature.PROGRESS: messages.PROGRESS,
+    RawFeature.FEEDBACK: messages.JOINT_FEEDBACK,
 }
 
 
@@ -115,7 +101,7 @@ def _all_alike(
             if one.numbers != wanted:
                 raise Broken(f"who asked for {features!r} is told messages {one.numbers}")
     for moment in zip(*told, strict=True):
-        seen: dict[int, RawFrame] = {}
+        seen: dict[int, messages.RawFrame] = {}
         for one in moment:
             for frame in one.frames:
                 if seen.setdefault(frame.number, frame) != frame:
@@ -288,9 +274,7 @@ def _not_over_yet(bench: Bench) -> None:
         ("STOP", RawTrajectoryState.STOPPED, RawReason.STOPPED),
         ("leaves", RawTrajectoryState.FAILED, RawReason.CLIENT_LOST),
     ):
-        motion.send(bench.download(bench.wave(8)))
-        bench.wait_until_moving()
-        bench.run(0.6)
+        bench.sets_off(motion, bench.wave(8), 0.6)
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 3)
         if ending == "STOP":
             motion.send(STOP)
@@ -346,8 +330,7 @@ def _first_of_all(bench: Bench) -> None:
         stamp = _stamps(rounds(link, since))[-1]
         if abs(stamp - (bench.now - found[0].time) - 0.3) > period:
             raise Broken(f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}")
-        link.close(abort=visit == 1)
-        bench.run(2 * period + 0.1)
+        link.close(abort=visit == 1, then=2 * period + 0.1)
         bench.moves_through(motion, bench.wave(3, duration=0.2))
         bench.run(2 * bench.setting.motion.settle)
     _moved_by_others(bench, bench.state())

@@ -22,14 +22,11 @@ case = Theme("faults")
 @contextmanager
 def _stepped(bench: Bench) -> Iterator[Bench]:
     """Another controller, which can be stopped at a statement."""
-    other = bench.beside(bench.system, setting=replace(bench.setting, coverage=True))
-    try:
+    with bench.beside(bench.system, setting=replace(bench.setting, coverage=True)) as other:
         yield other
         other.run(1.5)
         other.moves_through(other.motion(), other.wave(4))
         other.healthy()
-    finally:
-        other.close()
 
 
 def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
@@ -98,7 +95,7 @@ def _stopped_at_every_statement(bench: Bench) -> None:
             points = other.wave(5, duration=0.25)
             link.send(other.download(points))
             _is_over(other, came)
-            other.followed([other.track_at(since), *(p for p, _ in points)], since=since)
+            other.executed(points, since)
             for action in ("pp-to-main",) if number % 2 else ():
                 other.controller.perform(action)
                 other.run(0.05)
@@ -142,7 +139,7 @@ def _stream_stopped_at_every_statement(bench: Bench) -> None:
             other.run(1)
             stream.put(points[3:], END)
             _is_over(other, came)
-            other.followed([other.track_at(since), *(p for p, _ in points)], since=since)
+            other.executed(points, since)
             if not by_wire:
                 other.start_again()
             elif came[0] != came[-1]:
@@ -194,8 +191,7 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
                     link.send(STOP)
                     other.wait_until_standing(2)
                 came.append(other.now)
-                link.close()
-                other.run(0.1)
+                link.close(then=0.1)
 
 
 @case(
@@ -211,9 +207,7 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
         control, link = other.control(), other.motion()
         other.run(0.5)
         for line in _lines(other, "ROS_supervisor", "go_on"):
-            link.send(other.download(other.wave(12)))
-            other.wait_until_moving()
-            other.run(0.3)
+            other.sets_off(link, other.wave(12), 0.3)
             control.ask(messages.RawPause(1))
             other.wait_until_standing(2)
             came = _once_at(

@@ -6,18 +6,13 @@ from rapidgen.generate.context import WRAP
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.link import STOP, point_frame, raw_point
+from rapidgen.proving.link import point_frame, raw_point
 from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
     RawComm,
     RawReason,
     RawSpecial,
     RawStreamFlag,
     RawTrajectoryState,
-    batch_points,
-    decode,
-    point_pairs,
-    text_of,
 )
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
@@ -79,14 +74,13 @@ class _Streams:
         """A point that comes alone, which is refused for that."""
         self.trajectory += 1
         self.link.send(raw_point(sequence, self._bench.position, 1.0, RawComm.REQUEST))
-        told = decode(self.link.expect_reply(2, "a point alone is answered"))
+        told = messages.decode(self.link.expect_reply(2, "a point alone is answered"))
         if told != messages.RawRefused(RawReason.NO_START, 0, 0):
             raise Broken(f"{what}: a point alone is answered by {told}")
 
     def stop(self) -> None:
         """STOP, and its reply."""
-        self.link.send(STOP)
-        self.link.reply(JOINT_TRAJ_PT)
+        self.link.stop()
 
     def shows(self, state: RawTrajectoryState, counts: tuple[int, ...], reason: int) -> None:
         """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
@@ -172,7 +166,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
 def _said(bench: Bench, reason: RawReason) -> None:
     """Broken unless the event log has a refusal for that reason."""
     bench.run(0.05)
-    text = text_of(reason)
+    text = messages.text_of(reason)
     if not any(text in " ".join(event.texts) for event in bench.controller.log):
         raise Broken(f"the event log does not say: {text}")
 
@@ -182,18 +176,16 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     stream, points = streams.stream, way(bench, 4)
     for after in (_HEAD, _HEAD + 1):
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
-        stream.link.send(stream.frame(points, _NONE))
-        stream.reply()
+        stream.say(stream.frame(points, _NONE))
         recovers()
         streams.strange(0, RawReason.CHECKSUM, "a head that cannot be read")
     _said(bench, RawReason.CHECKSUM)
     head = stream.frame(points, _NONE)
-    stream.link.send(head[:16] + b"\xff" * 8 + head[24:])
-    stream.reply()
+    stream.say(head[:16] + b"\xff" * 8 + head[24:])
     if not isinstance(stream.last, messages.RawPointsRefused) or stream.last.stream:
         raise Broken(f"a damaged head is answered by {stream.last}")
     # Nor does a beginning that cannot be read end anything.
-    last = _HEAD + 2 + 2 * point_pairs(len(bench.position))
+    last = _HEAD + 2 + 2 * messages.point_pairs(len(bench.position))
     for after in (_HEAD + 2, _HEAD + 3, last):
         other = Streamer(bench, stream.link, number=9)
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
@@ -211,7 +203,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
 def _odd_batches(bench: Bench) -> None:
     """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
     streams = _Streams(bench)
-    pairs = point_pairs(len(bench.position))
+    pairs = messages.point_pairs(len(bench.position))
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
@@ -234,14 +226,13 @@ def _odd_batches(bench: Bench) -> None:
         recovers = fails(
             bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=unreadable or 999
         )
-        stream.link.send(bytes(data))
-        stream.reply()
+        stream.say(bytes(data))
         recovers()
         streams.refused(RawReason.CHECKSUM, 12, what)
         stream.put(points[12:])
         streams.refused(RawReason.CHECKSUM, 12, f"a batch behind {what}")
         bench.wait_until_at(points[11][0], 10)
-        bench.followed([bench.track_at(since), *(p for p, _ in points[:12])], since=since)
+        bench.executed(points[:12], since)
         if number in (0, 3):
             streams.shows(RawTrajectoryState.FAILED, (12, 12, 12), RawReason.CHECKSUM)
     # What comes next is none the worse for it.
@@ -333,8 +324,7 @@ def _left(bench: Bench) -> None:
     streams.stream.reply()
     streams.refused(RawReason.FRAMING, 0, "two points that say they are one")
     streams.link.close()
-    streams.watcher.close()
-    bench.run(0.3)
+    streams.watcher.close(then=0.3)
 
 
 @case("room", "as many points as there is room for, and one more", "R1")
@@ -342,7 +332,7 @@ def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
-    here, most = bench.position, batch_points(len(bench.position))
+    here, most = bench.position, messages.batch_points(len(bench.position))
     there = bench.wave(2, size=0.01)[1][0]
     goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]
     streams.begin(goal[:3], FLUSH)
@@ -372,8 +362,7 @@ def _room(bench: Bench) -> None:
     points, since = way(bench, 12), bench.now
     streams.stream.put(points, END)
     streams.taken(12, "a stream behind one that was stopped")
-    bench.wait_until_at(points[-1][0], 5)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 5)
     streams.shows(RawTrajectoryState.DONE, (12, 12, 12), 0)
 
 

@@ -1,11 +1,9 @@
 """Trajectories without end: batches, credits, starvation, and what cuts a stream."""
 
-from collections.abc import Sequence
-
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawStreamFlag, RawTrajectoryState
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
@@ -26,10 +24,6 @@ def _progress(bench: Bench, link: RawLink) -> messages.RawProgress:
     return bench.progress(link)
 
 
-def _executed(bench: Bench, points: Sequence[Point], since: float) -> None:
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
-
-
 @case("stream", "a stream longer than the ring is executed whole, in time", "R1", once=True)
 def _whole_stream(bench: Bench) -> None:
     """Longer than the ring, in batches of many sizes."""
@@ -42,8 +36,7 @@ def _whole_stream(bench: Bench) -> None:
         stream.number += 1
         stream.sent, stream.points, stream.room = 0, [], bench.config.trajectory.ring - 1
         stream.all(points, size=size)
-        bench.wait_until_at(points[-1][0], 30 + asked)
-        _executed(bench, points, since)
+        bench.arrives(points, since, 30 + asked)
         if bench.now - since > 1.3 * asked + 3:
             raise Broken(f"{asked:.1f} s of a stream took {bench.now - since:.1f} s")
         told = _progress(bench, watcher)
@@ -75,8 +68,7 @@ def _preload(bench: Bench) -> None:
         bench.wait_until_moving(2)
         stream.put((), END)
         bench.wait_until_at(stream.points[-1][0], 20)
-        stream.link.close()
-        bench.run(1.5)
+        stream.link.close(then=1.5)
 
 
 @case("starves", "starvation is a stop on the path; more points go on", "R9")
@@ -102,8 +94,7 @@ def _starves(bench: Bench) -> None:
     bench.wait_until_at(points[29][0], 20)
     bench.run(1)
     stream.put(points[30:], END)
-    bench.wait_until_at(points[-1][0], 20)
-    _executed(bench, points, since)
+    bench.arrives(points, since, 20)
     told = _progress(bench, watcher)
     if (told.state, told.reached) != (RawTrajectoryState.DONE, 45):
         raise Broken(f"a stream that starved twice is done, PROGRESS says {told}")
@@ -117,8 +108,7 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     stream.put(points[:20], BEGIN)
     stream.accepted("the first points")
     bench.wait_until_moving()
-    stream.link.send(data)
-    stream.reply()
+    stream.say(data)
     told = stream.refused(reason, what)
     if told.accepted != 20 + taken:
         raise Broken(f"{what}: {20 + taken} points are right, the reply is {told}")
@@ -126,7 +116,7 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     stream.put(points[20:24])
     stream.refused(reason, f"a batch behind {what}")
     bench.wait_until_standing(20)
-    _executed(bench, points[: 20 + taken], since)
+    bench.executed(points[: 20 + taken], since)
     if not taken and distance(bench.position, points[19][0]) > 1e-3:
         raise Broken(f"{what}: the points before it are not executed")
     bench.stays(2, what)
@@ -139,15 +129,13 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     fresh.all(way(bench, 12))
     bench.wait_until_at(fresh.points[-1][0], 20)
     watcher.close()
-    stream.link.close()
-    bench.run(1.5)
+    stream.link.close(then=1.5)
 
 
 def _maker(bench: Bench) -> Streamer:
     """Makes frames of stream 3 and sends none of them."""
     maker = Streamer(bench, number=3)
-    maker.link.close()
-    bench.run(1.2)
+    maker.link.close(then=1.2)
     maker.sent = 20
     return maker
 
@@ -220,8 +208,7 @@ def _first_batch_is_wrong(bench: Bench) -> None:
         stream.put(way(bench, 10))
         stream.refused(reason, "a batch behind a first point that is wrong")
         bench.stays(3, "the first point of the stream is wrong")
-        stream.link.close()
-        bench.run(1.5)
+        stream.link.close(then=1.5)
     stream = Streamer(bench, number=9)
     for flags in (_NONE, END, FLUSH):
         stream.put(way(bench, 10), flags)
@@ -229,8 +216,7 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     stream.sent = 0
     data = bytearray(stream.frame(way(bench, 10), BEGIN))
     data[50] ^= 4
-    stream.link.send(bytes(data))
-    stream.reply()
+    stream.say(bytes(data))
     stream.refused(RawReason.CHECKSUM, "a damaged beginning")
     stream.put((), BEGIN | END)
     stream.refused(RawReason.SEQUENCE_GAP, "an end without a point")
@@ -259,7 +245,7 @@ def _overrun(bench: Bench) -> None:
     if not before <= told.accepted <= before + 20:
         raise Broken(f"{before} points were sent with room for them, the reply is {told}")
     bench.wait_until_standing(60)
-    _executed(bench, points[: told.accepted], since)
+    bench.executed(points[: told.accepted], since)
     if distance(bench.position, points[told.accepted - 1][0]) > 1e-3:
         raise Broken("points that were accepted before an overrun are not executed")
     if _progress(bench, watcher).reason != RawReason.OVERRUN:
@@ -295,8 +281,7 @@ def _early_end(bench: Bench) -> None:
         bench.wait_until_moving()
         bench.run(0.6)
         if action == "STOP":
-            stream.link.send(STOP)
-            stream.link.reply(JOINT_TRAJ_PT)
+            stream.link.stop()
         elif action == "download":
             stream.link.send(bench.download(bench.wave(4))[:68])
         elif action == "stream":
@@ -304,7 +289,7 @@ def _early_end(bench: Bench) -> None:
         else:
             bench.controller.perform(action)
         bench.wait_until_standing(5)
-        _executed(bench, points, since)
+        bench.executed(points, since)
         bench.run(0.3)
         if action != "stream":
             stream.put(points[25:30])
@@ -314,8 +299,7 @@ def _early_end(bench: Bench) -> None:
         bench.stays(2, f"the stream was ended by {action}")
         bench.start_again()
         bench.stays(3, f"the stream was ended by {action}, then the program was started")
-        stream.link.close()
-        bench.run(1.5)
+        stream.link.close(then=1.5)
         bench.moves_through(bench.motion(), bench.wave(3))
         bench.run(1.5)
 

@@ -5,25 +5,24 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink, point_frame
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    RawComm,
-    RawMode,
-    RawReason,
-    RawTrajectoryState,
-    decode,
-    encode,
-    text_of,
-)
+from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
-from rapidgen.proving.suite.motion_task import SOON, begins, datum, hangs, patience, unit_of
+from rapidgen.proving.suite.motion_task import (
+    SOON,
+    begins,
+    begins_soon,
+    datum,
+    hangs,
+    patience,
+    unit_of,
+)
 
 case = Theme("halting")
 
 _PROMPT = 0.055
 """s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
-_TRAJ = JOINT_TRAJ_PT
+_TRAJ = messages.JOINT_TRAJ_PT
 
 
 def _prompt(bench: Bench, asked: float, what: str) -> None:
@@ -51,11 +50,11 @@ def _answers_soon(bench: Bench) -> None:
         bench.run(0.3 + 0.021 * phase)
         link.send(_end_as_request(bench, 5, unit))
         asked = bench.now
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawAccepted):
             raise Broken(f"a good trajectory is answered by {content}")
         _prompt(bench, asked, "the end frame of a trajectory")
-        begins(bench, asked)
+        begins_soon(bench, asked)
         if control is not None:
             for paused in (1, 0):
                 asked = bench.now
@@ -89,14 +88,13 @@ def _answers_soon(bench: Bench) -> None:
             if other is not None:
                 bench.run(0.2 + 0.021 * phase)
                 asked = bench.now
-                other.send(STOP)
-                other.reply(_TRAJ)
+                other.stop()
                 _prompt(bench, asked, "STOP at a standstill")
         # What comes right behind a stop of the program is refused.
         bench.run(0.4)
         bench.controller.perform("stop")
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0):
             raise Broken(f"right behind a stop of the program a trajectory is answered: {content}")
         bench.controller.perform("start")
@@ -126,7 +124,7 @@ def _why_it_ended(bench: Bench) -> None:
         last, points = bench.last_event, bench.wave(5, duration=unit)
         link.send(bench.download(points))
         number += 1
-        begins(bench, bench.now)
+        begins_soon(bench, bench.now)
         bench.run(1.15 * unit)
         if action == "leaves":
             link.close()
@@ -144,14 +142,14 @@ def _why_it_ended(bench: Bench) -> None:
         if seen != wanted:
             raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
         said = [e.texts[0] for e in _warnings(bench, last)]
-        if said != ([text_of(reason)] if action == "leaves" else []):
+        if said != ([messages.text_of(reason)] if action == "leaves" else []):
             raise Broken(f"after {action} the event log says {said}")
         if action == "leaves":
             bench.run(0.3)
             link = bench.motion()
             continue
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         number += 1
         if content != messages.RawRefused(later, -1, 0):
             raise Broken(f"after {action} a trajectory is answered by {content}")
@@ -165,7 +163,7 @@ def _why_it_ended(bench: Bench) -> None:
         if bench.status(watcher).motion_possible != 1:
             raise Broken(f"after {action} and a start of the program no motion is possible")
         link.send(frames[68:])
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         # The way back to automatic mode is a change of mode, too.
         noted = RawReason.MODE_CHANGED if action == "manual" else reason
         if content != messages.RawRefused(noted, -1, 0):
@@ -207,8 +205,7 @@ def _pause_by_step(bench: Bench) -> None:
     for paused in (1, 0):
         ask(paused, RawReason.IDLE)
     way = bench.wave(4, duration=unit)
-    link.send(bench.download([*way, (way[3][0], 3 * unit)]))
-    begun = begins(bench, bench.now)
+    begun = begins(bench, link, [*way, (way[3][0], 3 * unit)])
     bench.run(1.15 * unit)
     ask(1)
     _is_paused(bench, watcher, 3, 1)
@@ -235,14 +232,12 @@ def _pause_by_step(bench: Bench) -> None:
         raise Broken(f"a paused trajectory has come to its end: {told}, {status}")
     ask(0, RawReason.IDLE)
     for stopped in (True, False):
-        link.send(bench.download(bench.wave(3, duration=unit)))
-        begins(bench, bench.now)
+        begins(bench, link, bench.wave(3, duration=unit))
         bench.run(0.5 * unit)
         ask(1)
         bench.wait_until_standing(1)
         if stopped:
-            link.send(STOP)
-            link.reply(_TRAJ)
+            link.stop()
             bench.run(patience(bench))
             ask(0, RawReason.IDLE)
         points = bench.wave(3, duration=unit)
@@ -264,13 +259,12 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
         supervisor.sleep(0.004)
 
     for _ in range(4):
-        link.send(bench.download(bench.wave(4, duration=unit, size=0.3)))
-        begins(bench, bench.now)
+        begins(bench, link, bench.wave(4, duration=unit, size=0.3))
         bench.run(0.7 * unit)
         control.ask(messages.RawPause(1))
         bench.wait_until_standing(1)
         at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
-        control.send(encode(messages.RawPause(0), RawComm.REQUEST))
+        control.send(messages.encode(messages.RawPause(0), RawComm.REQUEST))
         bench.stays(patience(bench), "STOP came at the end of a pause")
         if link.reply(_TRAJ) != messages.RawAcknowledged():
             raise Broken("STOP at the end of a pause is not confirmed")
@@ -293,7 +287,7 @@ def _builds_differ(bench: Bench) -> None:
         bench.until(lambda: task[shown] != good, 0.2, "the supervisor looks")
         mixed = bench.now
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
             raise Broken(f"tasks show different builds, a trajectory is answered by {content}")
         bench.run(seconds)
@@ -316,7 +310,7 @@ def _builds_differ(bench: Bench) -> None:
         other = datum(bench, f"ros_shown_{role}")
         task[other] = "0123456789ab"
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
             raise Broken(f"the {role} shows another build, a trajectory is answered by {content}")
         stream.number, stream.sent = number, 0
@@ -334,12 +328,11 @@ def _builds_differ(bench: Bench) -> None:
             bench.controller.perform("stop")
         task[shown] = text
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawRefused) or content.reason != reason:
             raise Broken(f"the motion task shows {text!r}, a trajectory is answered by {content}")
         task[shown] = good
         if stopped:
             bench.controller.perform("start")
         bench.run(0.3)
-    link.send(bench.download(bench.wave(3, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(3, duration=unit))
