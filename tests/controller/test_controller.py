@@ -8,7 +8,6 @@ import pytest
 from rapidgen.controller import Deadlock, VirtualController
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system.model import (
-    EventRoutine,
     ModuleFile,
     SignalSpec,
     System,
@@ -93,53 +92,6 @@ def test_stop_and_start_go_on_where_it_was() -> None:
         assert controller.task("T1")["n"] == n + 10
 
 
-def test_a_stopped_wait_counts_from_its_beginning_again() -> None:
-    """[S4 overview 5-23]"""
-    controller, printed = boot('PROC main()\n WaitTime 2;\n TPWrite "done";\nENDPROC', cycle="once")
-    with controller:
-        controller.start_program()
-        controller.run_for(1.5)
-        controller.stop_program()
-        controller.run_for(1)
-        controller.start_program()
-        controller.run_for(1.9)
-        assert printed == []
-        controller.run_for(0.2)
-        assert printed == ["done"]
-
-
-def test_pp_to_main_initialises_variables_and_runs_undo() -> None:
-    """[S4 overview 4-24]"""
-    controller, printed = boot(
-        """
-  VAR num v := 1;
-  PERS num p := 1;
-  PROC main()
-    v := v + 1;
-    p := p + 1;
-    TPWrite ValToStr(v) + ValToStr(p);
-    inner;
-  ENDPROC
-  PROC inner()
-    WaitTime 100;
-  UNDO
-    TPWrite "undo";
-  ENDPROC
-"""
-    )
-    with controller:
-        controller.start_program()
-        controller.run_for(1)
-        controller.stop_program()
-        controller.pp_to_main()
-        controller.run_for(0.1)
-        assert controller.task("T1").state == "ready"
-        controller.start_program()
-        controller.run_for(1)
-        assert printed == ["22", "undo", "23"]
-        assert 10_002 in codes(controller)
-
-
 def test_emergency_stop_needs_reset_and_motors_on() -> None:
     controller, _ = boot(COUNT)
     with controller:
@@ -157,17 +109,6 @@ def test_emergency_stop_needs_reset_and_motors_on() -> None:
         controller.run_for(1)
         assert controller.task("T1")["n"] > n
         assert {10_013, 10_010, 10_011, 10_126} <= set(codes(controller))
-
-
-def test_background_tasks_go_on_during_a_stop() -> None:
-    controller, _ = boot(WAITING, COUNT, specs={"T2": {"type": "STATIC"}})
-    with controller:
-        controller.start_program()
-        controller.run_for(1)
-        controller.perform("e-stop")
-        controller.run_for(1)
-        assert controller.task("T1").state == "stopped"
-        assert controller.task("T2")["n"] >= 19
 
 
 FAULT = """
@@ -283,57 +224,6 @@ def test_a_generated_module_points_to_its_template() -> None:
     with VirtualController(System("s", (TaskSpec("T1", modules=(file,)),))) as controller:
         controller.run_for(0.1)
         assert controller.task("T1").fault.stack[-1].origin == ("b.j2", 3)
-
-
-def test_event_routines() -> None:
-    base = system(
-        {
-            "T1": """
-  PROC power()
-    TPWrite "power " + ValToStr(EventType());
-  ENDPROC
-  PROC started()
-    TPWrite "start " + ValToStr(EventType()) + ValToStr(ExecLevel());
-  ENDPROC
-  PROC again()
-    TPWrite "restart";
-  ENDPROC
-  PROC main()
-    TPWrite "main " + ValToStr(EventType()) + ValToStr(ExecLevel());
-    WaitTime 1;
-    Stop;
-    TPWrite "end";
-    EXIT;
-  ENDPROC
-"""
-        }
-    )
-    events = tuple(
-        EventRoutine(routine, event, "T1")
-        for routine, event in (("power", "POWER_ON"), ("started", "START"), ("again", "RESTART"))
-    )
-    printed: list[str] = []
-    with VirtualController(System("s", base.tasks, events=events), autostart=False) as controller:
-        controller.operator.subscribe(lambda _, text: printed.append(text))
-        controller.start_program()
-        controller.run_for(5)
-        assert controller.task("T1").state == "stopped"
-        controller.start_program()
-        controller.run_for(5)
-    assert printed == ["power 1", "start 22", "main 00", "restart", "end"]
-
-
-def test_an_endless_loop_and_a_deadlocked_task_do_not_hold_up_the_others() -> None:
-    controller, _ = boot(
-        COUNT,
-        "PROC main()\n WHILE TRUE DO\n ENDWHILE\nENDPROC",
-        "PERS bool b := TRUE;\nPROC main()\n WaitTestAndSet b;\nENDPROC",
-    )
-    with controller:
-        controller.start_program()
-        controller.run_for(3)
-        assert controller.task("T1")["n"] >= 28
-        assert [t.state for t in controller.tasks.values()] == ["running"] * 3
 
 
 @pytest.mark.parametrize(

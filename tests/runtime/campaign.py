@@ -15,8 +15,7 @@ from pathlib import Path
 import rapidgen
 from rapidgen.machine.process import Process
 from tests.rapid.mutants import Mutant, NoProgram, of_functions
-from tests.runtime import test_conformance as core
-from tests.runtime.builtins import test_conformance as builtins
+from tests.runtime.test_conformance import FILES, test_program_does_what_its_source_says
 
 ROOMS = ("machine", "motion", "runtime", "controller")
 ROOTS = [Path(rapidgen.__file__).parent / room for room in ROOMS]
@@ -44,10 +43,7 @@ class File:
 
 def all_files() -> list[File]:
     """Every conformance file of the runtime."""
-    found = [File(path, core.test_program_does_what_its_source_says) for path in core.FILES]
-    return found + [
-        File(path, builtins.test_program_does_what_its_source_says) for path in builtins.FILES
-    ]
+    return [File(path, test_program_does_what_its_source_says) for path in FILES]
 
 
 # -- a file in a process of its own ----------------------------------------------------------

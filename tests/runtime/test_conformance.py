@@ -1,30 +1,51 @@
 """Programs in RAPID that say what they expect, in both kinds of accounting.
 
 The head of a file names its source; comments tell the rest:
-`! expect: TEXT` one TPWrite, in order · `! fault: NAME LINE` how the task ends ·
+`! expect: TEXT` one TPWrite, in order · `! fault: NAME LINE` how a task ends ·
 `! dialect: SWITCH=VALUE` · `! signal: NAME TYPE` · `! cycle: N` main runs again, N lines are read ·
-`! until: S` simulated seconds to run at most.
+`! until: S` simulated seconds to run at most · `! robot: SHIPPED NAME` ·
+`! task: NAME ENTRY [TYPE]` one more task (a ROB in the name: it has a robot) ·
+`! hook: ROUTINE EVENT TASK` an event routine · `! case: SWITCH=VALUE` all that follows on a
+controller of its own, with this switch (or motion setting) too.
+
+`! do: ACTION, ...` is what somebody does at the controller (`Run.act`); behind it stand, in this
+order, what was refused, what was printed, and what can be seen then: `! state:` of each task,
+`! at: ROUTINE STATEMENT`, `! value: NAME = VALUE`, `! log: CODE TEXT` of an event since the `do`.
 """
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
+from rapidgen.controller.mechanics import groups_for
+from rapidgen.motion import MotionSettings
 from rapidgen.runtime.switches import parse_switches
-from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
+from rapidgen.runtime.task.pointer import CannotStep
+from rapidgen.runtime.text import value_text
+from rapidgen.system.model import EventRoutine, ModuleFile, SignalSpec, System, TaskSpec
 
-HERE = Path(__file__).parent / "conformance"
-FILES = sorted(HERE.rglob("*.mod"))
+HERE = Path(__file__).parent
+FILES = sorted(p for p in HERE.rglob("*.mod") if "conformance" in p.parts)
+SCRIPT = ("do", "refused", "expect", "state", "at", "value", "log")
 
 
-def _marks(text: str, mark: str) -> list[str]:
-    return [m.strip() for m in re.findall(rf"^\s*! {mark}:(.*)$", text, re.MULTILINE)]
+def marks(text: str, mark: str = r"\w+") -> list[tuple[str, str]]:
+    """The comments that say something, in order."""
+    found = re.findall(rf"^\s*! ({mark}):(.*)$", text, re.MULTILINE)
+    return [(name, rest.strip()) for name, rest in found]
 
 
-def _modules(path: Path, text: str) -> Iterator[ModuleFile]:
+def words(text: str, mark: str) -> list[list[str]]:
+    """The words of each comment of a kind."""
+    return [rest.split() for _, rest in marks(text, mark)]
+
+
+def modules(path: Path, text: str) -> Iterator[ModuleFile]:
     """The modules of a file; the lines of each are counted from the file's beginning."""
     starts = [m.start() for m in re.finditer(r"^MODULE", text, re.MULTILINE)]
     for start, end in zip([0, *starts[1:]], [*starts[1:], len(text)], strict=True):
@@ -32,57 +53,171 @@ def _modules(path: Path, text: str) -> Iterator[ModuleFile]:
         yield ModuleFile(path.stem, str(path), (lines + text[start:end]).encode("latin-1"))
 
 
-def _execute(path: Path, accounting: str) -> tuple[list[str], str, int]:
-    text = path.read_text(encoding="utf-8")
-    signals = tuple(SignalSpec(*line.split()) for line in _marks(text, "signal"))
-    modules = tuple(_modules(path, text))
-    tasks = [TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", modules)]
-    for line in _marks(text, "task"):
-        name, entry = line.split()
-        tasks.append(TaskSpec(name, "NORMAL", "NoSafety", entry, False, "", modules))
-    cycles = _marks(text, "cycle")
-    printed: list[str] = []
-    with VirtualController(
-        System(path.stem, tuple(tasks), signals),
-        dialect=parse_switches(",".join(_marks(text, "dialect"))),
-        cycle="forever" if cycles else "once",
-        accounting=accounting,
-        autostart=False,
-    ) as controller:
-        controller.operator.subscribe(lambda _, line: printed.append(line))
-        controller.start_program()
-        if cycles:
-            limit = int(cycles[0])
-            controller.run_until(
-                lambda: len(printed) >= limit or controller.task("T_ROB1").state != "running",
-                timeout=60,
+def system(path: Path, text: str) -> System:
+    """What the head of a file describes."""
+    files = tuple(modules(path, text))
+    tasks = [TaskSpec("T_ROB1", "NORMAL", "SysFail", "main", True, "", files)]
+    for name, entry, *type_ in words(text, "task"):
+        kind = type_[0] if type_ else "NORMAL"
+        tasks.append(TaskSpec(name, kind, "NoSafety", entry, "ROB" in name, "", files))
+    return System(
+        path.stem,
+        tuple(tasks),
+        signals=tuple(SignalSpec(*line) for line in words(text, "signal")),
+        events=tuple(EventRoutine(*line) for line in words(text, "hook")),
+    )
+
+
+class Run:
+    """A controller with the program of a file."""
+
+    def __init__(self, path: Path, text: str, case: str, accounting: str) -> None:
+        self.lines = text.splitlines()
+        whole = system(path, text)
+        given = [rest for _, rest in marks(text, "dialect")] + case.split(",")
+        settings = dict(part.split("=") for part in given if part.startswith("motion."))
+        switches = ",".join(part for part in given if not part.startswith("motion."))
+        cycles = words(text, "cycle")
+        self.controller = VirtualController(
+            whole,
+            [g for (name,) in words(text, "robot") for g in groups_for(whole, load_config(name))],
+            dialect=parse_switches(switches),
+            cycle="forever" if cycles else "once",
+            accounting=accounting,
+            autostart=False,
+        )
+        if settings:
+            self.controller.motion.settings = replace(
+                MotionSettings(),
+                **{
+                    name.removeprefix("motion."): {"true": True, "false": False}.get(value, value)
+                    for name, value in settings.items()
+                },
             )
-            del printed[limit:]
+        self.task = self.controller.task("T_ROB1")
+        self.printed: list[str] = []
+        self.controller.operator.subscribe(lambda _, line: self.printed.append(line))
+        if not words(text, "do"):
+            self._to_the_end(cycles, words(text, "until"))
+
+    def _to_the_end(self, cycles: list[list[str]], until: list[list[str]]) -> None:
+        self.controller.start_program()
+        if cycles:
+            limit = int(cycles[0][0])
+            self.controller.run_until(
+                lambda: len(self.printed) >= limit or self.task.state != "running", timeout=60
+            )
+            del self.printed[limit:]
         else:
-            until = float((_marks(text, "until") or ["60"])[0])
-            ended = controller.run(max_time=until)
-            assert ended == "finished" or _marks(text, "until"), controller.where()
-        fault = ""
-        for view in controller.tasks.values():
-            if view.fault is not None:
-                error = view.fault.cause
-                name = error.name if error is not None else str(view.fault.event)
-                line = view.fault.stack[-1].span.line if view.fault.stack else 0
-                fault = f"{name} {line}"
-        return printed, fault, controller.scheduler.now
+            ended = self.controller.run(max_time=float(until[0][0]) if until else 100)
+            assert ended == "finished" or until, self.controller.where()
+
+    def act(self, action: str) -> bool:
+        """One action of a `do`; whether it was allowed."""
+        match action.split():
+            case ["start"]:
+                return self.controller.start_program()
+            case ["run", seconds]:
+                self.controller.run_for(float(seconds))
+            case ["step", *how]:
+                self.task.step(**{word: True for word in how})
+                self.controller.run_until(lambda: self.task.state != "running", timeout=30)
+                self.controller.run_for(0.1)
+            case ["set", name, value]:
+                self.task[name] = value == "TRUE" if value in ("TRUE", "FALSE") else float(value)
+            case ["signal", name, value]:
+                self.controller.signals[name] = float(value)
+            case ["jog", angle]:
+                (group,) = self.controller.motion.groups.values()
+                group.jog(tuple(place + float(angle) for place in group.positions()))
+            case ["routine", name]:
+                self.task.pp_to_routine(name)
+            case ["cursor", lines]:
+                assert self.task.place is not None
+                self.task.pp_to_statement(self.task.place.span.line + int(lines))
+            case ["service", name]:
+                self.task.call_service(name)
+            case _:
+                self.controller.perform(action)
+        return True
+
+    def seen(self, mark: str, rest: str) -> str:
+        """What there is to see of what a comment tells."""
+        first = rest.split()[0]
+        if mark == "state":
+            return " ".join(task.state for task in self.controller.tasks.values())
+        if mark == "at":
+            place = self.task.place
+            if place is None or self.task.state != "stopped":
+                return self.task.state
+            return f"{place.routine} {self.lines[place.span.line - 1].strip()}"
+        if mark == "value":
+            signals = self.controller.signals
+            value = signals[first] if first in signals else self.task[first]
+            return f"{first} = {value_text(value)}"
+        events = [e for e in self.controller.log if e.sequence > self.since]
+        told = [
+            " ".join([first, *filter(None, e.texts)][:2]) for e in events if str(e.code) == first
+        ]
+        return "; ".join(told) or first
+
+    def script(self, told: list[tuple[str, str]]) -> list[tuple[str, str]]:
+        """Do what the comments say; what they should have told."""
+        found: list[tuple[str, str]] = []
+        for mark, rest in told:
+            if mark == "do":
+                self.since = max((e.sequence for e in self.controller.log), default=0)
+                for action in rest.split(", "):
+                    try:
+                        allowed = self.act(action)
+                    except CannotStep:
+                        allowed = False
+                    if not allowed:
+                        found.append(("refused", action))
+            elif mark not in ("expect", "refused"):
+                found.append((mark, self.seen(mark, rest)))
+            found += [("expect", line) for line in self.printed]
+            self.printed.clear()
+        return found + [("expect", line) for line in self.printed]
+
+    def faults(self) -> list[str]:
+        """How the tasks ended that did so with an error."""
+        found = [task.fault for task in self.controller.tasks.values() if task.fault is not None]
+        return [
+            f"{f.cause.name if f.cause is not None else f.event} "
+            f"{f.stack[-1].span.line if f.stack else 0}"
+            for f in found
+        ]
+
+
+def cases(text: str) -> Iterator[tuple[str, list[tuple[str, str]]]]:
+    """The switches of each case, and what is done and told there."""
+    found: list[tuple[str, list[tuple[str, str]]]] = [("", [])]
+    for mark, rest in marks(text):
+        if mark == "case":
+            found.append((rest, []))
+        elif mark in (*SCRIPT, "fault"):
+            found[-1][1].append((mark, rest))
+    if len(found) > 1:
+        assert not found.pop(0)[1], "what is before the first case belongs to none"
+    return iter(found)
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(HERE)))
 def test_program_does_what_its_source_says(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    assert _marks(text, "source"), "name the source"
-    expected = _marks(text, "expect")
-    printed, fault, now = _execute(path, "block")
-    assert printed == expected
-    assert fault == "".join(_marks(text, "fault"))
-    exact = _execute(path, "statement")
-    assert exact == (printed, fault, now), "block and statement accounting differ"
+    assert marks(text, "source"), "name the source"
+    for case, told in cases(text):
+        ends = []
+        for accounting in ("block", "statement"):
+            run = Run(path, text, case, accounting)
+            with run.controller:
+                found = run.script([line for line in told if line[0] != "fault"])
+                assert found == [line for line in told if line[0] not in ("do", "fault")], case
+                assert run.faults() == [rest for mark, rest in told if mark == "fault"], case
+                ends.append(run.controller.scheduler.now)
+        assert ends[0] == ends[1], "block and statement accounting differ"
 
 
 def test_there_are_programs() -> None:
-    assert len(FILES) >= 50
+    assert len(FILES) >= 130

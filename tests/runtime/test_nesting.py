@@ -128,3 +128,23 @@ def test_too_many_jumps_out_are_refused_in_words() -> None:
     text = f'PROC main()\n VAR num n;\n{body} TPWrite "no";\n out:\n TPWrite "out";\nENDPROC'
     printed, fault, _ = run(text)
     assert printed == ["out"] or "nested too deeply" in fault.arguments[0]
+
+
+@pytest.mark.parametrize("kind", ["for", "while", "if", "test"])
+@pytest.mark.parametrize("depth", [1, 3, 24])
+def test_the_faulty_statement_is_tried_again(kind: str, depth: int) -> None:
+    """[S4 overview 3-23]; the rest: conformance/restart."""
+    body = "waste := 1 / good; n := n + 1; TPWrite ValToStr(n);"
+    controller, printed = boot(
+        f"PERS num good := 0;\nPROC main()\n VAR num n := 0;\n VAR num waste;\n"
+        f'{nested(kind, depth, body)}TPWrite "end";\nENDPROC',
+        cycle="once",
+    )
+    with controller:
+        controller.start_program()
+        controller.run(max_time=10)
+        assert (controller.task("T1").state, printed) == ("error", [])
+        controller.task("T1")["good"] = 1
+        controller.start_program()
+        controller.run(max_time=10)
+        assert (controller.task("T1").fault, printed) == (None, ["1", "end"])

@@ -31,7 +31,8 @@ def _matched(
     for pair in found.pairs:
         argument = pair.argument
         for misfit in pair.misfits:
-            if misfit not in _FAULTS or argument.kind == "conditional":
+            # Of two conditional arguments for one parameter one may be absent: run time tells.
+            if misfit not in _FAULTS or (misfit is Misfit.TWICE and argument.kind == "conditional"):
                 continue
             name = argument.name if pair.parameter < 0 else parameters[pair.parameter].name
             raise CannotCompile(_FAULTS[misfit].format(routine.name, name), node)

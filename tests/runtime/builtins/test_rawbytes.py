@@ -108,40 +108,6 @@ def test_unpacking_text(bench):
     assert target.get() == "hello"
 
 
-def test_packing_with_a_gap(bench):
-    """3HAC16581-1: the valid length reaches to the last byte; of a gap it does not speak."""
-    raw = RawBytes(b"ab")
-    bench("PackRawBytes", bench.box(513), raw, 5, IntX=DINT)
-    assert bytes(raw.data) == b"ab\0\0\1\2\0\0"
-
-
-def test_packing_with_a_gap_in_the_other_dialect(bench):
-    bench.controller.dialect = Switches(pack_beyond="error")
-    raw = RawBytes(b"ab")
-    with pytest.raises(RapidError) as caught:
-        bench("PackRawBytes", bench.box(1), raw, 4, IntX=DINT)
-    assert caught.value.name == "ERR_OUTOFBND"
-    assert bytes(raw.data) == b"ab"
-    bench("PackRawBytes", bench.box(513), raw, 3, IntX=DINT)
-    assert bytes(raw.data) == b"ab\1\2\0\0"
-
-
-def test_unpacking_beyond_the_valid_length(bench):
-    """[mem]"""
-    with pytest.raises(RapidError) as caught:
-        bench("UnpackRawBytes", RawBytes(b"abc"), 1, bench.box(0), IntX=DINT)
-    assert caught.value.name == "ERR_OUTOFBND"
-
-
-def test_unpacking_beyond_the_valid_length_in_the_other_dialect(bench):
-    bench.controller.dialect = Switches(unpack_beyond="zero")
-    target = bench.box(5)
-    bench("UnpackRawBytes", RawBytes(b"\1\2"), 1, target, IntX=DINT)
-    assert target.get() == 513
-    with pytest.raises(RapidError):
-        bench("UnpackRawBytes", RawBytes(), 1023, target, IntX=DINT)
-
-
 @pytest.mark.parametrize(
     ("switch", "found"), [("exact", 64 + (11 << 32)), ("single", 11 << 32), ("error", None)]
 )

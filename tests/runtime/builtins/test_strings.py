@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 from rapidgen.rapid.number_text import number_text
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.text import (
     NotALiteral,
     literal_text,
@@ -60,30 +59,6 @@ def test_val_to_str_over_80_characters(bench):
     with pytest.raises(RapidError) as caught:
         bench("ValToStr", value)
     assert caught.value.name == "ERR_STRTOOLNG"
-
-
-@pytest.mark.parametrize(
-    ("value", "decimals", "exponent", "text"),
-    [
-        (0.38521, 3, None, "0.385"),
-        (0.38521, 2, True, "3.85E-01"),
-        (2.5, 0, None, "3"),
-        (-2.5, 0, None, "-3"),
-        (1, 2, None, "1.00"),
-        (9.96, 1, True, "1.0E+01"),
-        (0, 1, True, "0.0E+00"),
-        (-0.001, 1, None, "0.0"),
-    ],
-)
-def test_num_to_str(bench, value, decimals, exponent, text):
-    """Rounds; Dec 0 drops the point; halves go away from zero [mem]."""
-    assert bench("NumToStr", single(value), decimals, Exp=exponent) == text
-
-
-def test_num_to_str_refuses_negative_decimals(bench):
-    with pytest.raises(RapidError) as caught:
-        bench("NumToStr", 1, -1)
-    assert caught.value.name == "ERR_ARGVALERR"
 
 
 def test_numbers_of_many_digits(bench):
@@ -174,122 +149,3 @@ def test_no_text_breaks_the_reader(text):
             parse_value(text, type_)
         except NotALiteral:
             continue
-
-
-# -- parts ----------------------------------------------------------------------------------
-
-
-def test_str_part(bench):
-    assert bench("StrPart", "Robotics", 1, 5) == "Robot"
-    assert bench("StrPart", "Robotics", 8, 1) == "s"
-    assert bench("StrPart", "Robotics", 3, 0) == ""
-
-
-@pytest.mark.parametrize(("position", "length"), [(0, 1), (9, 1), (8, 2), (1, -1), (1.5, 1)])
-def test_str_part_outside(bench, position, length):
-    with pytest.raises(RapidError) as caught:
-        bench("StrPart", "Robotics", position, length)
-    assert caught.value.name == "ERR_OUTOFBND"
-
-
-def test_str_find_and_match(bench):
-    """Nothing found is length + 1; a position outside is an error [S4 StrFind, StrMatch].
-
-    Machina's driver [code] looks for its next word right behind the last one.
-    """
-    assert bench("StrFind", "Robotics", 1, "aeiou") == 2
-    assert bench("StrFind", "Robotics", 1, "aeiou", NotInSet=True) == 1
-    assert bench("StrFind", "Robotics", 2, "aeiou") == 2
-    assert bench("StrFind", "Robotics", 8, "s") == 8
-    assert bench("StrMatch", "Robotics", 3, "bo") == 3
-    assert bench("StrFind", "Robotics", 3, "xyz") == 9
-    assert bench("StrMatch", "Robotics", 1, "bo") == 3
-    assert bench("StrMatch", "Robotics", 1, "BO") == 9
-    assert bench("StrMatch", "Robotics", 4, "bo") == 9
-    for name in ("StrFind", "StrMatch"):
-        assert bench(name, "Robotics", 9, "x") == 9
-        assert bench(name, "", 1, "x") == 1
-        for place in (0, 10, 1.5):
-            with pytest.raises(RapidError):
-                bench(name, "Robotics", place, "x")
-
-
-def test_a_search_from_behind_by_the_manual_s_word(bench):
-    bench.controller.dialect = Switches(find_behind="error")
-    for name in ("StrFind", "StrMatch"):
-        with pytest.raises(RapidError):
-            bench(name, "Robotics", 9, "x")
-
-
-def test_str_map_memb_order(bench):
-    assert bench("StrMap", "Robotics", "aeiou", "AEIOU") == "RObOtIcs"
-    assert bench("StrMemb", "Robotics", 2, "aeiou") is True
-    assert bench("StrMemb", "Robotics", 3, "aeiou") is False
-    letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-    assert bench("StrOrder", "FIRST", "SECOND", letters) is True
-    assert bench("StrOrder", "FIRST", "FIRST", letters) is True
-    assert bench("StrOrder", "FIRST", "FIR", letters) is False
-    # characters without a rank come behind all that have one
-    assert bench("StrOrder", "a", "Z", letters) is False
-
-
-@pytest.mark.parametrize(
-    ("switch", "text", "byte"),
-    [(None, "10", 10), ("Hex", "AE", 174), ("Hex", "ae", 174), ("Okt", "176", 126),
-     ("Bin", "00001010", 10), ("Char", "A", 65)],
-)  # fmt: skip
-def test_str_to_byte(bench, switch, text, byte):
-    assert bench("StrToByte", text, **({switch: True} if switch else {})) == byte
-
-
-@pytest.mark.parametrize(
-    ("switch", "text"),
-    [(None, "256"), (None, "1000"), (None, ""), ("Hex", "100"), ("Okt", "400"), ("Okt", "8"),
-     ("Bin", "2"), ("Char", "ab"), ("Char", "\\07"), (None, "-1"), (None, "1_0")],
-)  # fmt: skip
-def test_str_to_byte_refuses(bench, switch, text):
-    with pytest.raises(RapidError) as caught:
-        bench("StrToByte", text, **({switch: True} if switch else {}))
-    assert caught.value.name == "ERR_ARGVALERR"
-
-
-@pytest.mark.parametrize(
-    ("switch", "byte", "text"),
-    [(None, 122, "122"), ("Hex", 10, "0A"), ("Okt", 10, "012"), ("Bin", 10, "00001010"),
-     ("Char", 65, "A"), ("Char", 10, "\n")],
-)  # fmt: skip
-def test_byte_to_str(bench, switch, byte, text):
-    assert bench("ByteToStr", byte, **({switch: True} if switch else {})) == text
-
-
-def test_a_control_character_as_its_code(bench):
-    """S4 datasys 3-ByteToStr by its word; open_abb [code] ends lines with ByteToStr(10\\Char)."""
-    bench.controller.dialect = Switches(byte_to_str="code")
-    assert bench("ByteToStr", 7, Char=True) == "\\07"
-
-
-def test_hexadecimal_digits(bench):
-    assert bench("DecToHex", "99999999") == "5F5E0FF"
-    assert bench("HexToDec", "5F5E0FF") == "99999999"
-    assert bench("DecToHex", "9223372036854775807") == "7FFFFFFFFFFFFFFF"
-    with pytest.raises(RapidError):
-        bench("DecToHex", "9223372036854775808")
-
-
-def test_string_digits(bench):
-    assert bench("StrDigCmp", "4294967295", 6, "4294967294") is True
-    assert bench("StrDigCmp", "1", 3, "01") is True
-    assert bench("StrDigCalc", "4294967294", 1, "1") == "4294967295"
-    assert bench("StrDigCalc", "7", 5, "4") == "3"
-    for operands, error in (
-        (("4294967295", 1, "1"), "ERR_CALC_OVERFLOW"),
-        (("1", 2, "2"), "ERR_CALC_NEG"),
-        (("1", 4, "0"), "ERR_CALC_DIVZERO"),
-    ):
-        with pytest.raises(RapidError) as caught:
-            bench("StrDigCalc", *operands)
-        assert caught.value.name == error
-
-
-def test_str_format(bench):
-    assert bench("StrFormat", "{1}: {2}", Arg1="a", Arg2="b") == "a: b"
