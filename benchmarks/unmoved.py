@@ -157,7 +157,9 @@ def either(*names: str) -> object:
 def trace(path: Path) -> dict[str, object]:
     controller_room = either("rapidgen.controller", "rapidgen.virtual")
     tracing = either("rapidgen.controller.tracing", "rapidgen.virtual.tracing")
-    switches = either("rapidgen.runtime.switches", "rapidgen.virtual.dialect")
+    switches = either(
+        "rapidgen.rapid.switches", "rapidgen.runtime.switches", "rapidgen.virtual.dialect"
+    )
     parse = getattr(switches, "parse_switches", None) or switches.parse_dialect
     mechanics = either("rapidgen.controller.mechanics", "rapidgen.virtual.mechanics")
     load_config = importlib.import_module("rapidgen.config").load_config

@@ -12,8 +12,8 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, r
 
 if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
+    from rapidgen.rapid.switches import Switches
     from rapidgen.runtime.errors import FatalError
-    from rapidgen.runtime.switches import Switches
     from rapidgen.system.model import System
 
 
@@ -209,7 +209,7 @@ def _writable(path: Path) -> None:
 def _dialect(text: str) -> "Switches":
     from dataclasses import fields
 
-    from rapidgen.runtime.switches import Switches, parse_switches
+    from rapidgen.rapid.switches import Switches, parse_switches
 
     try:
         return parse_switches(text)

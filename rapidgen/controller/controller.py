@@ -13,7 +13,7 @@ from rapidgen.controller.event_log import ControllerLog
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.controller.faults import schedule as schedule_faults
 from rapidgen.controller.loading import Trees, configured, load
-from rapidgen.controller.operation import Mode, Operation
+from rapidgen.controller.operation import OperatingMode, Operation
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
@@ -32,12 +32,12 @@ from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.statements import Statements
 from rapidgen.runtime.task.task import Task
 from rapidgen.system import is_generated, read_files, read_manifest, read_system
@@ -358,7 +358,7 @@ class VirtualController:
     # -- modes and stops ---------------------------------------------------------------------------
 
     @property
-    def mode(self) -> Mode:
+    def mode(self) -> OperatingMode:
         """`auto`, `manual_reduced` or `manual_full`."""
         return self.operation.mode
 

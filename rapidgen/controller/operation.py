@@ -11,7 +11,7 @@ from rapidgen.runtime.task.event_routines import StopEvent
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
 
-Mode: TypeAlias = Literal["auto", "manual_reduced", "manual_full"]
+OperatingMode: TypeAlias = Literal["auto", "manual_reduced", "manual_full"]
 _REFUSED = 10_126
 
 
@@ -20,7 +20,7 @@ class Operation:
 
     def __init__(self, host: Host) -> None:
         self._host = host
-        self.mode: Mode = "auto"
+        self.mode: OperatingMode = "auto"
         self.motors_on = True
         self.e_stop = False
         self.failed = False
@@ -85,9 +85,9 @@ class Operation:
 
         ValueError: there is no such mode.
         """
-        wanted = next((m for m in get_args(Mode) if m == mode), None)
+        wanted = next((m for m in get_args(OperatingMode) if m == mode), None)
         if wanted is None:
-            raise ValueError(f"{mode!r} is none of {', '.join(get_args(Mode))}")
+            raise ValueError(f"{mode!r} is none of {', '.join(get_args(OperatingMode))}")
         if wanted == self.mode:
             return
         self.stop_program()

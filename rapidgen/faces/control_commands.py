@@ -3,10 +3,11 @@
 from collections.abc import Callable
 from typing import get_args
 
+from rapidgen._json import Json, Members
 from rapidgen.controller.controller import VirtualController
-from rapidgen.controller.operation import ACTIONS, Mode
+from rapidgen.controller.operation import ACTIONS, OperatingMode
 from rapidgen.controller.views import TaskView
-from rapidgen.faces.control_socket import Command, CommandError, Json, Listener, Message
+from rapidgen.faces.control_socket import Command, CommandError, Listener
 from rapidgen.machine.io import Signal
 from rapidgen.machine.log import Event
 from rapidgen.machine.operator import Question
@@ -16,7 +17,7 @@ from rapidgen.runtime.text import NotALiteral, parse_value, value_text
 from rapidgen.runtime.values import Type
 
 _LARGEST = 1e300
-_MODES: tuple[Mode, ...] = get_args(Mode)
+_MODES: tuple[OperatingMode, ...] = get_args(OperatingMode)
 
 
 def commands(controller: VirtualController) -> dict[str, Command]:
@@ -77,7 +78,7 @@ class _Remote:
 
     # -- state ------------------------------------------------------------------------------
 
-    def status(self, _request: Message) -> Json:
+    def status(self, _request: Members) -> Json:
         """Modes, tasks, positions (rad, m in wire order)."""
         c = self._controller
         return {
@@ -100,20 +101,20 @@ class _Remote:
             "listeners": {str(port): at[1] for port, at in c.network.listeners.items()},
         }
 
-    def where(self, _request: Message) -> Json:
+    def where(self, _request: Members) -> Json:
         """Where each task is."""
-        return self._controller.where()
+        return [*self._controller.where()]
 
     def action(self, name: str) -> Command:
         """A request without arguments."""
 
-        def perform(_request: Message) -> Json:
+        def perform(_request: Members) -> Json:
             self._controller.perform(name)
             return None
 
         return perform
 
-    def mode(self, request: Message) -> Json:
+    def mode(self, request: Members) -> Json:
         """`value`: auto, manual_reduced or manual_full."""
         wanted = request.get("value")
         if wanted not in _MODES:
@@ -121,7 +122,7 @@ class _Remote:
         self._controller.set_mode(wanted)
         return None
 
-    def override(self, request: Message) -> Json:
+    def override(self, request: Members) -> Json:
         """`value` in percent, of all groups or of `group`."""
         value = _number(request, "value")
         if not 0 <= value <= 100:
@@ -136,11 +137,11 @@ class _Remote:
 
     # -- signals ----------------------------------------------------------------------------
 
-    def signals(self, _request: Message) -> Json:
+    def signals(self, _request: Members) -> Json:
         """Values by name."""
         return {s.name: s.value for s in self._controller.io.signals.values()}
 
-    def set_signal(self, request: Message) -> Json:
+    def set_signal(self, request: Members) -> Json:
         """`name`, `value`: inputs are meant, outputs are possible."""
         signal = self._signal(request)
         try:
@@ -149,7 +150,7 @@ class _Remote:
             raise CommandError(str(error)) from error
         return None
 
-    def _signal(self, request: Message) -> Signal:
+    def _signal(self, request: Members) -> Signal:
         name = _text(request, "name")
         signal = self._controller.io.get(name)
         if signal is None:
@@ -158,7 +159,7 @@ class _Remote:
 
     # -- variables --------------------------------------------------------------------------
 
-    def get(self, request: Message) -> Json:
+    def get(self, request: Members) -> Json:
         """`task`, `name` as `Module:datum`: the value as RAPID text."""
         task, name = self._datum(request)
         try:
@@ -168,7 +169,7 @@ class _Remote:
         except KeyError as error:
             raise CommandError(f"{task.name} has no data '{name}'") from error
 
-    def set(self, request: Message) -> Json:
+    def set(self, request: Members) -> Json:
         """`task`, `name`, `value` as RAPID text."""
         task, name = self._datum(request)
         text = _text(request, "value")
@@ -184,7 +185,7 @@ class _Remote:
             raise CommandError(error.name) from error
         return None
 
-    def step(self, request: Message) -> Json:
+    def step(self, request: Members) -> Json:
         """One statement of `task`; `back` and `over` are true or false."""
         try:
             self._task(request).step(
@@ -194,11 +195,11 @@ class _Remote:
             raise CommandError(str(error)) from error
         return None
 
-    def _datum(self, request: Message) -> tuple[TaskView, str]:
+    def _datum(self, request: Members) -> tuple[TaskView, str]:
         name = _text(request, "name")
         return self._task(request), name
 
-    def _task(self, request: Message) -> TaskView:
+    def _task(self, request: Members) -> TaskView:
         wanted = _text(request, "task")
         for task in self._controller.tasks.values():
             if task.name.lower() == wanted.lower():
@@ -207,22 +208,22 @@ class _Remote:
 
     # -- log, screen, dialogs ---------------------------------------------------------------
 
-    def log(self, request: Message) -> Json:
+    def log(self, request: Members) -> Json:
         """Events after sequence number `since`, oldest first."""
         since = request.get("since", 0)
         if not isinstance(since, int):
             raise CommandError("since is a sequence number")
         return [_event(event) for event in self._controller.log.since(since)]
 
-    def screen(self, _request: Message) -> Json:
+    def screen(self, _request: Members) -> Json:
         """Rows of the operator window."""
         return list(self._controller.operator.rows)
 
-    def questions(self, _request: Message) -> Json:
+    def questions(self, _request: Members) -> Json:
         """Dialogs that wait."""
         return [_question(question) for question in self._controller.operator.questions]
 
-    def answer(self, request: Message) -> Json:
+    def answer(self, request: Members) -> Json:
         """`number` of a question, `value`: a choice's text or number, a number, a text."""
         try:
             self._controller.operator.answer(
@@ -262,7 +263,7 @@ def _question(question: Question) -> dict[str, Json]:
     }
 
 
-def _text(request: Message, key: str) -> str:
+def _text(request: Members, key: str) -> str:
     value = request.get(key)
     if isinstance(value, int | float) and not isinstance(value, bool):
         return str(value)
@@ -271,7 +272,7 @@ def _text(request: Message, key: str) -> str:
     return value
 
 
-def _number(request: Message, key: str) -> float:
+def _number(request: Members, key: str) -> float:
     value = request.get(key)
     if isinstance(value, bool) or not isinstance(value, int | float):
         raise CommandError(f"'{key}' is missing or no number")

@@ -10,9 +10,10 @@ import json
 import math
 import selectors
 import socket
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from typing import TypeAlias
 
+from rapidgen._json import Json, Members
 from rapidgen.machine.scheduler import Scheduler
 
 MAX_CLIENTS = 16
@@ -20,11 +21,9 @@ MAX_LINE = 65_536
 MAX_UNREAD = 1_048_576
 """Bytes that may wait for a client that does not read."""
 
-Json: TypeAlias = "bool | float | str | Sequence[Json] | Mapping[str, Json] | None"
-Message: TypeAlias = Mapping[str, Json]
-Command: TypeAlias = Callable[[Message], Json]
+Command: TypeAlias = Callable[[Members], Json]
 """What carries out a request, and its result."""
-Listener: TypeAlias = Callable[[Message], None]
+Listener: TypeAlias = Callable[[Members], None]
 Subscribe: TypeAlias = Callable[[Listener], Callable[[], None]]
 
 
@@ -138,7 +137,7 @@ class ControlSocket:
             self._send(client, {"ok": False, "error": f"a line has at most {MAX_LINE} bytes"})
             self._drop(client)
 
-    def _answer(self, client: _Client, line: bytes) -> Message:
+    def _answer(self, client: _Client, line: bytes) -> Members:
         try:
             request = json.loads(line, parse_float=_finite, parse_constant=_finite)
         except (ValueError, RecursionError) as error:
@@ -155,7 +154,7 @@ class ControlSocket:
             return {**answer, "ok": False, "error": str(error)}
         return {**answer, "ok": True, "result": result}
 
-    def _perform(self, client: _Client, name: str, request: Message) -> Json:
+    def _perform(self, client: _Client, name: str, request: Members) -> Json:
         if name == "subscribe":
             if client.end is None:
                 client.end = self._subscribe(lambda event: self._send(client, event))
@@ -166,7 +165,7 @@ class ControlSocket:
             raise CommandError(f"cannot do '{name}'; can do {known}")
         return command(request)
 
-    def _send(self, client: _Client, message: Message) -> None:
+    def _send(self, client: _Client, message: Members) -> None:
         if client not in self._clients:
             return
         client.output += json.dumps(message, allow_nan=False).encode() + b"\n"

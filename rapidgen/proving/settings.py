@@ -7,7 +7,7 @@ from rapidgen.config.model import RobotConfig
 from rapidgen.controller.faults import FaultPlan
 from rapidgen.machine.costs import Costs
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.runtime.switches import NOT_THE_DRIVERS, Switches, parse_switches
+from rapidgen.rapid.switches import NOT_THE_DRIVERS, Switches, parse_switches
 
 
 @dataclass(frozen=True, slots=True)

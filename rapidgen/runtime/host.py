@@ -14,12 +14,12 @@ from rapidgen.machine.operator import Operator
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.system import MotionSystem
+from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.errors import FatalError
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.runtime.switches import Switches
 from rapidgen.system.model import ModuleFile, System
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ if TYPE_CHECKING:
     from rapidgen.runtime.task.task import Task
 
 
-class Operation(Protocol):
+class TaskObserver(Protocol):
     """What tasks tell of themselves, for the controller to stop others and the robots."""
 
     def task_changed(self) -> None:
@@ -87,7 +87,7 @@ class Host(Protocol):
         """The event log."""
 
     @property
-    def operation(self) -> Operation:
+    def operation(self) -> TaskObserver:
         """Modes and stops."""
 
     @property

@@ -14,7 +14,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeAlias, Unpack
+from typing import TYPE_CHECKING, Unpack
 
 import pytest
 
@@ -22,9 +22,6 @@ if TYPE_CHECKING:
     from rapidgen.controller.controller import Choices, VirtualController
     from rapidgen.system.model import System
 
-Bootable: TypeAlias = (
-    "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]"
-)
 MARK = "virtual_seeds"
 
 
@@ -80,7 +77,10 @@ def virtual_controller(
 
     made: list[VirtualController] = []
 
-    def make(target: Bootable, **options: "Unpack[Choices]") -> VirtualController:
+    def make(
+        target: "str | Path | System | Mapping[str, Sequence[str | Path]] | Sequence[str | Path]",
+        **options: "Unpack[Choices]",
+    ) -> VirtualController:
         options.setdefault("seed", virtual_seed)
         if isinstance(target, System):
             controller = VirtualController(target, **options)

@@ -17,7 +17,7 @@ from pathlib import Path
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
-from rapidgen.runtime.switches import Switches
+from rapidgen.rapid.switches import Switches
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 from tests.foreign.cell import furnish
 

@@ -11,9 +11,9 @@ from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion import MotionSettings, MotionSystem
 from rapidgen.motion.moves import Zone
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
-from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import System, TaskSpec
 

@@ -9,7 +9,7 @@ from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.rapid import check, parse
-from rapidgen.runtime.switches import Switches, parse_switches
+from rapidgen.rapid.switches import Switches, parse_switches
 
 PROBE = data_folder("templates") / "ROS_probe.mod"
 ASKED = {

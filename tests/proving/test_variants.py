@@ -15,7 +15,7 @@ from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import NEEDED, Setting
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite import CASES
-from rapidgen.runtime.switches import parse_dialect
+from rapidgen.rapid.switches import parse_dialect
 
 BY_NAME = {case.name: case for case in CASES}
 SIGNALS = [

@@ -3,7 +3,7 @@
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.runtime.switches import Switches
+from rapidgen.rapid.switches import Switches
 from tests.runtime.booting import boot
 
 ASKS = """

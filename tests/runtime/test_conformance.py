@@ -24,7 +24,7 @@ from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
 from rapidgen.controller.mechanics import groups_for
 from rapidgen.motion import MotionSettings
-from rapidgen.runtime.switches import parse_switches
+from rapidgen.rapid.switches import parse_switches
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.text import value_text
 from rapidgen.system.model import EventRoutine, ModuleFile, SignalSpec, System, TaskSpec

@@ -4,7 +4,7 @@ import re
 from dataclasses import fields
 from pathlib import Path
 
-from rapidgen.runtime.switches import NOT_THE_DRIVERS, Switches
+from rapidgen.rapid.switches import NOT_THE_DRIVERS, Switches
 
 TESTS = Path(__file__).parents[1]
 TEXT = (TESTS.parent / "docs" / "rapid" / "runtime-rules.md").read_text("utf-8")

@@ -4,21 +4,20 @@ Values carry no names: the calls are looked up in the trees, from the place of e
 """
 
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from types import FrameType
 from typing import TypeAlias
 
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import CodeRole, Compiled
+from rapidgen.runtime.compiler.compiled import CodeRole, Codes
 from rapidgen.runtime.compiler.resume import find
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import Ref
 
 Call: TypeAlias = n.ProcedureCall | n.FunctionCall | n.LateCall
-Codes: TypeAlias = Mapping[str, Compiled]
 FindData: TypeAlias = Callable[[LoadedModule | None, str], Data | None]
 
 

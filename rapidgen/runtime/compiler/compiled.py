@@ -5,11 +5,11 @@ are nested more deeply than CPython takes. The compiler registers the role of ea
 what they and their variables are called is said here alone.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from types import CodeType, FrameType
-from typing import Final
+from typing import Final, TypeAlias
 
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 
@@ -82,3 +82,7 @@ class Compiled:
             return None
         left: int | None = frame.f_locals.get(BUDGET)
         return None if left is None else left + self.refunds.get(line, 0)
+
+
+Codes: TypeAlias = Mapping[str, Compiled]
+"""Code of a program by Python file name."""

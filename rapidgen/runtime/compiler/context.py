@@ -6,10 +6,10 @@ from typing import TypeAlias
 
 from rapidgen.rapid.binding.names import RoutineScope
 from rapidgen.rapid.binding.symbols import Symbol
+from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.linking import Linker
 from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
-from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import BOOL, NUM, Type
 
 UNBOUNDED = 1 << 60
@@ -89,7 +89,7 @@ def same_type(a: Type, b: Type) -> bool:
     return a is b or a.name == b.name
 
 
-Compile: TypeAlias = "Callable[[Unit, n.Expression, Type | None, tuple[int, ...]], E]"
+CompileExpression: TypeAlias = "Callable[[Unit, n.Expression, Type | None, tuple[int, ...]], E]"
 
 
 @dataclass(slots=True, eq=False)
@@ -101,7 +101,7 @@ class Unit:
     routine: Routine
     node: n.RoutineDeclaration
     options: Options
-    compile: Compile
+    compile: CompileExpression
     """expressions.compile_expression: operands are compiled by way of it."""
     names: RoutineScope
     """What names stand for where the compiler is: in the routine, or in a FOR of it."""

@@ -41,13 +41,13 @@ class PythonFunction:
     """Functions for its statements that are nested too deeply."""
 
 
-Compile: TypeAlias = "Callable[[Emitter, n.Statement], None]"
+CompileStatement: TypeAlias = "Callable[[Emitter, n.Statement], None]"
 
 
 class Emitter:
     """Writes the statements of one routine."""
 
-    def __init__(self, unit: Unit, compile: Compile, goto: set[str]) -> None:
+    def __init__(self, unit: Unit, compile: CompileStatement, goto: set[str]) -> None:
         """`compile` is statements.compile_statement; `goto` are labels that a GOTO names."""
         self.unit = unit
         self.options = unit.options

@@ -1,14 +1,10 @@
 """Who is where: call stacks of tasks as places in RAPID."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from types import FrameType, TracebackType
-from typing import TypeAlias
 
-from rapidgen.runtime.compiler.compiled import CodeRole, Compiled
+from rapidgen.runtime.compiler.compiled import CodeRole, Codes
 from rapidgen.runtime.errors import Location
-
-Codes: TypeAlias = Mapping[str, Compiled]
-"""Code of a program by Python file name."""
 
 
 def outwards(frame: FrameType | None) -> Iterator[FrameType]:

@@ -14,10 +14,10 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.registry import bound
-from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Box, Type
 from rapidgen.system.model import System, TaskSpec

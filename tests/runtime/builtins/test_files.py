@@ -10,9 +10,9 @@ import pytest
 from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.files import Directory, FileSystem, IODevice
 from rapidgen.proving.workers import in_a_fork
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import Pos
 
 

@@ -4,9 +4,9 @@ import pytest
 
 from rapidgen.controller.controller import VirtualController
 from rapidgen.machine.io import STATUSES, status_name
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.signals import SignalAlias
-from rapidgen.runtime.switches import Switches
 from rapidgen.system.model import (
     CrossConnection,
     SignalSpec,

@@ -2,9 +2,9 @@
 
 import pytest
 
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.switches import Switches
 
 USINT, UINT, UDINT, ULINT, SINT, INT, DINT, LINT = 1, 2, 4, 8, -1, -2, -4, -8
 

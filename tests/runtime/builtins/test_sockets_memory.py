@@ -3,9 +3,9 @@
 import pytest
 
 from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
+from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.switches import Switches
 from tests.runtime.booting import boot
 
 PORT = 5000
