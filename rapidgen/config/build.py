@@ -54,16 +54,11 @@ def build(
         robotware=configuration.controller.robotware,
         groups=tuple(groups),
         trajectory=model.TrajectoryPolicy(
-            capacity=settings.capacity,
-            zone=settings.zone,
-            start_tolerance=math.radians(settings.start_tolerance),
-            start_tolerance_linear=settings.start_tolerance_linear / 1000,
-            too_fast=settings.too_fast,
-            min_segment=settings.min_segment,
-            approach_speed=settings.approach_speed,
-            ring=settings.ring,
-            preload=settings.preload,
-            corners=settings.corners,
+            **{
+                **vars(settings),
+                "start_tolerance": math.radians(settings.start_tolerance),
+                "start_tolerance_linear": settings.start_tolerance_linear / 1000,
+            }
         ),
         state_period=1 / configuration.state.rate,
         bind=configuration.network.bind,

@@ -8,7 +8,7 @@ that old files are being replaced, and `backup/<number>/` what was there before 
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 
 from rapidgen._json import Json, Members, items, members, whole
 from rapidgen.deploy.cfg import instance_from
@@ -149,19 +149,9 @@ def manifest_json(manifest: Manifest) -> Members:
     """As it stands on the controller."""
     return {
         "format": FORMAT,
-        "id": manifest.id,
-        "time": manifest.time,
-        "name": manifest.name,
-        "build_id": manifest.build_id,
-        "robotware": list(manifest.robotware),
+        **asdict(manifest),
         "files": [_record_json(r) for r in manifest.files],
         "origin": [_record_json(r) for r in manifest.origin],
-        "history": [
-            {"id": p.id, "time": p.time, "name": p.name, "build_id": p.build_id}
-            for p in manifest.history
-        ],
-        "cfg_before": dict(manifest.cfg_before),
-        "generated": dict(manifest.generated),
     }
 
 
@@ -201,14 +191,9 @@ def journal_json(journal: Journal) -> Members:
     """As it stands on the controller."""
     return {
         "format": FORMAT,
-        "id": journal.id,
-        "attempt": journal.attempt,
-        "verb": journal.verb,
-        "started": journal.started,
+        **asdict(journal),
         "old": manifest_json(journal.old) if journal.old else None,
         "new": manifest_json(journal.new) if journal.new else None,
-        "known": {path: list(hashes) for path, hashes in journal.known.items()},
-        "staged": list(journal.staged),
     }
 
 

@@ -27,7 +27,7 @@ from rapidgen.client import (
     TrajectoryRefused,
 )
 from rapidgen.client.address import Address
-from rapidgen.client.channels import Channel
+from rapidgen.client.channels import Channel, Reader
 from rapidgen.wire.simple_message.spec import Mode, Port, Reason, TrajectoryState, TriState
 
 GOAL = [0.2, 0.1, 0.0, -0.1, 0.0, 0.3]
@@ -446,3 +446,17 @@ def test_recording(connected, tmp_path):
     again = Trajectory.from_csv(tmp_path / "r.csv")
     assert again.names == robot.group.names
     assert again.positions[-1].tolist() == pytest.approx(GOAL)
+
+
+def test_a_channel_that_comes_with_the_end_is_closed():
+    def unused(*_):
+        raise AssertionError
+
+    reader = Reader(unused, unused, unused, lambda: False, "test")
+    reader._change = lambda: None  # the end comes before it looks
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        number = server.getsockname()[1]
+        channel = Channel(Address("127.0.0.1", number, number), Port.MOTION, 5)
+        reader.add(channel)
+        reader.close()
+        assert channel.socket.fileno() == -1

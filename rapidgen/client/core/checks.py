@@ -4,7 +4,7 @@ The result is a CheckedTrajectory, for one that is there as a whole, or CheckedP
 comes in pieces: the axis values and durations that go onto the wire.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
@@ -109,7 +109,7 @@ def check_trajectory(
     Raises InvalidTrajectory with all faults.
     """
     limit = group.policy.capacity if capacity is None else capacity
-    ordered = _fitting(trajectory, group, _capacity(trajectory, limit))
+    ordered = _fitting(trajectory, group, list(_capacity(trajectory, limit)))
     times = ordered.times
     first = float(times[0]) if times[0] > 0 else group.policy.min_segment
     with np.errstate(invalid="ignore", over="ignore"):
@@ -159,7 +159,7 @@ def to_stream(
     """
     ordered, durations = checked.trajectory, checked.durations
     if max(np.abs(checked.wire).max(), durations.max()) > PAIR_LIMIT:
-        _raise_errors(_capacity(ordered, capacity))
+        _raise_errors(list(_capacity(ordered, capacity)))
         return checked
     since = ordered.times[0] - durations[0]
     asked = _Asked(ordered, group, checked.wire, durations, None)
@@ -218,19 +218,17 @@ def _finding(
     return error(code, span, message, help, notes=notes)
 
 
-def _capacity(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
+def _capacity(trajectory: Trajectory, capacity: int) -> Iterator[Diagnostic]:
     count = len(trajectory)
     if count <= capacity:
-        return []
-    return [
-        _finding(
-            "RG617",
-            f"{count} points, the driver holds {capacity}",
-            "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
-            "`trajectory.capacity` in the configuration makes room for more (build and deploy "
-            "again)",
-        )
-    ]
+        return
+    yield _finding(
+        "RG617",
+        f"{count} points, the driver holds {capacity}",
+        "`Trajectory.resampled(period)` or `rapidgen move --resample PERIOD` makes fewer; "
+        "`trajectory.capacity` in the configuration makes room for more (build and deploy "
+        "again)",
+    )
 
 
 def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
@@ -265,38 +263,33 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
     return found
 
 
-def _finite(asked: _Asked) -> list[Diagnostic]:
-    found = []
+def _finite(asked: _Asked) -> Iterator[Diagnostic]:
     bad = ~np.isfinite(asked.ordered.positions)
     for column in np.flatnonzero(bad.any(axis=0)).tolist():
         points = np.flatnonzero(bad[:, column])
         value = asked.ordered.positions[points[0], column]
         message = f"{asked.group.names[column]} is {value} at"
-        found.append(asked.finding("RG613", message, points))
-    return found
+        yield asked.finding("RG613", message, points)
 
 
-def _times(asked: _Asked) -> list[Diagnostic]:
+def _times(asked: _Asked) -> Iterator[Diagnostic]:
     times, before = asked.ordered.times, asked.before
     unknown = np.flatnonzero(~np.isfinite(times))
     if len(unknown):
-        return [asked.finding("RG613", f"the time is {times[unknown[0]]} at", unknown)]
-    found = []
+        yield asked.finding("RG613", f"the time is {times[unknown[0]]} at", unknown)
+        return
     if before is None and times[0] < 0:
-        found.append(
-            _finding("RG612", f"the first time is {times[0]:g} s", "times count from the start")
-        )
+        yield _finding("RG612", f"the first time is {times[0]:g} s", "times count from the start")
     late = np.flatnonzero(np.diff(times) <= 0) + 1
     if before is not None and times[0] <= before.time:
         late = np.concatenate([[0], late])
     if len(late):
         mend = "each point needs a later time than the one before"
-        found.append(asked.finding("RG612", "the time does not increase at", late, mend))
-    return found
+        yield asked.finding("RG612", "the time does not increase at", late, mend)
 
 
-def _limits(asked: _Asked) -> list[Diagnostic]:
-    ordered, found = asked.ordered, []
+def _limits(asked: _Asked) -> Iterator[Diagnostic]:
+    ordered = asked.ordered
     whole = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
     for column, joint in enumerate(asked.group.joints):
         values = asked.wire[:, column]
@@ -308,20 +301,17 @@ def _limits(asked: _Asked) -> list[Diagnostic]:
         coupled = joint.axis == "rax_3" and bool(asked.group.map.coupling)
         notes = ("axis 3 is coupled: its limits are those of joint 3 and 2 together",)
         worst = int(points[np.argmax(np.abs(values[points] - (joint.lower + joint.upper) / 2))])
-        found.append(
-            asked.finding(
-                "RG614",
-                f"{joint.name} is outside its limits at",
-                points,
-                f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
-                f"point {worst + asked.origin} has {values[worst]:.4f} {unit}",
-                *(notes if coupled else ()),
-            )
+        yield asked.finding(
+            "RG614",
+            f"{joint.name} is outside its limits at",
+            points,
+            f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
+            f"point {worst + asked.origin} has {values[worst]:.4f} {unit}",
+            *(notes if coupled else ()),
         )
-    return found
 
 
-def _speeds(asked: _Asked) -> list[Diagnostic]:
+def _speeds(asked: _Asked) -> Iterator[Diagnostic]:
     """Segment speeds; the approach to a first point with a time of its own counts as one."""
     wire, start, before = asked.wire, asked.start, asked.before
     if before is not None:
@@ -333,33 +323,29 @@ def _speeds(asked: _Asked) -> list[Diagnostic]:
     rates = np.divide(steps, seconds, out=np.zeros_like(steps), where=seconds > 0)
     if before is None and asked.ordered.times[0] <= 0:
         rates[0] = 0.0
-    found = []
     for column, joint in enumerate(asked.group.joints):
         points = np.flatnonzero(rates[:, column] > joint.speed * _SPEED_ROUNDING)
         if not len(points):
             continue
         worst = float(rates[points, column].max())
         unit = "rad/s" if joint.kind == "revolute" else "m/s"
-        found.append(
-            asked.finding(
-                "RG615",
-                f"{joint.name} is too fast on the way to",
-                points,
-                f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
-                f"`scaled({joint.speed / worst:.2f})` would fit",
-            )
+        yield asked.finding(
+            "RG615",
+            f"{joint.name} is too fast on the way to",
+            points,
+            f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
+            f"`scaled({joint.speed / worst:.2f})` would fit",
         )
-    return found
 
 
-def _start(asked: _Asked) -> list[Diagnostic]:
+def _start(asked: _Asked) -> Iterator[Diagnostic]:
     group, wire, start = asked.group, asked.wire, asked.start
     if start is None:
-        return []
+        return
     away = np.abs(wire[0] - np.array(start[: wire.shape[1]]))
     columns = np.flatnonzero(away > group.start_tolerance + ROUNDING).tolist()
     if not columns:
-        return []
+        return
     rows = []
     for column in columns:
         joint, tolerance = group.joints[column], group.start_tolerance[column]
@@ -368,16 +354,14 @@ def _start(asked: _Asked) -> list[Diagnostic]:
             f"{joint.name}: the robot's axis stands at {start[column]:.4f} {unit}, the first "
             f"point is {wire[0, column]:.4f}, tolerance {tolerance:.4f}"
         )
-    return [
-        _finding(
-            "RG616",
-            "the trajectory does not start where the robot stands",
-            "go there first: `trajectory.starting_at(robot.state, seconds)`, or "
-            "`rapidgen move --approach SECONDS`",
-            *rows,
-            at=(asked.ordered, 0),
-        )
-    ]
+    yield _finding(
+        "RG616",
+        "the trajectory does not start where the robot stands",
+        "go there first: `trajectory.starting_at(robot.state, seconds)`, or "
+        "`rapidgen move --approach SECONDS`",
+        *rows,
+        at=(asked.ordered, 0),
+    )
 
 
 def _short(asked: _Asked) -> list[Diagnostic]:

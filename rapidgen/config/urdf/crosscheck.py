@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Iterator
 
 from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
@@ -28,7 +29,7 @@ def family(*names: str) -> str:
 
 def check_coupling(
     draft: GroupDraft, robot: UrdfRobot, file: str, place: Span | None
-) -> list[Diagnostic]:
+) -> Iterator[Diagnostic]:
     """A lever robot needs `coupling`, a serial one has none (RG047)."""
     known = family(draft.model, robot.name, file)
     axes = {joint.axis for joint in draft.joints if joint.axis.startswith("rax_")}
@@ -36,26 +37,21 @@ def check_coupling(
     if not who and known not in SERIAL and axes == _PALLETISER:
         who = "a palletiser (axes 1, 2, 3 and 6)"
     if draft.coupling is None and who:
-        return [
-            error(
-                "RG047",
-                place,
-                f"{who} couples axes 2 and 3; `coupling` is not given",
-                "add `coupling: 1` (controller axis 3 = joint_3 + joint_2), or 0 where the URDF "
-                "already has ABB's sense",
-            )
-        ]
-    if draft.coupling and known in SERIAL:
-        return [
-            error(
-                "RG047",
-                place,
-                f"IRB {known} is a serial robot, yet `coupling` is {draft.coupling:g}",
-                "launch files of ROS-Industrial before 2025 were wrong for some models",
-                severity=Severity.WARNING,
-            )
-        ]
-    return []
+        yield error(
+            "RG047",
+            place,
+            f"{who} couples axes 2 and 3; `coupling` is not given",
+            "add `coupling: 1` (controller axis 3 = joint_3 + joint_2), or 0 where the URDF "
+            "already has ABB's sense",
+        )
+    elif draft.coupling and known in SERIAL:
+        yield error(
+            "RG047",
+            place,
+            f"IRB {known} is a serial robot, yet `coupling` is {draft.coupling:g}",
+            "launch files of ROS-Industrial before 2025 were wrong for some models",
+            severity=Severity.WARNING,
+        )
 
 
 def check_joint(
@@ -96,12 +92,10 @@ def check_joint(
     )
 
 
-def differences(phrases: list[str], place: Span | None) -> list[Diagnostic]:
+def differences(phrases: list[str], place: Span | None) -> Iterator[Diagnostic]:
     """One warning for all ranges that differ from the model's (RG049)."""
-    if not phrases:
-        return []
-    return [
-        error(
+    if phrases:
+        yield error(
             "RG049",
             place,
             f"the URDF contradicts the known ranges: {'; '.join(phrases)}",
@@ -109,7 +103,6 @@ def differences(phrases: list[str], place: Span | None) -> list[Diagnostic]:
             label="the configuration's figures are used",
             severity=Severity.WARNING,
         )
-    ]
 
 
 def _near(a: float, b: float) -> bool:

@@ -1,6 +1,6 @@
 """The shape of a description: which joint hangs on which, and what no robot can be."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
@@ -105,20 +105,18 @@ def build_graph(robot: UrdfRobot, place: Span | None) -> tuple[Graph, list[Diagn
     return Graph(robot, above), found
 
 
-def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> list[Diagnostic]:
+def _loops(robot: UrdfRobot, above: dict[str, UrdfJoint]) -> Iterator[Diagnostic]:
     for joint in robot.joints:
         seen: set[str] = set()
         link = joint.child
         while link in above:
             if link in seen:
-                return [
-                    error(
-                        "RG051",
-                        above[link].span,
-                        f"the joints run in a circle through link '{link}'",
-                        label="closes a loop",
-                    )
-                ]
+                yield error(
+                    "RG051",
+                    above[link].span,
+                    f"the joints run in a circle through link '{link}'",
+                    label="closes a loop",
+                )
+                return
             seen.add(link)
             link = above[link].parent
-    return []

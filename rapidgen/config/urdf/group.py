@@ -1,6 +1,6 @@
 """One group's `urdf:` section: read it, map its joints, complete the draft."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -158,19 +158,18 @@ def _map(
     return _order(draft, graph, place)
 
 
-def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> Found:
+def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> Iterator[Diagnostic]:
     """Give the model's joints the URDF's names, axis by axis."""
     by_axis = {axis: name for name, axis in mapping.items()}
     if set(by_axis) != {joint.axis for joint in draft.joints}:
         shown = ", ".join(joint.axis for joint in draft.joints)
-        return [
-            error(
-                "RG034",
-                place,
-                f"the model has the axes {shown}; the URDF has {', '.join(mapping)}",
-                "map them under `joints:`",
-            )
-        ]
+        yield error(
+            "RG034",
+            place,
+            f"the model has the axes {shown}; the URDF has {', '.join(mapping)}",
+            "map them under `joints:`",
+        )
+        return
     names = {joint.name: by_axis[joint.axis] for joint in draft.joints}
     for joint in draft.joints:
         joint.name = names[joint.name]
@@ -185,33 +184,28 @@ def _rename(draft: GroupDraft, mapping: dict[str, str], place: Span | None) -> F
             )
             for link in chain
         ]
-    return []
 
 
-def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Found:
+def _named(joint: JointDraft, graph: Graph, place: Span | None) -> Iterator[Diagnostic]:
     known = graph.robot.joint(joint.name)
     if known is None:
         names = [j.name for j in graph.robot.joints]
-        return [
-            error(
-                "RG034",
-                place,
-                f"the URDF has no joint '{joint.name}'",
-                suggest(joint.name, names) or f"it has {', '.join(names[:20])}",
-            )
-        ]
+        yield error(
+            "RG034",
+            place,
+            f"the URDF has no joint '{joint.name}'",
+            suggest(joint.name, names) or f"it has {', '.join(names[:20])}",
+        )
+        return
     if known.mimic:
-        return [
-            error(
-                "RG042",
-                known.span or place,
-                f"joint '{joint.name}' mimics '{known.mimic}' and is no axis of its own",
-                f"map '{known.mimic}' instead",
-            )
-        ]
-    if known.kind == "fixed":
-        return [error("RG034", known.span or place, f"joint '{joint.name}' is fixed")]
-    return []
+        yield error(
+            "RG042",
+            known.span or place,
+            f"joint '{joint.name}' mimics '{known.mimic}' and is no axis of its own",
+            f"map '{known.mimic}' instead",
+        )
+    elif known.kind == "fixed":
+        yield error("RG034", known.span or place, f"joint '{joint.name}' is fixed")
 
 
 def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:

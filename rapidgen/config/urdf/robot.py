@@ -6,7 +6,7 @@ others), so whatever it takes for granted is checked on the XML first. No mesh i
 
 import gc
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from io import BytesIO
 from types import ModuleType
@@ -99,7 +99,7 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
             f"{description.path.name} is no robot description: its root is <{root.tag}>",
             "the root of a URDF is <robot>",
         )
-    faults = _structure(root, span_of, description.path.name)
+    faults = list(_structure(root, span_of, description.path.name))
     if faults:
         raise DiagnosticError(faults)
     root.set("name", root.get("name") or description.path.stem)
@@ -206,76 +206,64 @@ def _rpy(matrix: "Matrix") -> Vector:
     )
 
 
-def _structure(root: "Element", span_of: "PlaceOf", name: str) -> list[Diagnostic]:
+def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagnostic]:
     """What yourdfpy takes for granted: names, parent and child, numbers, known types."""
-    found: list[Diagnostic] = []
     seen: dict[tuple[str, str], int] = {}
     for element in root:
         if element.tag not in ("link", "joint"):
             continue
         own = element.get("name")
         if not own:
-            found.append(error("RG053", span_of(element), f"a <{element.tag}> has no name"))
+            yield error("RG053", span_of(element), f"a <{element.tag}> has no name")
             continue
         if (element.tag, own) in seen:
-            found.append(
-                error(
-                    "RG051",
-                    span_of(element),
-                    f"two {element.tag}s are called '{own}'",
-                    label="second time",
-                )
+            yield error(
+                "RG051",
+                span_of(element),
+                f"two {element.tag}s are called '{own}'",
+                label="second time",
             )
         seen[element.tag, own] = 1
         if element.tag == "joint":
-            found += _joint_structure(element, own, span_of)
+            yield from _joint_structure(element, own, span_of)
     if not any(tag == "joint" for tag, _ in seen):
-        found.append(
-            error(
-                "RG031",
-                span_of(root),
-                f"{name} is an empty robot: it has no joints",
-                "give the top-level file of the description",
-            )
+        yield error(
+            "RG031",
+            span_of(root),
+            f"{name} is an empty robot: it has no joints",
+            "give the top-level file of the description",
         )
-    return found
 
 
-def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> list[Diagnostic]:
-    found: list[Diagnostic] = []
+def _joint_structure(element: "Element", name: str, span_of: "PlaceOf") -> Iterator[Diagnostic]:
     kind = element.get("type")
     if kind not in KINDS:
-        found.append(
-            error(
-                "RG053",
-                span_of(element),
-                f"joint '{name}' has the unknown type '{kind}'",
-                f"a joint is {', '.join(KINDS[:4])}",
-            )
+        yield error(
+            "RG053",
+            span_of(element),
+            f"joint '{name}' has the unknown type '{kind}'",
+            f"a joint is {', '.join(KINDS[:4])}",
         )
     for part in ("parent", "child"):
         inner = element.find(part)
         if inner is None or not inner.get("link"):
-            found.append(error("RG053", span_of(element), f"joint '{name}' has no {part} link"))
+            yield error("RG053", span_of(element), f"joint '{name}' has no {part} link")
     mimic = element.find("mimic")
     if mimic is not None and not mimic.get("joint"):
-        found.append(error("RG042", span_of(element), f"joint '{name}' mimics no joint"))
+        yield error("RG042", span_of(element), f"joint '{name}' mimics no joint")
     for part, attributes in (*_NUMBERS.items(), *_VECTORS.items()):
         inner = element.find(part)
         for attribute in attributes if inner is not None else ():
             text = inner.get(attribute)
             wanted = 1 if part in _NUMBERS else 3
             if text is not None and not _is_numbers(text, wanted):
-                found.append(
-                    error(
-                        "RG053",
-                        span_of(inner),
-                        f"joint '{name}': {part} {attribute}=\"{text}\" is not "
-                        + ("a finite number" if wanted == 1 else "three finite numbers"),
-                        "write a decimal point, not a comma" if "," in text else "",
-                    )
+                yield error(
+                    "RG053",
+                    span_of(inner),
+                    f"joint '{name}': {part} {attribute}=\"{text}\" is not "
+                    + ("a finite number" if wanted == 1 else "three finite numbers"),
+                    "write a decimal point, not a comma" if "," in text else "",
                 )
-    return found
 
 
 def _is_numbers(text: str, count: int) -> bool:
