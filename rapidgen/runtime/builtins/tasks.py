@@ -1,6 +1,7 @@
 """What a task may ask about itself, the others and the controller."""
 
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
@@ -73,7 +74,7 @@ def get_mec_unit_name(task: Task, unit: Value) -> str:
     return str(unit.value or "")
 
 
-def _task(task: Task, reference: Value, name: str | None) -> Task:
+def _task(task: Task, reference: Value, name: str | None) -> RapidTask:
     wanted = name if name is not None else str(reference.value or "")
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() == wanted.lower():
