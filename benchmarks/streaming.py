@@ -121,12 +121,12 @@ def socket_calls(config: RobotConfig, count: int = 1200) -> float:
     calls = [0]
 
     def traced(task, routine, node):
-        if task.name == "T_ROS_RECV" and routine.name.lower() in SOCKETS:
+        if task == "T_ROS_RECV" and routine.name.lower() in SOCKETS:
             calls[0] += node is routine.node.body[0]
 
     client = bench.motion()
     bench.run(0.5)
-    bench.controller.tracers.append(traced)
+    bench.controller.statements.tracers.append(traced)
     for _ in feed(bench, client, count):
         bench.run(0.5)
     bench.close()

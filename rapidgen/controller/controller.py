@@ -35,7 +35,6 @@ from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
-from rapidgen.runtime.loading import ModuleTable
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.statements import Statements
@@ -144,7 +143,6 @@ class VirtualController:
         self.files = FileSystem(folder, home=system.home)
         self.operator = Operator(self.scheduler, answers)
         self.texts = TextTables()
-        self.modules = ModuleTable()
         self.statements = Statements()
         self.queues = QueueSystem(system.tasks)
         self.test_signals: dict[int, float] = {}
@@ -418,7 +416,8 @@ class VirtualController:
         self, task: str, module: str, line: int, count: int, action: Callable[[], None]
     ) -> None:
         """Call `action` when a statement is reached for the `count`-th time."""
-        self.statements.before(self.rapid_tasks, task, module, line, count, action)
+        programs = (own.program for own in self.rapid_tasks.values())
+        self.statements.before(programs, task, module, line, count, action)
 
     # -- real time -------------------------------------------------------------------------------
 

@@ -1,12 +1,12 @@
 """Modes, motors, emergency stop, and what starts and stops the tasks of a controller."""
 
 from collections.abc import Callable, Iterator, Mapping
-from typing import Literal, TypeAlias, get_args
+from typing import Literal, Protocol, TypeAlias, get_args
 
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.host import Host
+from rapidgen.runtime.host import Host, RapidTask
 from rapidgen.runtime.task.event_routines import StopEvent
 from rapidgen.runtime.task.pointer import CannotStep
 from rapidgen.runtime.task.task import Task
@@ -15,10 +15,18 @@ OperatingMode: TypeAlias = Literal["auto", "manual_reduced", "manual_full"]
 _REFUSED = 10_126
 
 
+class Tasks(Host, Protocol):
+    """A controller whose tasks are started and stopped."""
+
+    @property
+    def rapid_tasks(self) -> Mapping[str, Task]:
+        """All tasks by name."""
+
+
 class Operation:
     """State of one controller as a whole, and what its changes do to tasks and robots."""
 
-    def __init__(self, host: Host) -> None:
+    def __init__(self, host: Tasks) -> None:
         self._host = host
         self.mode: OperatingMode = "auto"
         self.motors_on = True
@@ -221,7 +229,7 @@ class Operation:
         """The state of a task changed."""
         self.changed.notify()
 
-    def task_failed(self, task: Task, fatal: FatalError) -> None:
+    def task_failed(self, task: RapidTask, fatal: FatalError) -> None:
         """A task stopped with an error: log, and what its trust level says [S4 overview 4-45]."""
         log = self._host.log
         place = str(fatal.stack[-1]) if fatal.stack else ""
@@ -248,13 +256,13 @@ class Operation:
                 self.motors_on = False
                 log.error(10_010, "Motors OFF state")
 
-    def program_stopped(self, task: Task) -> None:
+    def program_stopped(self, task: RapidTask) -> None:
         """Stop or Break in a task: the other NORMAL tasks stop, too."""
         self._host.log.info(10_122, "Program stopped", task=task.name)
         if task.spec.type == "NORMAL":
             self._stop_others(task)
 
-    def _stop_others(self, task: Task) -> None:
+    def _stop_others(self, task: RapidTask) -> None:
         for other in self._normal():
             if other is not task:
                 other.stop()

@@ -8,7 +8,6 @@ from rapidgen.controller.controller import VirtualController
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
-from rapidgen.runtime.task.task import Task
 
 STATEMENTS = (
     n.Assignment,
@@ -38,14 +37,14 @@ class Trace:
         self._scheduler = controller.scheduler
         controller.statements.tracers.append(self._statement)
 
-    def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
+    def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         module = routine.module
         assert module is not None
         source = module.tree.source
         line = source.line(node.first)
         text = " ".join(source.tokens[node.first : min(node.last, node.first + 12) + 1])
         self._stream.write(
-            f"{self._scheduler.now * 1e-9:12.6f} {task.name} {module.name}:{line} {text[:80]}\n"
+            f"{self._scheduler.now * 1e-9:12.6f} {task} {module.name}:{line} {text[:80]}\n"
         )
 
 
@@ -59,14 +58,14 @@ class Profile:
         self.passes: Counter[tuple[str, str, str, int]] = Counter()
         controller.statements.tracers.append(self._statement)
 
-    def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
+    def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         module = routine.module
         assert module is not None
         now = self._scheduler.now
-        self._finish(task.name, now)
-        key = (task.name, module.name, routine.name, module.tree.source.line(node.first))
+        self._finish(task, now)
+        key = (task, module.name, routine.name, module.tree.source.line(node.first))
         self.passes[key] += 1
-        self._open[task.name] = (key, now)
+        self._open[task] = (key, now)
 
     def _finish(self, task: str, now: int) -> None:
         before = self._open.pop(task, None)
@@ -99,7 +98,7 @@ class Coverage:
         self._hits: Counter[int] = Counter()
         controller.statements.tracers.append(self._statement)
 
-    def _statement(self, task: Task, routine: Routine, node: n.Statement) -> None:
+    def _statement(self, task: str, routine: Routine, node: n.Statement) -> None:
         self._hits[id(node)] += 1
 
     def lines(self) -> dict[str, dict[int, int]]:

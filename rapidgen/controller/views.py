@@ -6,7 +6,8 @@ from rapidgen.controller.operation import Operation
 from rapidgen.machine.io import IOSystem
 from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import FatalError, Location
-from rapidgen.runtime.task.task import Task, TaskState
+from rapidgen.runtime.host import TaskState
+from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Type, Value
 
 

@@ -1,7 +1,8 @@
-"""What a task and the built-ins may ask of the controller that runs them."""
+"""What tasks and built-ins may ask of their controller, and what is asked of a task in turn."""
 
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal, Protocol
+from types import FrameType
+from typing import Literal, Protocol, TypeAlias
 
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
@@ -11,21 +12,22 @@ from rapidgen.machine.meetings import Meetings
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
+from rapidgen.machine.scheduler import Scheduler
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
+from rapidgen.motion.group import Waiter
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
-from rapidgen.runtime.errors import FatalError
+from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.system.model import ModuleFile, System
+from rapidgen.runtime.task.statements import Statements
+from rapidgen.system.model import ModuleFile, System, TaskSpec
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.loading import ModuleTable
-    from rapidgen.runtime.task.statements import Statements
-    from rapidgen.runtime.task.task import Task
+TaskState: TypeAlias = Literal["ready", "running", "stopped", "finished", "error", "empty"]
 
 
 class TaskObserver(Protocol):
@@ -34,10 +36,10 @@ class TaskObserver(Protocol):
     def task_changed(self) -> None:
         """The state of a task changed."""
 
-    def task_failed(self, task: "Task", fatal: FatalError) -> None:
+    def task_failed(self, task: "RapidTask", fatal: FatalError) -> None:
         """A task stopped with an error."""
 
-    def program_stopped(self, task: "Task") -> None:
+    def program_stopped(self, task: "RapidTask") -> None:
         """Stop or Break in a task."""
 
     def step_moves(self) -> None:
@@ -76,11 +78,12 @@ class Host(Protocol):
     meetings: Meetings
 
     # What runs.
-    rapid_tasks: "dict[str, Task]"
-    modules: "ModuleTable"
-    """Modules that tasks have loaded themselves."""
-    statements: "Statements"
+    statements: Statements
     """Who wants to know of statements."""
+
+    @property
+    def rapid_tasks(self) -> "Mapping[str, RapidTask]":
+        """All tasks by name."""
 
     @property
     def log(self) -> EventLog:
@@ -112,3 +115,58 @@ class Host(Protocol):
 
     def power_loss(self) -> None:
         """Power goes and comes back."""
+
+
+class RapidTask(Waiter, Protocol):
+    """A `Task`, as its parts, its controller and other tasks know it."""
+
+    name: str
+    spec: TaskSpec
+    scheduler: Scheduler
+    controller: Host
+    program: Program
+    b: int
+    """What is left of the budget, ns."""
+    state: TaskState
+    fault: FatalError | None
+    cycles: int
+    held: bool
+    in_trap: bool
+    errno: int
+    intno: int
+
+    @property
+    def frame(self) -> FrameType | None:
+        """Innermost Python frame while it is suspended."""
+
+    @property
+    def leaving(self) -> bool:
+        """Whether routines are still being left for PP to main."""
+
+    @property
+    def stands(self) -> bool:
+        """Whether the program is stopped."""
+
+    def stack(self) -> tuple[Location, ...]:
+        """Call stack, outermost first."""
+
+    def charge(self, cost: int) -> None:
+        """Spend `cost` nanoseconds of CPU."""
+
+    def kick(self) -> None:
+        """Let `attend()` be called before the next statement."""
+
+    def attend(self) -> None:
+        """Obey, stand, serve traps, as is due."""
+
+    def order(self, order: BaseException) -> None:
+        """Leave what is being executed by raising `order` in it."""
+
+    def obey(self) -> None:
+        """Raise what was ordered."""
+
+    def enter(self, state: TaskState) -> None:
+        """Change the state, and tell the controller."""
+
+    def stand(self) -> None:
+        """Stand here until the program is started again."""

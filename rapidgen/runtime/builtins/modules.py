@@ -1,10 +1,11 @@
 """Load to ModTime: modules at run time. See `loading.py` for sources."""
 
 from rapidgen.rapid.numbers import single
+from rapidgen.runtime import loading
 from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.loading import words_of
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, register_type
@@ -30,9 +31,7 @@ register_type("loadsession", LoadSession)
 @builtin("Load", cost="socket")
 def load(task: Task, dynamic: bool | None, path: str, file: str | None, check: bool | None) -> None:
     """Load a module and link it."""
-    task.controller.modules.load(
-        task, words_of(path, file), dynamic=bool(dynamic), check=bool(check)
-    )
+    loading.load(task, loading.words_of(path, file), dynamic=bool(dynamic), check=bool(check))
 
 
 @builtin("UnLoad", cost="socket")
@@ -40,7 +39,7 @@ def unload(
     task: Task, _if_changed: bool | None, save: bool | None, path: str, file: str | None
 ) -> None:
     """Unload what the same words have loaded."""
-    task.controller.modules.unload(task, words_of(path, file), save=bool(save))
+    loading.unload(task, loading.words_of(path, file), save_first=bool(save))
 
 
 @builtin("StartLoad", cost="socket")
@@ -50,7 +49,7 @@ def start_load(
     """Order a module; whether its file exists only WaitLoad says [S4 WaitLoad]."""
     if session.words is not None:
         raise RapidError("ERR_LOADNO_INUSE")
-    session.words = words_of(path, file)
+    session.words = loading.words_of(path, file)
     session.dynamic = bool(dynamic)
     try:
         size = file_path(task, session.words).stat().st_size
@@ -72,10 +71,9 @@ def wait_load(
         raise RapidError("ERR_LOADNO_NOUSE")
     task.sleep(max(0, session.ready_at - task.scheduler.now) / 1e9)
     words, session.words = session.words, None
-    modules = task.controller.modules
     if unload_path is not None:
-        modules.unload(task, words_of(unload_path, unload_file))
-    modules.load(task, words, dynamic=session.dynamic, check=bool(check))
+        loading.unload(task, loading.words_of(unload_path, unload_file))
+    loading.load(task, words, dynamic=session.dynamic, check=bool(check))
 
 
 @builtin("CancelLoad", cost="socket")
@@ -97,13 +95,13 @@ def save(
 ) -> None:
     """Save a module, of this task or another, with the present values of its persistents."""
     owner = task_named(task, reference, name)
-    task.controller.modules.save(owner, module, words_of(path or "", file))
+    loading.save(owner, module, loading.words_of(path or "", file))
 
 
 @builtin("EraseModule", cost="socket")
 def erase_module(task: Task, module: str) -> None:
     """Remove a module from the program."""
-    task.controller.modules.erase(task, module)
+    loading.erase(task, module)
 
 
 @builtin("ModExist", cost="string")
@@ -115,7 +113,7 @@ def mod_exist(task: Task, module: str) -> bool:
 @builtin("ModTime", cost="string")
 def mod_time(task: Task, module: str, digits: Ref | None) -> float:
     """Time of a module's file; a num resolves 128 s today, \\StrDig every one."""
-    seconds = task.controller.modules.time(task, module)
+    seconds = loading.time(task, module)
     if digits is not None:
         digits.set(str(seconds))
     return single(seconds)
@@ -129,13 +127,12 @@ def check_prog_ref(task: Task) -> None:
         raise RapidError("ERR_LINKREF", missing[0].message)
 
 
-def task_named(task: Task, reference: object, name: str | None) -> Task:
+def task_named(task: Task, reference: object, name: str | None) -> RapidTask:
     """The task of \\TaskRef or \\TaskName, else this one; ERR_TASKNAME: there is none."""
     wanted = name if reference is None else getattr(reference, "value", None)
     if wanted is None:
         return task
     for known, other in task.controller.rapid_tasks.items():
         if known.lower() == str(wanted).lower():
-            found: Task = other
-            return found
+            return other
     raise RapidError("ERR_TASKNAME", str(wanted))

@@ -16,6 +16,7 @@ from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import frame
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Box, PersistentCell, Ref, copy_value, register_type
@@ -39,7 +40,7 @@ register_type("datapos", DataPosition)
 
 
 def _data_ref(
-    task: Task, module: LoadedModule | None, name: str
+    task: RapidTask, module: LoadedModule | None, name: str
 ) -> tuple[Data, Ref | PersistentCell]:
     """Data of a task by name, or ERR_SYM_ACCESS."""
     program = task.program
@@ -123,7 +124,7 @@ def set_data_val(
 
 
 def _declared(
-    task: Task, type_: str, module: str, pattern: str
+    task: RapidTask, type_: str, module: str, pattern: str
 ) -> Iterator[tuple[LoadedModule, n.DataDeclaration, Data]]:
     """Module data of a type (all for an empty one) whose names fit a regular expression."""
     try:
@@ -185,13 +186,13 @@ def set_data_search(
     ]
     if not (in_task or in_module or local):
         found += [(None, data) for data in _predefined(task, type_, pattern or "", kinds)]
-    task.controller.modules.searches[task.name] = iter(found)
+    task.found = iter(found)
 
 
 @builtin("GetNextSym", cost="string")
 def get_next_sym(task: Task, name: Ref, block: DataPosition, _recursive: bool | None) -> bool:
     """The next find of the search; FALSE when there is none left."""
-    following = next(task.controller.modules.searches.get(task.name, iter(())), None)
+    following = next(task.found, None)
     if following is None:
         return False
     module, data = following
@@ -244,7 +245,7 @@ def get_sys_data(
         name.set(known or _ACTIVE[kind])
 
 
-def _name_of(task: Task, kind: str, value: object) -> str:
+def _name_of(task: RapidTask, kind: str, value: object) -> str:
     """Name of the persistent that holds a value: the very one, else one that is equal."""
     equal = ""
     for module, _, data in _declared(task, kind, "", ""):

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
@@ -39,7 +40,7 @@ def motion_planner_no(task: Task) -> int:
     return 0 if group is None else list(motion.groups.values()).index(group) + 1
 
 
-def _task(task: Task, reference: Value, name: str | None) -> Task:
+def _task(task: Task, reference: Value, name: str | None) -> RapidTask:
     wanted = name if name is not None else str(reference.value or "")
     for other in task.controller.rapid_tasks.values():
         if other.name.lower() == wanted.lower():

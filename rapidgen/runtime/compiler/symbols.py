@@ -103,6 +103,15 @@ class Routine:
         self.by_name = {p.name.lower(): i for i, p in enumerate(self.parameters)}
 
 
+@dataclass(frozen=True, slots=True)
+class Origin:
+    """How a module came that the program loaded itself; the words of the Load are its path."""
+
+    dynamic: bool
+    seconds: int
+    """Time of the file, since 1970."""
+
+
 @dataclass(slots=True, eq=False)
 class LoadedModule:
     """A module in a task."""
@@ -115,6 +124,8 @@ class LoadedModule:
     """Its own, by lower-case name."""
     types: dict[str, Type | None] = field(default_factory=dict)
     """What names of types mean here, as far as it was asked."""
+    origin: Origin | None = None
+    """None: it belongs to the configuration."""
 
     @property
     def name(self) -> str:

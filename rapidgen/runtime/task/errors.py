@@ -3,7 +3,7 @@
 import sys
 from collections.abc import Callable
 from types import FrameType, TracebackType
-from typing import TYPE_CHECKING, NoReturn
+from typing import NoReturn
 
 from greenlet import GreenletExit
 
@@ -20,10 +20,8 @@ from rapidgen.runtime.errors import (
     error_name,
     python_error,
 )
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.task.call_stack import outwards, stack_of_error
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
 RETRY, TRYNEXT, RETURN, RAISE = 0, 1, 2, 3
 RETRIES = 4
@@ -36,7 +34,7 @@ Listed = Callable[[], tuple[float, ...]]
 class Errors:
     """Deals with the errors of one task. Compiled code calls `handle`, `undo` and what RAISE is."""
 
-    def __init__(self, task: "Task") -> None:
+    def __init__(self, task: RapidTask) -> None:
         self._task = task
         self._switches = task.controller.dialect
         self.retry_number = 0
@@ -50,6 +48,8 @@ class Errors:
         fatal = self._switches.argument_error == "fatal"
         self._fatal_number = errnum("ERR_ARGVALERR") if fatal else None
         self._instead: RapidError | None = None
+        self.kept_undo: list[Handler] = []
+        """Of routines that an error left while the program can go on there."""
 
     # -- handlers --------------------------------------------------------------------------------
 
@@ -306,15 +306,14 @@ class Errors:
         """Run UNDO when the routine is aborted, not when an error only passes to its caller."""
         if isinstance(leaving, GreenletExit | PointerMoved) or self.undo_failed:
             return
-        pointer = self._task.pointer
         if isinstance(leaving, RECOVERABLE):
             known = as_rapid_error(leaving)
             frame = sys._getframe(1)
             if known.target is None and self._has_handler_above(frame):
                 return
-            if known.target is None and pointer.keep_undo(handler):
+            if known.target is None and self._keep_undo(handler):
                 return
-        elif isinstance(leaving, FatalError) and pointer.keep_undo(handler):
+        elif isinstance(leaving, FatalError) and self._keep_undo(handler):
             return
         self.undo_level += 1
         try:
@@ -333,8 +332,20 @@ class Errors:
         finally:
             self.undo_level -= 1
 
-    def undo_late(self, handlers: list[Handler]) -> None:
+    @property
+    def tried_again(self) -> bool:
+        """Whether a start after an error tries the faulty statement again."""
+        return self._switches.after_error == "statement" and self._task.spec.type == "NORMAL"
+
+    def _keep_undo(self, handler: Handler) -> bool:
+        """Leave an UNDO handler for later: the error that leaves its routine stops the program."""
+        if self.tried_again:
+            self.kept_undo.append(handler)
+        return self.tried_again
+
+    def undo_late(self) -> None:
         """UNDO handlers that were kept while the program could go on where it was."""
+        handlers, self.kept_undo = self.kept_undo, []
         for handler in handlers:
             self.undo_level += 1
             try:
@@ -348,6 +359,7 @@ class Errors:
                     break
             finally:
                 self.undo_level -= 1
+        self.kept_undo = []
 
     def undo_ended(self, error: FatalError) -> None:
         """Tell of an error in an UNDO handler that stops nothing."""

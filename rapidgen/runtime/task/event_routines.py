@@ -4,13 +4,12 @@ They run at user level: interrupts wait, and errors are nobody's but their own.
 """
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import EventStopped
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.task.errors import Errors
 
 EventName: TypeAlias = Literal["POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP"]
 StopEvent: TypeAlias = Literal["STOP", "QSTOP", ""]
@@ -23,8 +22,9 @@ AT_RESTART: frozenset[EventName] = frozenset({"RESTART", "STEP"})
 class EventRoutines:
     """Which routines of one task are due, and their execution."""
 
-    def __init__(self, task: "Task") -> None:
+    def __init__(self, task: RapidTask, errors: Errors) -> None:
         self._task = task
+        self._errors = errors
         self.due: list[EventName] = []
         """Events whose routines are to be executed, in order."""
         self.service: list[Routine] = []
@@ -58,7 +58,7 @@ class EventRoutines:
         """Execute a routine at user level."""
         outer, self.running = self.running, event
         try:
-            self._task.errors.at_level(routine)
+            self._errors.at_level(routine)
         except EventStopped:
             pass
         finally:

@@ -7,15 +7,13 @@ a wait. While a trap runs, or between IDisable and IEnable, events queue, first 
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from rapidgen.machine.log import Event
 from rapidgen.runtime.compiler.symbols import Routine
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.task.errors import Errors
 from rapidgen.runtime.task.process_errors import ProcessError
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
 LARGEST_QUEUE = 30
 """Queued interrupts of a task; one more stops it [S4 datasys 1-intnum-2]."""
@@ -40,8 +38,9 @@ class Interrupt:
 class Interrupts:
     """Numbers, orders and queue of one task."""
 
-    def __init__(self, task: "Task") -> None:
-        self.task = task
+    def __init__(self, task: RapidTask, errors: Errors) -> None:
+        self._task = task
+        self._errors = errors
         self.connected: dict[int, Interrupt] = {}
         self.queue: deque[tuple[Interrupt, Event | None]] = deque()
         """Events whose delay has passed."""
@@ -60,7 +59,7 @@ class Interrupts:
         """CONNECT: a fresh number; ERR_ALRDYCNT while `current` is connected [K §4.12]."""
         if current in self.connected:
             raise RapidError("ERR_ALRDYCNT")
-        limited = self.task.controller.dialect.interrupts_limited
+        limited = self._task.controller.dialect.interrupts_limited
         if limited and len(self.connected) >= LARGEST_NUMBER:
             raise RapidError("ERR_INOMAX")
         number = self._next
@@ -113,7 +112,7 @@ class Interrupts:
 
     def happen(self, interrupt: Interrupt, data: Event | None = None) -> None:
         """The event of an interrupt has come."""
-        task = self.task
+        task = self._task
         if interrupt.asleep or self.connected.get(interrupt.number) is not interrupt:
             return
         if task.stands and not interrupt.safe:
@@ -145,13 +144,13 @@ class Interrupts:
 
     def serve(self) -> None:
         """Execute the traps of what has come."""
-        task = self.task
+        task = self._task
         while self.queue and not self.disabled:
             interrupt, self.trap_data = self.queue.popleft()
             task.in_trap = True
             task.intno = interrupt.number
             try:
-                task.errors.at_level(task.program.function(interrupt.trap))
+                self._errors.at_level(task.program.function(interrupt.trap))
             finally:
                 task.in_trap = False
                 self.trap_data = None

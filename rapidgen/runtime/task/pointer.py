@@ -9,7 +9,7 @@ UNDO handlers run when the program pointer is moved.
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from types import FrameType
-from typing import TYPE_CHECKING, ParamSpec, TypeVar
+from typing import ParamSpec, TypeVar
 
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import CodeRole
@@ -17,13 +17,11 @@ from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import FatalError, Location
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.task.call_stack import frames_of, outwards
-from rapidgen.runtime.task.errors import Handler
+from rapidgen.runtime.task.errors import Errors
 from rapidgen.runtime.task.event_routines import EventRoutines
 from rapidgen.runtime.task.interrupts import Interrupts
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
 LARGEST_STACK = 100
 """Routines inside each other that are kept."""
@@ -69,35 +67,22 @@ def standing(program: Program, frames: Iterable[tuple[FrameType, int]]) -> list[
 class Pointer:
     """The program pointer of one task."""
 
-    def __init__(self, task: "Task") -> None:
+    def __init__(self, task: RapidTask, errors: Errors) -> None:
         self._task = task
+        self._errors = errors
         self.place: list[Standing] | None = None
         """Where an error stopped the program; None: it starts from main only."""
         self._below: list[tuple[Standing, Callable[[dict[str, object]], object]]] = []
         self._intercepted: tuple[str, object] | None = None
-        self._kept_undo: list[Handler] = []
 
     # -- keeping the place -----------------------------------------------------------------------
-
-    @property
-    def _keeps(self) -> bool:
-        """Whether a start after an error tries the faulty statement again."""
-        task = self._task
-        return task.controller.dialect.after_error == "statement" and task.spec.type == "NORMAL"
-
-    def keep_undo(self, handler: Handler) -> bool:
-        """Leave an UNDO handler for later: the error that leaves its routine stops the program."""
-        if not self._keeps:
-            return False
-        self._kept_undo.append(handler)
-        return True
 
     def keep(self, fatal: FatalError, raised: BaseException) -> None:
         """Remember where an error stopped the program, or leave all its routines for good."""
         self.not_below()
         self._below = []
         self.place = None
-        if self._keeps and fatal.restartable:
+        if self._errors.tried_again and fatal.restartable:
             self.place = standing(self._task.program, frames_of(raised.__traceback__))
         if self.place is None:
             self.leave()
@@ -105,9 +90,7 @@ class Pointer:
     def leave(self) -> None:
         """The program pointer is moved: UNDO handlers of the routines, the innermost first."""
         self.place = None
-        handlers, self._kept_undo = self._kept_undo, []
-        self._task.errors.undo_late(handlers)
-        self._kept_undo = []
+        self._errors.undo_late()
 
     # -- where it stands -------------------------------------------------------------------------
 
@@ -158,7 +141,7 @@ class Pointer:
 
     def go_on(self, places: Sequence[Standing]) -> None:
         """Try the statement again where the program stands. CannotCompile: not from there."""
-        self._kept_undo = []
+        self._errors.kept_undo = []
         last = len(places) - 1
         rest = self._task.program.rest
         rests = [(p, rest(p, calls=i < last)) for i, p in enumerate(places)]

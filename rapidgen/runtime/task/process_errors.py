@@ -10,14 +10,11 @@ import sys
 from collections.abc import Sequence
 from dataclasses import dataclass
 from types import CodeType, FrameType
-from typing import TYPE_CHECKING
 
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import bound
 from rapidgen.runtime.task.call_stack import outwards
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +24,7 @@ class ProcessError:
     number: int
     owner: tuple[str, str] | None = None
 
-    def due(self, task: "Task", outside: Sequence[CodeType]) -> RapidError | None:
+    def due(self, task: RapidTask, outside: Sequence[CodeType]) -> RapidError | None:
         """The error where it is to be raised now; None: not yet.
 
         Between two statements, in functions that compiled code calls `outside` of any, nobody
@@ -41,7 +38,7 @@ class ProcessError:
         return None if between and error.target in (None, frames[0]) else error
 
 
-def _frames(task: "Task", outside: Sequence[CodeType]) -> tuple[list[FrameType], bool]:
+def _frames(task: RapidTask, outside: Sequence[CodeType]) -> tuple[list[FrameType], bool]:
     """Frames of RAPID routines, innermost first; whether the innermost is between statements."""
     found: list[FrameType] = []
     between = False
@@ -54,7 +51,7 @@ def _frames(task: "Task", outside: Sequence[CodeType]) -> tuple[list[FrameType],
     return found, between
 
 
-def _at_move(task: "Task", frames: list[FrameType]) -> bool:
+def _at_move(task: RapidTask, frames: list[FrameType]) -> bool:
     """Whether the statement that is being executed is a move instruction."""
     for frame in frames[:1]:
         compiled = task.program.codes[frame.f_code.co_filename]
@@ -65,7 +62,7 @@ def _at_move(task: "Task", frames: list[FrameType]) -> bool:
     return False
 
 
-def _frame_of(task: "Task", frames: list[FrameType], owner: tuple[str, str]) -> FrameType | None:
+def _frame_of(task: RapidTask, frames: list[FrameType], owner: tuple[str, str]) -> FrameType | None:
     """The innermost frame with a handler, from the owner's one on; None: the owner is gone."""
     inside = False
     for frame in frames:

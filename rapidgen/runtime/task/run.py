@@ -1,54 +1,61 @@
 """What the greenlet of a task executes: cycles of the program, event routines, ways out."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 from rapidgen.runtime.compiler.resume import Standing
 from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, ExitCycle, FatalError, PointerMoved
+from rapidgen.runtime.host import RapidTask
+from rapidgen.runtime.loading import drop_dynamic
 from rapidgen.runtime.task.call_stack import stack_of_error
-from rapidgen.runtime.task.event_routines import WHILE_STOPPED
-from rapidgen.runtime.task.pointer import CannotStep
+from rapidgen.runtime.task.errors import Errors
+from rapidgen.runtime.task.event_routines import WHILE_STOPPED, EventRoutines
+from rapidgen.runtime.task.interrupts import Interrupts
+from rapidgen.runtime.task.pointer import CannotStep, Pointer
+from rapidgen.runtime.task.stepping import Stepper
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
 
-
+@dataclass(slots=True, eq=False)
 class Run:
     """Runs one task from a launch until nothing of it is to be executed any more."""
 
-    def __init__(self, task: "Task") -> None:
-        self._task = task
-        self.fresh = True
-        """PP was set to main: variables are to be initialised."""
-        self.routine: Routine | None = None
-        """Where PP was set instead of main."""
-        self.start_asked = False
-        """A start came while routines were still being left for PP to main."""
+    task: RapidTask
+    errors: Errors
+    interrupts: Interrupts
+    pointer: Pointer
+    stepper: Stepper
+    events: EventRoutines
+    fresh: bool = True
+    """PP was set to main: variables are to be initialised."""
+    routine: Routine | None = None
+    """Where PP was set instead of main."""
+    start_asked: bool = False
+    """A start came while routines were still being left for PP to main."""
 
     def body(self) -> None:
         """The greenlet of one run."""
-        task = self._task
-        step = self._begin if task.pointer.place is None else self._again
-        if task.events.service and task.state != "running":
+        task = self.task
+        step = self._begin if self.pointer.place is None else self._again
+        if self.events.service and task.state != "running":
             step = self._serve
         # Whoever hears of a state may start the task again at once.
         while self._guarded(step) or task.state == "running":
-            step = self._cycle if task.pointer.place is None else self._again
+            step = self._cycle if self.pointer.place is None else self._again
 
     def _serve(self) -> bool:
         """What is due in a program that stands, and of which nothing is being executed."""
-        self._task.events.run_while_stopped()
+        self.events.run_while_stopped()
         return False
 
     def _begin(self) -> bool:
         """What is due without a start: UNDO after PP to main, routines of POWER_ON."""
-        task = self._task
+        task = self.task
         # PP to main may have come before the first statement.
         task.obey()
-        task.pointer.leave()
+        self.pointer.leave()
         self._prepare()
-        task.events.run(WHILE_STOPPED)
+        self.events.run(WHILE_STOPPED)
         return task.state in ("running", "stopped")
 
     def _prepare(self) -> None:
@@ -60,12 +67,12 @@ class Run:
         if not self.fresh:
             return
         self.fresh = False
-        task = self._task
+        task = self.task
         task.program.reset_variables()
-        task.interrupts.clear()
+        self.interrupts.clear()
         task.errno = task.intno = 0
         controller = task.controller
-        controller.modules.drop_dynamic(task)
+        drop_dynamic(task)
         controller.sockets.close_task(task.name)
         controller.files.close_task(task.name)
         group = controller.motion.moved_by(task.name)
@@ -74,12 +81,12 @@ class Run:
 
     def _cycle(self) -> bool:
         """One pass of the entry routine; whether another one follows at once."""
-        task = self._task
-        task.errors.undo_failed = False
+        task = self.task
+        self.errors.undo_failed = False
         self._prepare()
         task.attend()
         task.charge(task.controller.costs.statement)
-        task.events.run()
+        self.events.run()
         entry = self.routine or task.program.find_routine(None, task.spec.entry.lower())
         assert isinstance(entry, Routine)
         task.program.function(entry)()
@@ -87,17 +94,17 @@ class Run:
 
     def _again(self) -> bool:
         """Go on where an error stopped the program."""
-        task = self._task
-        task.errors.undo_failed = False
+        task = self.task
+        self.errors.undo_failed = False
         task.attend()
-        places, task.pointer.place = task.pointer.place, None
+        places, self.pointer.place = self.pointer.place, None
         assert places is not None
         task.charge(task.controller.costs.statement)
-        task.events.run()
-        if task.stepper.back_asked:
+        self.events.run()
+        if self.stepper.back_asked:
             return self._back(places)
         try:
-            task.pointer.go_on(places)
+            self.pointer.go_on(places)
         except CannotCompile as error:
             raise FatalError(
                 40_001, "Program pointer is lost", f"{error}: PP to main", restartable=False
@@ -106,20 +113,20 @@ class Run:
 
     def _back(self, places: list[Standing]) -> bool:
         """Execute the statement before backward; the program then stands before it."""
-        task, stepper = self._task, self._task.stepper
+        task, stepper = self.task, self.stepper
         stepper.back_asked = False
         stepper.forward = None
         stepper.going_back = True
         try:
-            task.pointer.place = stepper.step_back(places)
+            self.pointer.place = stepper.step_back(places)
         except CannotStep as reason:
-            task.pointer.place = places
+            self.pointer.place = places
             task.controller.log.warning(
                 40_700, "Backward step is not possible", str(reason), task=task.name
             )
         except FatalError as fatal:
             self._fail(fatal, fatal)
-            task.pointer.place = places
+            self.pointer.place = places
             return False
         finally:
             stepper.going_back = False
@@ -136,20 +143,20 @@ class Run:
         except EndOfRun:
             return self._over()
         except PointerMoved:
-            return self._task.state == "running"
+            return self.task.state == "running"
         except FatalError as fatal:
             self._fail(fatal, fatal)
         except RECOVERABLE as error:
-            self._fail(self._task.errors.unhandled(error), error)
+            self._fail(self.errors.unhandled(error), error)
         except RecursionError as error:
             self._fail(FatalError(40027, "Stack overflow"), error)
         return False
 
     def _next_cycle(self) -> bool:
-        task = self._task
+        task = self.task
         task.cycles += 1
         if task.controller.dialect.cycle_resets_interrupts:
-            task.interrupts.clear()
+            self.interrupts.clear()
         if task.controller.cycle == "forever" and self.routine is None:
             return True
         self.routine = None
@@ -158,12 +165,12 @@ class Run:
 
     def _over(self) -> bool:
         """EXIT, or everything was left for PP to main: then a start may have come meanwhile."""
-        task = self._task
+        task = self.task
         if not self.fresh:
             task.enter("finished")
         elif self.start_asked:
             self.start_asked = False
-            task.events.due.append("START")
+            self.events.due.append("START")
             task.enter("running")
             return True
         else:
@@ -171,15 +178,15 @@ class Run:
         return False
 
     def _fail(self, fatal: FatalError, raised: BaseException) -> None:
-        task = self._task
+        task = self.task
         if not fatal.stack:
             fatal.stack = stack_of_error(task.program.codes, raised)
         task.fault = fatal
-        task.pointer.keep(fatal, raised)
-        if task.pointer.place is None:
-            task.interrupts.clear()
+        self.pointer.keep(fatal, raised)
+        if self.pointer.place is None:
+            self.interrupts.clear()
         task.controller.operation.task_failed(task, fatal)
         task.enter("error")
-        if task.controller.dialect.fault_routines and not task.events.while_stopped:
-            task.events.due.append("STOP")
+        if task.controller.dialect.fault_routines and not self.events.while_stopped:
+            self.events.due.append("STOP")
             self._guarded(self._serve)

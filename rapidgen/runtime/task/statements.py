@@ -1,16 +1,15 @@
-"""Who wants to know of statements before they are executed: tracers, faults, steps."""
+"""Who wants to know of statements before they are executed: tracers and faults."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
-
-Tracer: TypeAlias = "Callable[[Task, Routine, n.Statement], None]"
+Tracer: TypeAlias = Callable[[str, Routine, n.Statement], None]
+"""Is told a task's name, its routine, and the statement."""
 
 
 @dataclass(slots=True)
@@ -27,37 +26,30 @@ class Statements:
 
     def __init__(self) -> None:
         self.tracers: list[Tracer] = []
-        self._breakpoints: dict[tuple[str, str, int], list[Breakpoint]] = {}
+        self.breakpoints: dict[tuple[str, str, int], list[Breakpoint]] = {}
 
     def before(
         self,
-        tasks: "Mapping[str, Task]",
+        programs: Iterable[Program],
         task: str,
         module: str,
         line: int,
         count: int,
         action: Callable[[], None],
     ) -> None:
-        """Call `action` when a statement of one of `tasks` is reached for the `count`-th time."""
+        """Let `action` be due when a statement of `task` is reached for the `count`-th time."""
         key = (task.lower(), module.lower(), line)
-        self._breakpoints.setdefault(key, []).append(Breakpoint(count, action))
-        for own in tasks.values():
-            if own.name.lower() == key[0]:
-                own.program.trace_from_now()
+        self.breakpoints.setdefault(key, []).append(Breakpoint(count, action))
+        for program in programs:
+            if program.name.lower() == key[0]:
+                program.trace_from_now()
 
-    def reached(self, task: "Task", point: int) -> None:
-        """A traced statement is about to be executed."""
-        routine, node = task.program.trace_points[point]
-        for tracer in self.tracers:
-            tracer(task, routine, node)
-        module = routine.module
-        if task.stepper.reached(module):
-            task.stepper.end()
-        if not self._breakpoints or module is None:
-            return
+    def due(
+        self, task: str, module: LoadedModule, node: n.Statement
+    ) -> Iterator[Callable[[], None]]:
+        """Actions that a statement brings which is about to be executed, one after the other."""
         line = module.tree.source.line(node.first)
-        for waiting in self._breakpoints.get((task.name.lower(), module.name.lower(), line), ()):
+        for waiting in self.breakpoints.get((task.lower(), module.name.lower(), line), ()):
             waiting.left -= 1
             if waiting.left == 0:
-                waiting.action()
-                task.attend()
+                yield waiting.action

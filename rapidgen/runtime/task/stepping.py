@@ -9,18 +9,17 @@ interrupts meanwhile.
 
 import sys
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.resume import Standing
 from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule
 from rapidgen.runtime.errors import Location
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.task.call_stack import outwards
 from rapidgen.runtime.task.driving_back import StepHistory
-from rapidgen.runtime.task.pointer import CannotStep
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.task.errors import Errors
+from rapidgen.runtime.task.event_routines import EventRoutines
+from rapidgen.runtime.task.pointer import CannotStep, Pointer
 
 
 @dataclass(slots=True)
@@ -35,20 +34,23 @@ class ForwardStep:
     """The same where it has come to."""
 
 
+@dataclass(slots=True, eq=False)
 class Stepper:
     """Steps one task."""
 
-    def __init__(self, task: "Task") -> None:
-        self._task = task
-        self.forward: ForwardStep | None = None
-        """What is under way."""
-        self.back_asked = False
-        """The step that begins goes back."""
-        self.going_back = False
-        self.at_point = -1
-        """Depth of the statement before which a step has ended; -1 elsewhere."""
-        self.history: StepHistory | None = None
-        """Of a motion task: the moves of its steps."""
+    task: RapidTask
+    errors: Errors
+    pointer: Pointer
+    events: EventRoutines
+    forward: ForwardStep | None = None
+    """What is under way."""
+    back_asked: bool = False
+    """The step that begins goes back."""
+    going_back: bool = False
+    at_point: int = -1
+    """Depth of the statement before which a step has ended; -1 elsewhere."""
+    history: StepHistory | None = None
+    """Of a motion task: the moves of its steps."""
 
     @property
     def active(self) -> bool:
@@ -64,7 +66,7 @@ class Stepper:
 
     def begin(self, over: bool, depth: int = -1) -> None:
         """A step begins, at a depth where that is known."""
-        task = self._task
+        task = self.task
         group = task.controller.motion.moved_by(task.name)
         if self.history is None and group is not None:
             self.history = StepHistory(group)
@@ -72,7 +74,7 @@ class Stepper:
             self.history.begin()
         task.program.trace_from_now()
         task.fault = None
-        task.events.due.append("STEP")
+        self.events.due.append("STEP")
         task.enter("running")
         self.forward = ForwardStep(over, depth)
 
@@ -81,8 +83,8 @@ class Stepper:
 
         Statements of NOSTEPIN modules are executed as a whole [S4 overview 4-8].
         """
-        step, task = self.forward, self._task
-        if step is None or task.events.running or task.in_trap:
+        step, task = self.forward, self.task
+        if step is None or self.events.running or task.in_trap:
             return False
         if module is not None and (module.installed or "NOSTEPIN" in module.tree.attributes):
             return False
@@ -93,12 +95,12 @@ class Stepper:
         return not step.over or depth <= step.depth
 
     def _depth(self) -> int:
-        codes = self._task.program.codes
+        codes = self.task.program.codes
         return sum(frame.f_code.co_filename in codes for frame in outwards(sys._getframe(2)))
 
     def end(self) -> None:
         """Stand before the statement that was reached; the robot stands, too."""
-        task = self._task
+        task = self.task
         assert self.forward is not None
         group = task.controller.motion.moved_by(task.name)
         if group is not None:
@@ -134,7 +136,7 @@ class Stepper:
         return [*places[:-1], before]
 
     def _call_back(self, call: n.ProcedureCall, before: Standing) -> None:
-        task = self._task
+        task = self.task
         program = task.program
         routine = program.find_routine(before.routine.module, call.name.lower())
         if routine is None or routine.node is None:
@@ -150,18 +152,18 @@ class Stepper:
             raise CannotStep(str(error)) from error
         if handler is not None:
             task.controller.operation.step_moves()
-        level = task.errors.at_level
-        task.pointer.intercept(routine, lambda *a, **k: level(lambda: function(*a, **k)))
+        level = self.errors.at_level
+        self.pointer.intercept(routine, lambda *a, **k: level(lambda: function(*a, **k)))
         try:
             once(before.values)
         finally:
-            task.pointer.not_below()
+            self.pointer.not_below()
         if handler is None:
             raise CannotStep(f"{call.name} has no BACKWARD handler")
 
     def _drive_back(self, call: n.ProcedureCall, before: Standing) -> None:
         """A move that was stepped is driven back (switch `moves_back`)."""
-        task = self._task
+        task = self.task
         module = before.routine.module
         assert module is not None
         if self.history is None or not task.controller.dialect.moves_back:

@@ -6,8 +6,7 @@ event routines, and the run, which is what its greenlet executes.
 """
 
 import sys
-from collections.abc import Callable, Iterable
-from typing import Literal, TypeAlias
+from collections.abc import Callable, Iterable, Iterator
 
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
@@ -16,9 +15,9 @@ from rapidgen.runtime import unsupported
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
+from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
-from rapidgen.runtime.host import Host
+from rapidgen.runtime.host import Host, TaskState
 from rapidgen.runtime.motion_faults import in_rapid
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.task import late_call
@@ -33,7 +32,6 @@ from rapidgen.runtime.task.stepping import Stepper
 from rapidgen.runtime.values import Value
 from rapidgen.system.model import TaskSpec
 
-TaskState: TypeAlias = Literal["ready", "running", "stopped", "finished", "error", "empty"]
 DEEPEST = 5_000
 """Python frames of a task; a deeper one is RAPID's stack overflow."""
 _NS = 1_000_000_000
@@ -70,15 +68,17 @@ class Task(Process):
         self.ret: Value = None
         """Value of RETURN in a handler."""
         self.waiting_for: Callable[[], bool] | None = None
+        self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
+        """What SetDataSearch has found and GetNextSym has not given yet."""
         self._order: BaseException | None = None
         self._holds = 0
 
-        self.errors = Errors(self)
-        self.interrupts = Interrupts(self)
-        self.pointer = Pointer(self)
-        self.stepper = Stepper(self)
-        self.events = EventRoutines(self)
-        self.run = Run(self)
+        self.errors = errors = Errors(self)
+        self.interrupts = Interrupts(self, errors)
+        self.pointer = Pointer(self, errors)
+        self.events = EventRoutines(self, errors)
+        self.stepper = Stepper(self, errors, self.pointer, self.events)
+        self.run = Run(self, errors, self.interrupts, self.pointer, self.stepper, self.events)
         # What compiled code calls: bound once, and without a frame of the task in between.
         self.handle = self.errors.handle
         self.undo = self.errors.undo
@@ -424,7 +424,16 @@ class Task(Process):
 
     def trace(self, point: int) -> None:
         """A statement is about to be executed."""
-        self.controller.statements.reached(self, point)
+        routine, node = self.program.trace_points[point]
+        module, statements = routine.module, self.controller.statements
+        for tracer in statements.tracers:
+            tracer(self.name, routine, node)
+        if self.stepper.reached(module):
+            self.stepper.end()
+        if statements.breakpoints and module is not None:
+            for action in statements.due(self.name, module, node):
+                action()
+                self.attend()
 
     def exit(self) -> None:
         """EXIT [K §4.9]."""

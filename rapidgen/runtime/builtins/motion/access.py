@@ -8,6 +8,7 @@ from types import FrameType
 from rapidgen.axes.kinematics import Kinematics
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.motion_faults import NO_MOTION_TASK, NO_UNIT, planned
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.task import Task
@@ -26,7 +27,7 @@ def here(task: Task) -> Callable[[], object] | None:
     return None
 
 
-def group_of(task: Task) -> MotionGroup:
+def group_of(task: RapidTask) -> MotionGroup:
     """The group that the task moves or is connected to. FatalError: there is none."""
     group = task.controller.motion.of_task(task.name)
     if group is None:
@@ -34,7 +35,7 @@ def group_of(task: Task) -> MotionGroup:
     return group
 
 
-def data_of(task: Task, group: MotionGroup) -> RobotData:
+def data_of(task: RapidTask, group: MotionGroup) -> RobotData:
     """What programs have set for a robot."""
     return task.controller.robot_data[group.name]
 

@@ -11,6 +11,7 @@ from rapidgen.machine.meetings import Meeting
 from rapidgen.runtime.builtins.control import wait_standing
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
+from rapidgen.runtime.host import RapidTask
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
@@ -81,7 +82,7 @@ def _partners(task: Task) -> frozenset[str]:
     return data_of(task, group_of(task)).partners
 
 
-def _synchronised(task: Task) -> bool:
+def _synchronised(task: RapidTask) -> bool:
     motion = task.controller.motion
     if not motion.is_motion_task(task.name):
         return False
