@@ -31,7 +31,7 @@ from rapidgen.generate import build, make_system
 from rapidgen.machine.costs import Costs
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame
-from rapidgen.proving.messages import POINT_BYTES, POINTS, Comm, PointsAccepted
+from rapidgen.proving.messages import POINT_BYTES, POINTS, RawComm, RawPointsAccepted
 from rapidgen.proving.settings import Setting
 from rapidgen.system.model import System
 from rapidgen.wire.simple_message.bulk import encode_points
@@ -69,10 +69,10 @@ def booted(config: RobotConfig, system: System | None = None, **setting) -> Benc
     return bench
 
 
-def reply(link: RawLink) -> PointsAccepted:
+def reply(link: RawLink) -> RawPointsAccepted:
     """The next acknowledgement."""
     told = link.reply(POINTS, 10)
-    assert isinstance(told, PointsAccepted), told
+    assert isinstance(told, RawPointsAccepted), told
     return told
 
 
@@ -80,7 +80,7 @@ def download(count: int, duration: float, joints: npt.NDArray) -> bytes:
     """Points of a wave, the last one a request."""
     rows = [tuple(row) for row in joints.tolist()]
     return b"".join(
-        point_frame(n, count, row, duration, Comm.REQUEST if n == count - 1 else Comm.TOPIC)
+        point_frame(n, count, row, duration, RawComm.REQUEST if n == count - 1 else RawComm.TOPIC)
         for n, row in enumerate(rows)
     )
 

@@ -176,8 +176,16 @@ class Kinematics:
     def _robot_angles(self, values: Posture) -> Angles:
         assert self._arm is not None
         _, _, signs, places = self._arm
-        a, b, c, d, e, f = [s * values[i] for s, i in zip(signs, places, strict=True)]
-        return a, b, c, d, e, f
+        r, s, t, u, v, w = signs
+        i, j, k, m, n, o = places
+        return (
+            r * values[i],
+            s * values[j],
+            t * values[k],
+            u * values[m],
+            v * values[n],
+            w * values[o],
+        )
 
     def _from_base(self, pose: Pose, values: Posture) -> Pose:
         assert self._arm is not None

@@ -10,15 +10,14 @@ import signal
 import sys
 from collections.abc import Callable
 from importlib import import_module
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 from typer.exceptions import TyperException
 
 from rapidgen import __version__
-
-if TYPE_CHECKING:
-    from rapidgen.diagnostics import Diagnostic
+from rapidgen.cli.terminal import use_colour
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, render
 
 # Each verb is a file of its own, imported when it is asked for; its help begins with the
 # sentence that stands here (a test compares).
@@ -71,8 +70,6 @@ def run(arguments: list[str] | None = None) -> None:
 
 def main(words: list[str]) -> int:
     """Run one verb; its exit code."""
-    from rapidgen.diagnostics.model import DiagnosticError
-
     if "" in words:
         _show((_empty_argument(),))
         return 2
@@ -168,8 +165,6 @@ def _unheard() -> int:
 
 def _refused(fault: OSError) -> int:
     """Say what the operating system refused; the exit code."""
-    from rapidgen.diagnostics import error
-
     if fault.filename is not None:
         message, mend = f"cannot use {fault.filename}", "free it, or name another one"
     elif fault.errno in _MACHINE:
@@ -183,9 +178,7 @@ def _refused(fault: OSError) -> int:
     return 2 if fault.errno in _BAD_PATH else 1
 
 
-def _empty_argument() -> "Diagnostic":
-    from rapidgen.diagnostics import error
-
+def _empty_argument() -> Diagnostic:
     return error(
         "RG901",
         None,
@@ -194,16 +187,11 @@ def _empty_argument() -> "Diagnostic":
     )
 
 
-def _show(found: "tuple[Diagnostic, ...]") -> None:
-    from rapidgen.cli.terminal import use_colour
-    from rapidgen.diagnostics import render
-
+def _show(found: tuple[Diagnostic, ...]) -> None:
     sys.stderr.write(render(found, colour=use_colour()))
 
 
-def _usage(fault: TyperException) -> "Diagnostic":
-    from rapidgen.diagnostics import error
-
+def _usage(fault: TyperException) -> Diagnostic:
     context = getattr(fault, "ctx", None)
     path = context.command_path if context is not None else "rapidgen"
     message = (fault.format_message() or "nothing to do").rstrip(".")

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
+
 if TYPE_CHECKING:
     from rapidgen.config.model import GroupConfig
-    from rapidgen.diagnostics import Diagnostic
     from rapidgen.system import System
 
 
@@ -19,7 +20,7 @@ class Bootable:
     system: "System"
     groups: tuple["GroupConfig", ...]
     driver: bool
-    notes: tuple["Diagnostic", ...] = ()
+    notes: tuple[Diagnostic, ...] = ()
 
 
 def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Bootable:
@@ -44,7 +45,6 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
 def _folder(path: Path, robot: str) -> Bootable:
     from rapidgen.config import from_manifest
     from rapidgen.controller.cell import in_its_cell
-    from rapidgen.diagnostics import Diagnostic
     from rapidgen.system import is_generated, read_manifest, read_system
 
     if is_generated(path):
@@ -59,11 +59,10 @@ def _folder(path: Path, robot: str) -> Bootable:
 
 def _mechanics(
     system: "System", robot: str
-) -> tuple[tuple["GroupConfig", ...], tuple["Diagnostic", ...]]:
+) -> tuple[tuple["GroupConfig", ...], tuple[Diagnostic, ...]]:
     """A robot of the given model for each motion task."""
     from rapidgen.config import load_config
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
-    from rapidgen.diagnostics import Severity, error
 
     groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
     if robot or not groups:
@@ -79,8 +78,6 @@ def _mechanics(
 
 
 def _no_target(target: str) -> Exception:
-    from rapidgen.diagnostics import refusal
-
     return refusal(
         "RG433",
         None,
@@ -95,7 +92,6 @@ def refuse_unloadable(system: "System") -> None:
 
     Warnings are `rapidgen check`'s business. Raises DiagnosticError with all errors.
     """
-    from rapidgen.diagnostics import DiagnosticError, Severity
     from rapidgen.rapid import check
 
     errors = [d for d in check(system, gaps=True) if d.severity is Severity.ERROR]

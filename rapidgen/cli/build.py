@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.terminal import use_colour
+from rapidgen.diagnostics import Diagnostic, refusal, render
 
 if TYPE_CHECKING:
-    from rapidgen.diagnostics import Diagnostic
     from rapidgen.generate import Change, Output
 
 
@@ -61,10 +62,7 @@ def build(
     return 0
 
 
-def _tell(diagnostics: "tuple[Diagnostic, ...]") -> None:
-    from rapidgen.cli.terminal import use_colour
-    from rapidgen.diagnostics import render
-
+def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
     typer.echo(render(diagnostics, colour=use_colour()), err=True, nl=False)
 
 
@@ -73,8 +71,6 @@ def _summary(output: "Output", folder: Path) -> str:
 
 
 def _differs(folder: Path, changes: "list[Change]") -> None:
-    from rapidgen.diagnostics import refusal
-
     paths = ", ".join(change.path for change in changes[:5])
     more = f" and {len(changes) - 5} more" if len(changes) > 5 else ""
     raise refusal(

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING
 
 import typer
 
+from rapidgen.diagnostics import DiagnosticError
+
 if TYPE_CHECKING:
     from rapidgen.deploy import Plan
     from rapidgen.deploy.session import FleetJob
@@ -29,7 +31,6 @@ def carry_out(job: "FleetJob", plans: "Sequence[Plan]") -> int:
     """Do what was planned; a table of the controllers. Raises DiagnosticError where one failed."""
     from rapidgen.deploy.session import apply_all
     from rapidgen.deploy.show import table
-    from rapidgen.diagnostics import DiagnosticError
 
     outcomes = apply_all(job, plans, lambda line: typer.echo(line, err=True))
     typer.echo(table(outcomes), nl=False)

@@ -5,10 +5,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from rapidgen.diagnostics import Format
+from rapidgen.cli.terminal import use_colour
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Format, Severity, refusal, render
 
 if TYPE_CHECKING:
-    from rapidgen.diagnostics import Diagnostic
     from rapidgen.rapid import Dialect
     from rapidgen.rapid.syntax.nodes import Declaration, Module
     from rapidgen.system import System
@@ -36,9 +36,6 @@ def check(
     What is unknown is judged by what was given: a lone file may use names of modules that are
     not there, a backup may not.
     """
-    from rapidgen.cli.terminal import use_colour
-    from rapidgen.diagnostics import DiagnosticError, Severity, render
-
     dialect = _dialect(robotware)
     found: list[Diagnostic] = []
     modules: list[Path] = []
@@ -72,7 +69,6 @@ def check(
 
 
 def _dialect(robotware: str | None) -> "Dialect | None":
-    from rapidgen.diagnostics import refusal
     from rapidgen.rapid import Dialect
 
     if robotware is None:
@@ -89,7 +85,7 @@ def _dialect(robotware: str | None) -> "Dialect | None":
     return Dialect((int(major), int(minor) if minor else 99))
 
 
-def _configuration(given: str) -> "list[Diagnostic]":
+def _configuration(given: str) -> list[Diagnostic]:
     from rapidgen.config import load_config
 
     return list(load_config(given).diagnostics)
@@ -116,9 +112,8 @@ def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
     return [parse(read_limited(path), path=str(path), dialect=dialect) for path in paths]
 
 
-def _files(paths: list[Path], dialect: "Dialect | None") -> "list[Diagnostic]":
+def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
     """Files named one by one: they know each other, but hardly make a whole task."""
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError
     from rapidgen.rapid import check as check_rapid
 
     modules: list[Module] = []
@@ -133,7 +128,7 @@ def _files(paths: list[Path], dialect: "Dialect | None") -> "list[Diagnostic]":
     return found + check_rapid(modules, dialect=dialect, gaps=True)
 
 
-def _folder(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
+def _folder(path: Path, dialect: "Dialect | None") -> list[Diagnostic]:
     """A generated folder, a backup, or a folder with modules or such folders in it."""
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_backup, is_generated
@@ -168,7 +163,7 @@ def _name(declaration: "Declaration") -> str:
     return getattr(declaration, "name", "")
 
 
-def _system(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
+def _system(path: Path, dialect: "Dialect | None") -> list[Diagnostic]:
     from rapidgen.rapid import Dialect
     from rapidgen.rapid import check as check_rapid
     from rapidgen.system import is_generated, read_backup, read_folder
@@ -181,12 +176,11 @@ def _system(path: Path, dialect: "Dialect | None") -> "list[Diagnostic]":
     return [*found, *_not_loaded(path, system, dialect or Dialect(system.robotware))]
 
 
-def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> "list[Diagnostic]":
+def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagnostic]:
     """Errors in RAPID of a backup's HOME that no task loads: a program may, while it runs.
 
     Each is judged as a lone file. Its warnings are left out: HOME keeps old copies.
     """
-    from rapidgen.diagnostics import DiagnosticError, Severity
     from rapidgen.system.paths import module_files
 
     if system.home is None:
@@ -224,8 +218,6 @@ def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[P
 
 
 def _nothing(given: str) -> Exception:
-    from rapidgen.diagnostics import refusal
-
     return refusal(
         "RG904",
         None,

@@ -4,12 +4,13 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.diagnostics import refusal, suggest
+
 
 def explain(
     code: Annotated[str, typer.Argument(help="A code such as RG012; `all` lists them.")],
 ) -> None:
     """Explain what a diagnostic's code means, with a bad and a good example."""
-    from rapidgen.diagnostics import refusal, suggest
     from rapidgen.diagnostics.pages import codes, page, title
 
     if code == "all":

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
+
 _SUFFIXES = (".mod", ".modx", ".sys", ".sysx", ".prg")
 
 
@@ -24,7 +26,6 @@ def fmt(
     Encoding and line ends stay as they are. A file with syntax errors is not touched.
     """
     from rapidgen._writing import write_whole
-    from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
     from rapidgen.rapid import format_source
     from rapidgen.system.paths import read_limited
 
@@ -56,8 +57,6 @@ def fmt(
 
 
 def _files(paths: list[Path]) -> list[Path]:
-    from rapidgen.diagnostics import refusal
-
     found: list[Path] = []
     for path in paths:
         if path.is_dir():

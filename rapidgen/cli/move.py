@@ -7,11 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.terminal import use_colour
+from rapidgen.diagnostics import Diagnostic, render
 
 if TYPE_CHECKING:
     from rapidgen.client import Result, Robot, Trajectory
     from rapidgen.client.core.checks import Way
-    from rapidgen.diagnostics import Diagnostic
 
 
 def move(
@@ -105,10 +106,7 @@ def _positive(option: str, value: float | None) -> None:
         raise typer.BadParameter(f"must be above 0, not {value}", param_hint=option)
 
 
-def _tell(warnings: "tuple[Diagnostic, ...]") -> None:
-    from rapidgen.cli.terminal import use_colour
-    from rapidgen.diagnostics import render
-
+def _tell(warnings: tuple[Diagnostic, ...]) -> None:
     sys.stderr.write(render(warnings, colour=use_colour()))
 
 

@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.diagnostics import refusal, render
+
 
 def new(
     file: Annotated[Path, typer.Argument(help="The configuration to write, FILE.yaml.")],
@@ -30,7 +32,6 @@ def new(
 ) -> None:
     """Write a commented configuration that checks and builds."""
     from rapidgen.config.scaffold import assignments, from_shipped, from_urdf, write_new
-    from rapidgen.diagnostics import refusal, render
 
     if (robot is None) == (urdf is None):
         raise refusal(

@@ -6,6 +6,7 @@ from typing import Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.diagnostics import DiagnosticError
 
 
 def plan(
@@ -35,7 +36,6 @@ def plan(
     from rapidgen.deploy.session import FleetJob, plan_all, wanted_set, write_plans
     from rapidgen.deploy.show import plan_text
     from rapidgen.deploy.target import Access
-    from rapidgen.diagnostics import DiagnosticError
 
     try:
         wanted = wanted_set(config, overrides or ())

@@ -5,6 +5,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from rapidgen.diagnostics import DiagnosticError, Span, error
+
 if TYPE_CHECKING:
     from rapidgen.client.trajectory import Array
     from rapidgen.view.plot import PlottedCurve
@@ -68,7 +70,6 @@ def _recorded(path: Path) -> "list[PlottedCurve]":
     import numpy as np
 
     from rapidgen.client.trajectory import Trajectory
-    from rapidgen.diagnostics import DiagnosticError, Span, error
     from rapidgen.motion.recorder import read_recording
     from rapidgen.view.plot import PlottedCurve
 

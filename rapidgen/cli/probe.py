@@ -5,6 +5,8 @@ from typing import Annotated
 
 import typer
 
+from rapidgen.diagnostics import refusal
+
 
 def probe(
     output: Annotated[
@@ -24,7 +26,6 @@ def probe(
     """
     from rapidgen._data import data_folder
     from rapidgen._writing import write_whole
-    from rapidgen.diagnostics import refusal
 
     name = "ROS_probe_motion.mod" if moving else "ROS_probe.mod"
     text = (data_folder("templates") / name).read_text(encoding="latin-1")

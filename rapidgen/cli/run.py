@@ -7,10 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.terminal import letters
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal, render
 
 if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.diagnostics import Diagnostic
     from rapidgen.runtime.errors import FatalError
     from rapidgen.runtime.switches import Switches
     from rapidgen.system.model import System
@@ -87,7 +88,6 @@ def run(
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
     from rapidgen.controller.tracing import Coverage, Profile, Trace
-    from rapidgen.diagnostics import DiagnosticError, Severity, render
     from rapidgen.machine.operator import read_answers
     from rapidgen.system import is_generated, read_manifest
 
@@ -138,13 +138,10 @@ def run(
 
 
 def _print(_task: str, text: str) -> None:
-    from rapidgen.cli.terminal import letters
-
     sys.stdout.write(letters(text).replace("\n", " ") + "\n")
 
 
 def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
-    from rapidgen.diagnostics import refusal
     from rapidgen.system import is_backup, is_generated, read_files, read_system
 
     by_task: dict[str, list[Path | str]] = {}
@@ -177,8 +174,6 @@ def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
 
 def _limits(max_time: float, max_statements: int) -> None:
     """Refuse limits that are none."""
-    from rapidgen.diagnostics import refusal
-
     if not 0 < max_time <= _LONGEST or max_statements < 1:
         message = f"--max-time is above 0 and at most {_LONGEST:g} s, --max-statements at least 1"
         raise refusal("RG901", None, message, "such as --max-time 60")
@@ -187,7 +182,6 @@ def _limits(max_time: float, max_statements: int) -> None:
 def _no_configuration(files: list[Path]) -> None:
     """Refuse what `sim` and `build` take and `run` does not."""
     from rapidgen.config import shipped_names
-    from rapidgen.diagnostics import refusal
 
     for file in files:
         if file.suffix in (".yaml", ".yml") or (str(file) in shipped_names() and not file.exists()):
@@ -202,7 +196,6 @@ def _no_configuration(files: list[Path]) -> None:
 def _writable(path: Path) -> None:
     """Refuse, before anything runs, a file that cannot be written behind it."""
     from rapidgen._writing import check_writable
-    from rapidgen.diagnostics import refusal
 
     try:
         check_writable(path)
@@ -216,7 +209,6 @@ def _writable(path: Path) -> None:
 def _dialect(text: str) -> "Switches":
     from dataclasses import fields
 
-    from rapidgen.diagnostics import refusal
     from rapidgen.runtime.switches import Switches, parse_switches
 
     try:
@@ -228,12 +220,8 @@ def _dialect(text: str) -> "Switches":
         ) from fault
 
 
-def _run(
-    controller: "VirtualController", max_time: float, max_statements: int
-) -> "list[Diagnostic]":
+def _run(controller: "VirtualController", max_time: float, max_statements: int) -> list[Diagnostic]:
     """Run to the end; what went wrong."""
-    from rapidgen.diagnostics import error
-
     ended = controller.run(max_time=max_time, max_statements=max_statements)
     found = [
         _fault(task.name, task.fault)
@@ -259,9 +247,7 @@ def _run(
     return found
 
 
-def _fault(task: str, fault: "FatalError") -> "Diagnostic":
-    from rapidgen.diagnostics import error
-
+def _fault(task: str, fault: "FatalError") -> Diagnostic:
     place = fault.stack[-1] if fault.stack else None
     notes = [f"event {fault.event} in task {task}"]
     notes += [t for t in fault.arguments if t]

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from rapidgen.cli import options
+from rapidgen.cli.terminal import letters, use_colour
+from rapidgen.diagnostics import Diagnostic, refusal, render
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -120,8 +122,6 @@ def _serve(
     """Run until a signal comes; the exit code."""
     import json
     import signal
-
-    from rapidgen.cli.terminal import letters
 
     ended = False
 
@@ -237,8 +237,6 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
 
 
 def _not_up(controller: "VirtualController", target: "Bootable") -> Exception:
-    from rapidgen.diagnostics import refusal
-
     missing = [p for p in _wanted(target) if p not in controller.network.listeners]
     states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
     return refusal(
@@ -264,8 +262,6 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 
-    from rapidgen.diagnostics import refusal
-
     for port in _wanted(target):
         if not 0 < port + offset < 65_536:
             raise typer.BadParameter(f"--port-offset moves port {port} to {port + offset}")
@@ -285,9 +281,6 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
 
 def _tell(found: "Iterable[object]") -> None:
     import sys
-
-    from rapidgen.cli.terminal import use_colour
-    from rapidgen.diagnostics import Diagnostic, render
 
     notes = [d for d in found if isinstance(d, Diagnostic)]
     if notes:

@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli import options
+from rapidgen.diagnostics import DiagnosticError, error, refusal, suggest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from rich.progress import TaskID
 
     from rapidgen.config.model import RobotConfig
     from rapidgen.proving.model import Proof
@@ -77,7 +80,6 @@ def test(
 
 
 def _check_names(names: list[str]) -> None:
-    from rapidgen.diagnostics import DiagnosticError, error, suggest
     from rapidgen.proving.suite import CASES
 
     known = [case.name for case in CASES]
@@ -97,7 +99,6 @@ def _check_names(names: list[str]) -> None:
 def _check_writable(path: Path | None) -> None:
     """Say before a long run that its report has nowhere to go."""
     from rapidgen._writing import check_writable
-    from rapidgen.diagnostics import refusal
 
     if path is None:
         return
@@ -120,7 +121,7 @@ class _Progress:
         from rich.progress import Progress
 
         self._bars = Progress(console=Console(stderr=True), disable=not sys.stderr.isatty())
-        self._tasks: dict[str, object] = {}
+        self._tasks: dict[str, TaskID] = {}
 
     def __enter__(self) -> "Callable[[str, int, int], None]":
         self._bars.start()
@@ -132,7 +133,7 @@ class _Progress:
     def _step(self, what: str, done: int, total: int) -> None:
         if what not in self._tasks:
             self._tasks[what] = self._bars.add_task(what, total=total)
-        self._bars.update(self._tasks[what], completed=done)  # type: ignore[arg-type]
+        self._bars.update(self._tasks[what], completed=done)
 
 
 def _show(report: "Proof", uncovered: bool) -> None:

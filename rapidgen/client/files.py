@@ -1,6 +1,5 @@
 """Trajectories in files: CSV `time,<joint names>`, JSON, and ROS messages as dicts."""
 
-import csv
 import io
 import json
 from collections.abc import Mapping, Sequence
@@ -10,7 +9,6 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from rapidgen._writing import write_whole
 from rapidgen.client.errors import InvalidTrajectory, fault, os_reason
 from rapidgen.diagnostics import Diagnostic, Span, error
 
@@ -105,6 +103,11 @@ def read_csv(path: Path) -> Content:
 
 def write_csv(path: Path, times: Array, positions: Array, names: Sequence[str]) -> None:
     """Write `time,<joint names>`. Raises OSError."""
+    # Not needed to move a robot: that shall begin quickly.
+    import csv
+
+    from rapidgen._writing import write_whole
+
     names = names or [f"joint_{i + 1}" for i in range(positions.shape[1])]
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")

@@ -95,8 +95,7 @@ class DraftFindings:
         key: bool = False,
     ) -> None:
         """One error at a path of the configuration."""
-        if not self.is_faulty(path):
-            self.found.append(error(code, self.span(path, key=key), message, help, label=label))
+        self.add(code, Severity.ERROR, message, path, label, help, key=key)
 
     @property
     def failed(self) -> bool:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from rapidgen.config.schema import GROUP_KEYS
 from rapidgen.config.tree import MappingNode, Node, ScalarNode, SequenceNode, from_python, parse
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error
 
 Entries = dict[str, tuple[Span, Node]]
 Overrides = Mapping[str, object] | Sequence[str]
@@ -50,14 +50,8 @@ def group_names(root: MappingNode) -> tuple[str, ...]:
     return tuple(entry[1].entries) if entry and isinstance(entry[1], MappingNode) else ()
 
 
-def canonical(root: Node, known: tuple[str, ...]) -> Layer:
+def canonical(root: MappingNode, known: tuple[str, ...]) -> Layer:
     """`root` with its group keys moved under `groups`; `known` are the groups below it."""
-    if isinstance(root, ScalarNode) and root.value is None:
-        root = MappingNode({}, root.span)
-    if not isinstance(root, MappingNode):
-        raise refusal(
-            "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
-        )
     pruned = prune(root)
     assert isinstance(pruned, MappingNode)
     top = {k: v for k, v in pruned.entries.items() if k not in GROUP_KEYS or k in _SHARED_KEYS}

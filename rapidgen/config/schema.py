@@ -52,6 +52,14 @@ RobotWare = Annotated[
 ]
 
 
+def _origin() -> list[float]:
+    return [0.0, 0.0, 0.0]
+
+
+def _unturned() -> list[float]:
+    return [1.0, 0.0, 0.0, 0.0]
+
+
 class _Part:
     """For pydantic, where it reads these classes: no further keys."""
 
@@ -88,10 +96,7 @@ class JointKeys(_Part):
     speed: Annotated[float | None, Rule("Largest speed, deg/s or mm/s.", ge=0.001)] = None
     acceleration: Annotated[
         float | None,
-        Rule(
-            "Acceleration, deg/s² or mm/s²; without it `acceleration_time` decides.",
-            ge=0.001,
-        ),
+        Rule("Acceleration, deg/s² or mm/s²; without it `acceleration_time` decides.", ge=0.001),
     ] = None
     sign: Annotated[
         Literal[1, -1] | None, Rule("-1 when the URDF turns against the controller's axis.")
@@ -110,18 +115,15 @@ class ChainStepKeys(_Part):
     """One step of the kinematic chain, from the base to the flange."""
 
     joint: Annotated[str, Rule("Joint that turns or slides here; none: a fixed step.")] = ""
-    xyz: Annotated[Vector, Rule("Shift before the joint, mm.")] = field(
-        default_factory=lambda: [0.0, 0.0, 0.0]
-    )
+    xyz: Annotated[Vector, Rule("Shift before the joint, mm.")] = field(default_factory=_origin)
     rpy: Annotated[Vector, Rule("Rotation before the joint about fixed x, y, z, deg.")] = field(
-        default_factory=lambda: [0.0, 0.0, 0.0]
+        default_factory=_origin
     )
     axis: Annotated[Vector, Rule("Axis of the joint.")] = field(
         default_factory=lambda: [0.0, 0.0, 1.0]
     )
     follows: Annotated[
-        dict[str, float],
-        Rule("For a passive step: its value is the sum of factor x joint."),
+        dict[str, float], Rule("For a passive step: its value is the sum of factor x joint.")
     ] = field(default_factory=dict)
 
 
@@ -129,11 +131,9 @@ class ChainStepKeys(_Part):
 class FrameKeys(_Part):
     """A position with an orientation."""
 
-    position: Annotated[Vector, Rule("x, y, z in mm.")] = field(
-        default_factory=lambda: [0.0, 0.0, 0.0]
-    )
+    position: Annotated[Vector, Rule("x, y, z in mm.")] = field(default_factory=_origin)
     orientation: Annotated[Quaternion, Rule("Quaternion q1..q4, q1 the scalar.")] = field(
-        default_factory=lambda: [1.0, 0.0, 0.0, 0.0]
+        default_factory=_unturned
     )
 
 
@@ -142,15 +142,11 @@ class LoadKeys(_Part):
     """What the tool weighs."""
 
     mass: Annotated[float, Rule("kg", ge=0)] = 0.0
-    centre: Annotated[Vector, Rule("Centre of gravity, mm.")] = field(
-        default_factory=lambda: [0.0, 0.0, 0.0]
-    )
+    centre: Annotated[Vector, Rule("Centre of gravity, mm.")] = field(default_factory=_origin)
     axes: Annotated[Quaternion, Rule("Orientation of the axes of inertia.")] = field(
-        default_factory=lambda: [1.0, 0.0, 0.0, 0.0]
+        default_factory=_unturned
     )
-    inertia: Annotated[Vector, Rule("Moments ix, iy, iz, kg m².")] = field(
-        default_factory=lambda: [0.0, 0.0, 0.0]
-    )
+    inertia: Annotated[Vector, Rule("Moments ix, iy, iz, kg m².")] = field(default_factory=_origin)
 
 
 @dataclass(frozen=True)
@@ -315,8 +311,7 @@ class TrajectoryKeys(_Part):
         Rule("Points between the server and the motion task: how far ahead a stream may be."),
     ] = 128
     preload: Annotated[
-        float,
-        Rule("Seconds of a stream that are there before the robot moves.", ge=0, le=10),
+        float, Rule("Seconds of a stream that are there before the robot moves.", ge=0, le=10)
     ] = 0.5
 
 
@@ -368,10 +363,9 @@ class SignalKeys(_Part):
 class ConfigurationKeys(_Part):
     """A controller with its motion groups."""
 
-    name: Annotated[
-        ConfigName | None,
-        Rule("Name of the robot; the file's name without one."),
-    ] = None
+    name: Annotated[ConfigName | None, Rule("Name of the robot; the file's name without one.")] = (
+        None
+    )
     description: Annotated[Text, Rule("For people.")] = ""
     model: Annotated[str | None, Rule("A shipped model that this file starts from.")] = None
     generations: Annotated[
@@ -393,8 +387,7 @@ class ConfigurationKeys(_Part):
         default_factory=NetworkKeys
     )
     commissioning: Annotated[
-        bool,
-        Rule("True while setting up: background tasks are NORMAL, not SEMISTATIC."),
+        bool, Rule("True while setting up: background tasks are NORMAL, not SEMISTATIC.")
     ] = False
     main: Annotated[
         Literal["driver", "own"],

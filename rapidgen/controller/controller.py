@@ -20,26 +20,26 @@ from rapidgen.controller.views import Signals, TaskView
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
+from rapidgen.machine.meetings import Meetings
 from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
 from rapidgen.machine.system_parameters import SystemParameters
+from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.loading import ModuleTable
-from rapidgen.runtime.meetings import Meetings
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.statements import Statements
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.texts import TextTables
 from rapidgen.system import is_generated, read_files, read_manifest, read_system
 from rapidgen.system.model import System
 

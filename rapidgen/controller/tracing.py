@@ -7,8 +7,7 @@ from typing import TextIO
 from rapidgen.controller.controller import VirtualController
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.linking import LoadedModule
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.task.task import Task
 
 STATEMENTS = (

@@ -18,7 +18,7 @@ from rapidgen.deploy.keep import (
 from rapidgen.deploy.plan import FileChange, Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
-from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none
+from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, refused
 from rapidgen.deploy.work import (
     Say,
     Work,
@@ -31,7 +31,7 @@ from rapidgen.deploy.work import (
     swap,
     write,
 )
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
 
 def apply(
@@ -71,12 +71,10 @@ def conflicts_of(plan: Plan) -> list[Diagnostic]:
 
 def moved_on(target: str) -> DiagnosticError:
     """RG522."""
-    return refusal(
+    return refused(
         "RG522",
-        None,
         f"{target} has changed since it was planned",
         "plan again, and look at what has changed",
-        exit_code=1,
     )
 
 

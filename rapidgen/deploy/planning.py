@@ -12,8 +12,8 @@ from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_o
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
-from rapidgen.deploy.transports.transport import Transport, read_or_none
-from rapidgen.diagnostics import DiagnosticError, refusal
+from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
+from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText, parse_cfg
 
 
@@ -28,25 +28,19 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
     base = _base(transport, layout.home, state)
     had = base.had
     if state.damaged and not base.repair:
-        raise refusal(
+        raise refused(
             "RG531",
-            None,
             state.damaged,
             f"restore HOME:/{STATE}/manifest.json from a backup of the controller, or delete "
             "it: then files that lie there count as a stranger's",
-            exit_code=1,
         )
     if wanted is None and had is None and not base.interrupted:
-        raise refusal(
-            "RG529", None, f"{transport.shown}: no deployment of rapidgen lies there", exit_code=1
-        )
+        raise refused("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
     if wanted is not None and had is not None and had.name != wanted.name:
-        raise refusal(
+        raise refused(
             "RG524",
-            None,
             f"{transport.shown} carries the driver of {had.name!r}, not of {wanted.name!r}",
             f"check the URL; to replace it, `rapidgen uninstall {had.name} --to ...` first",
-            exit_code=1,
         )
     changes = _file_changes(transport, layout, base, wanted)
     syspar = read_syspar(transport, layout.syspar)
@@ -278,13 +272,11 @@ def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
 def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, target: str) -> None:
     for text in texts:
         if wanted is not None and text.version[0] != wanted.robotware[0]:
-            raise refusal(
+            raise refused(
                 "RG525",
-                None,
                 f"{target} runs RobotWare {text.version[0]} ({text.path}), the driver is built "
                 f"for {_ware(wanted.robotware)}",
                 f"set `robotware: {text.version[0]}` in the configuration and build again",
-                exit_code=1,
             )
 
 

@@ -17,8 +17,8 @@ from rapidgen.deploy.planning import find_layout, make_plan
 from rapidgen.deploy.state import Past, read_state
 from rapidgen.deploy.target import Access
 from rapidgen.deploy.transports.registry import Target
-from rapidgen.deploy.transports.transport import Transport
-from rapidgen.diagnostics import DiagnosticError, refusal
+from rapidgen.deploy.transports.transport import Transport, refused
+from rapidgen.diagnostics import DiagnosticError
 
 Say = Callable[[str], None]
 
@@ -119,15 +119,13 @@ def confirm(question: str, *, yes: bool, ask: Callable[[str], bool]) -> None:
     if yes:
         return
     if not sys.stdin.isatty():
-        raise refusal(
+        raise refused(
             "RG533",
-            None,
             "nobody is there to answer: nothing was changed",
             "look at `rapidgen plan`, then say --yes",
-            exit_code=1,
         )
     if not ask(question):
-        raise refusal("RG533", None, "not confirmed: nothing was changed", exit_code=1)
+        raise refused("RG533", "not confirmed: nothing was changed")
 
 
 def history(target: Target, access: Access, name: str) -> tuple[Past, ...]:
@@ -155,12 +153,10 @@ def earlier_set(transport: Transport, name: str, number: int | None) -> DriverSe
         return backup_set(transport, home, journal.id)
     past = plan.had.history if plan.had else ()
     if not past:
-        raise refusal(
+        raise refused(
             "RG528",
-            None,
             f"{plan.target}: no earlier set is kept there",
             "`rapidgen uninstall` goes back to the state before the first deployment",
-            exit_code=1,
         )
     return backup_set(transport, home, past[-1].id)
 
@@ -223,20 +219,16 @@ def check_names(plans: Sequence[Plan], name: str) -> None:
 
 def _check_name(plan: Plan, name: str) -> None:
     if plan.had is not None and name and plan.had.name != name:
-        raise refusal(
+        raise refused(
             "RG524",
-            None,
             f"{plan.target} carries the driver of {plan.had.name!r}, not of {name!r}",
             "check the URL",
-            exit_code=1,
         )
 
 
 def _plan_file(path: Path, reason: str) -> DiagnosticError:
-    return refusal(
+    return refused(
         "RG523",
-        None,
         f"plan {path} cannot be carried out: {reason}",
         "make a new one with `rapidgen plan ... --out FILE`",
-        exit_code=1,
     )

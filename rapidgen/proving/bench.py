@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import replace
 from itertools import pairwise
-from typing import TypeAlias
+from typing import Self, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.config.model import GroupConfig, RobotConfig
@@ -22,11 +22,11 @@ from rapidgen.motion.group import MotionGroup
 from rapidgen.proving.link import RawLink, point_frame
 from rapidgen.proving.messages import (
     PROTOCOL_VERSION,
-    Comm,
-    Hello,
-    HelloReply,
-    Progress,
-    Status,
+    RawComm,
+    RawHello,
+    RawHelloReply,
+    RawProgress,
+    RawStatus,
     encode,
 )
 from rapidgen.proving.model import Broken
@@ -39,7 +39,7 @@ from rapidgen.system.model import System
 Lines: TypeAlias = dict[str, dict[int, int]]
 """How often each line of RAPID with a statement was reached, by module file."""
 
-HELLO = Hello(PROTOCOL_VERSION, (0, 0, 0), 1)
+HELLO = RawHello(PROTOCOL_VERSION, (0, 0, 0), 1)
 """As a client says it that wants PROGRESS."""
 
 FAILURES = (Broken, Deadlock, FatalError, NetworkFault)
@@ -156,6 +156,12 @@ class Bench:
         """Give the controller back."""
         self.controller.close()
 
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
     # -- time -----------------------------------------------------------------------------------
 
     @property
@@ -221,6 +227,15 @@ class Bench:
     def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
         """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
         on_path([sample for sample in self.track if sample[0] >= since], path, corner)
+
+    def arrives(self, points: Sequence[Point], since: float, seconds: float) -> None:
+        """Wait until the robot stands at the last point; Broken unless it was on the way to it."""
+        self.wait_until_at(points[-1][0], seconds)
+        self.executed(points, since)
+
+    def executed(self, points: Sequence[Point], since: float) -> None:
+        """Broken unless the robot was on the way through these points since then."""
+        self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
 
     def forget(self) -> None:
         """Drop the record so far, for campaigns that would not end in the memory there is."""
@@ -291,22 +306,26 @@ class Bench:
         """A connection from an address that no configuration allows."""
         return self._link(port, address="203.0.113.77")
 
-    def status(self, link: RawLink, seconds: float = 2) -> Status:
+    def status(self, link: RawLink, seconds: float = 2) -> RawStatus:
         """The next STATUS on a state connection."""
         link.read()
-        return link.expect(Status, seconds, "a STATUS arrives")
+        return link.expect(RawStatus, seconds, "a STATUS arrives")
 
     def watcher(self) -> RawLink:
         """A new connection to the state server that asked for PROGRESS."""
         link = self.state()
-        link.send(encode(HELLO, Comm.REQUEST))
-        link.expect(HelloReply, 2, "HELLO is answered")
+        self.says_hello(link)
         return link
 
-    def progress(self, link: RawLink, seconds: float = 2) -> Progress:
+    def says_hello(self, link: RawLink, subscribe: int = 1) -> RawHelloReply:
+        """HELLO on a state connection, and its answer."""
+        link.send(encode(HELLO._replace(subscribe=subscribe), RawComm.REQUEST))
+        return link.expect(RawHelloReply, 2, "HELLO is answered")
+
+    def progress(self, link: RawLink, seconds: float = 2) -> RawProgress:
         """The next PROGRESS on a connection that asked for it."""
         link.read()
-        return link.expect(Progress, seconds, "a PROGRESS arrives")
+        return link.expect(RawProgress, seconds, "a PROGRESS arrives")
 
     # -- trajectories ---------------------------------------------------------------------------
 
@@ -363,12 +382,19 @@ class Bench:
         step = min(size, 0.2 * duration * joint.speed, 0.5 * room)
         return step if room_up >= room_down else -step
 
-    def download(self, points: Sequence[Point], comm: Comm = Comm.TOPIC) -> bytes:
+    def download(self, points: Sequence[Point], comm: RawComm = RawComm.TOPIC) -> bytes:
         """The frames of a trajectory as the ROS-Industrial node sends them."""
         return b"".join(
             point_frame(number, len(points), joints, duration, comm)
             for number, (joints, duration) in enumerate(points)
         )
+
+    def sets_off(self, link: RawLink, points: Sequence[Point], then: float | None = None) -> None:
+        """Send a trajectory, wait for the robot to move, and let it move for `then` s."""
+        link.send(self.download(points))
+        self.wait_until_moving()
+        if then is not None:
+            self.run(then)
 
     def moves_through(self, link: RawLink, points: Sequence[Point]) -> None:
         """Send a trajectory and see it executed whole, in order, in time and without a complaint.
@@ -378,8 +404,7 @@ class Bench:
         since, asked = self.now, sum(d for _, d in points[1:])
         last = self.last_event
         link.send(self.download(points))
-        self.wait_until_at(points[-1][0], 30 + 3 * asked)
-        self.followed([self.track_at(since), *(p for p, _ in points)], since=since)
+        self.arrives(points, since, 30 + 3 * asked)
         group = self.motion_group
         if group.override < 1 or group.reduced:
             return

@@ -10,7 +10,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import Order, watched_orders
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason
+from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.track import Point, Position, distance, off
@@ -280,7 +280,7 @@ class History:
             flags = BEGIN if not stream.sent else NONE
             flags |= END if stream.sent + size == len(points) else NONE
             told = stream.put(points[stream.sent : stream.sent + size], flags)
-            if not isinstance(told, messages.PointsAccepted):
+            if not isinstance(told, messages.RawPointsAccepted):
                 break
             accepted = told.accepted
             self.bench.run(self.chance.choice((0.0, 0.05, self.chance.uniform(0, 3))))
@@ -299,19 +299,17 @@ class History:
         """What ends a stream, or disturbs it on its way to the end."""
         control = self.bench.control()
         if ending == "STOP":
-            control.send(STOP)
-            control.reply(JOINT_TRAJ_PT, 5)
+            control.stop(5)
         elif ending == "pause":
             self.bench.run(self.chance.uniform(0, 1.5))
-            if isinstance(control.ask(messages.Pause(1), 5), messages.Acknowledged):
+            if isinstance(control.ask(messages.RawPause(1), 5), messages.RawAcknowledged):
                 self.bench.wait_until_standing(5)
                 self.bench.stays(self.chance.uniform(0, 2), "it is paused")
-                control.ask(messages.Pause(0), 5)
+                control.ask(messages.RawPause(0), 5)
             self.bench.run(12)
         elif ending == "hole" and more:
-            stream.link.send(stream.frame(more, NONE, first=stream.sent + 1))
-            stream.reply()
-            stream.refused(Reason.SEQUENCE_GAP, "a batch behind a hole")
+            stream.say(stream.frame(more, NONE, first=stream.sent + 1))
+            stream.refused(RawReason.SEQUENCE_GAP, "a batch behind a hole")
             self.bench.run(12)
         elif ending == "leaves":
             stream.link.close(abort=self.chance.random() < 0.5)
@@ -337,8 +335,7 @@ class History:
         self._disturbed(link, data, lambda: control.at_once(STOP), what, behind=False)
         self.bench.until(lambda: bool(control.frames) or control.lost, 5, "STOP is answered")
         # What had not been received to its end by then is not stopped by that.
-        link.send(STOP)
-        link.reply(JOINT_TRAJ_PT, 5)
+        link.stop(5)
         self.bench.wait_until_standing(10)
         self._on_the_way([start, *(p for p, _ in points)], since)
         self.bench.stays(self.chance.uniform(0.5, 2), "it was stopped")

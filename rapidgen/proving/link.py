@@ -7,12 +7,12 @@ from rapidgen.machine.network.interface import Endpoint, NetworkFault
 from rapidgen.proving.messages import (
     JOINT_TRAJ_PT,
     MAX_JOINTS,
-    Comm,
-    Content,
-    Frame,
-    Special,
+    RawComm,
+    RawContent,
+    RawFrame,
+    RawSpecial,
+    RawTrajectoryPoint,
     Splitter,
-    TrajectoryPoint,
     decode,
     encode,
 )
@@ -37,7 +37,7 @@ class RawLink:
         self._bench = bench
         self._network = bench.controller.network
         self._splitter = Splitter()
-        self.frames: list[tuple[float, Frame]] = []
+        self.frames: list[tuple[float, RawFrame]] = []
         self.sent = 0
         self.lost = False
         self._taken = 0
@@ -88,21 +88,21 @@ class RawLink:
             for frame in self._said.feed(data):
                 if frame.number == JOINT_TRAJ_PT:
                     content = decode(frame)
-                    if isinstance(content, TrajectoryPoint):
+                    if isinstance(content, RawTrajectoryPoint):
                         self._keep(content)
         except Broken:
             self._said = None
 
-    def _keep(self, point: TrajectoryPoint) -> None:
-        if point.sequence == Special.BEGIN:
+    def _keep(self, point: RawTrajectoryPoint) -> None:
+        if point.sequence == RawSpecial.BEGIN:
             self._trajectory = []
         joints = tuple(point.joints[: len(self._bench.group.joints)])
         self._trajectory.append((joints, point.duration))
-        if point.sequence == Special.END:
+        if point.sequence == RawSpecial.END:
             self._bench.commanded.append((self._bench.now, self._trajectory))
             self._trajectory = []
 
-    def read(self) -> list[Frame]:
+    def read(self) -> list[RawFrame]:
         """Frames that have arrived since the last call."""
         found = [frame for _, frame in self.frames[self._taken :]]
         self._taken = len(self.frames)
@@ -128,7 +128,7 @@ class RawLink:
             now = self._bench.now
             self.frames += [(now, frame) for frame in self._splitter.feed(data)]
 
-    def expect_reply(self, seconds: float, what: str) -> Frame:
+    def expect_reply(self, seconds: float, what: str) -> RawFrame:
         """The next frame that was not read yet, within `seconds`."""
         self._bench.until(lambda: len(self.frames) > self._taken, seconds, what)
         self._taken += 1
@@ -149,53 +149,64 @@ class RawLink:
         self._bench.until(arrived, seconds, what)
         return found[0]
 
-    def ask(self, content: Content, seconds: float = 2) -> Content:
+    def ask(self, content: RawContent, seconds: float = 2) -> RawContent:
         """Send a request; the reply to it."""
-        data = encode(content, Comm.REQUEST)
+        data = encode(content, RawComm.REQUEST)
         self.send(data)
         number = int.from_bytes(data[4:8], "little")
         return self.reply(number, seconds)
 
-    def reply(self, number: int, seconds: float = 2) -> Content:
+    def reply(self, number: int, seconds: float = 2) -> RawContent:
         """The next reply of a type; what comes before it is passed over."""
-        found: list[Frame] = []
+        found: list[RawFrame] = []
 
         def arrived() -> bool:
             while not found and len(self.frames) > self._taken:
                 self._taken += 1
                 frame = self.frames[self._taken - 1][1]
-                if (frame.number, frame.comm) == (number, Comm.REPLY):
+                if (frame.number, frame.comm) == (number, RawComm.REPLY):
                     found.append(frame)
             return bool(found)
 
         self._bench.until(arrived, seconds, f"a reply of type {number} arrives")
         return decode(found[0])
 
-    def close(self, *, abort: bool = False) -> None:
-        """End the connection (FIN), or reset it (RST)."""
+    def stop(self, seconds: float = 2) -> RawContent:
+        """Send STOP; the reply to it."""
+        self.send(STOP)
+        return self.reply(JOINT_TRAJ_PT, seconds)
+
+    def wait_until_lost(self, seconds: float, what: str) -> None:
+        """Wait for the controller to end the connection."""
+        self._bench.until(lambda: self.lost, seconds, what)
+
+    def close(self, *, abort: bool = False, then: float | None = None) -> None:
+        """End the connection (FIN), or reset it (RST), and let `then` s pass."""
         self._network.close(self.endpoint, abort=abort)
         self.lost = True
+        if then is not None:
+            self._bench.run(then)
 
 
 def point_frame(
-    number: int, count: int, joints: Position, duration: float, comm: Comm = Comm.TOPIC
+    number: int, count: int, joints: Position, duration: float, comm: RawComm = RawComm.TOPIC
 ) -> bytes:
     """Point `number` (from 0) of `count`, numbered as the ROS-Industrial node does."""
     if number == 0:
-        sequence = int(Special.BEGIN)
+        sequence = int(RawSpecial.BEGIN)
     elif number == count - 1:
-        sequence = int(Special.END)
+        sequence = int(RawSpecial.END)
     else:
         sequence = number
     return raw_point(sequence, joints, duration, comm)
 
 
 def raw_point(
-    sequence: int, joints: Sequence[float], duration: float, comm: Comm = Comm.TOPIC
+    sequence: int, joints: Sequence[float], duration: float, comm: RawComm = RawComm.TOPIC
 ) -> bytes:
     """A point with any sequence number."""
     padded = (*joints, *[0.0] * (MAX_JOINTS - len(joints)))
-    return encode(TrajectoryPoint(sequence, padded, 0.0, duration), comm)
+    return encode(RawTrajectoryPoint(sequence, padded, 0.0, duration), comm)
 
 
-STOP = raw_point(int(Special.STOP), (), 0.0, Comm.REQUEST)
+STOP = raw_point(int(RawSpecial.STOP), (), 0.0, RawComm.REQUEST)

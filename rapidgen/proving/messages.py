@@ -27,7 +27,7 @@ POINT_BYTES, STATE_BYTES = 68, 60 + 44
 """Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
 
 
-class Comm(IntEnum):
+class RawComm(IntEnum):
     """What a message asks of its receiver."""
 
     TOPIC = 1
@@ -35,7 +35,7 @@ class Comm(IntEnum):
     REPLY = 3
 
 
-class ReplyCode(IntEnum):
+class RawReplyCode(IntEnum):
     """How a request went."""
 
     NONE = 0
@@ -43,7 +43,7 @@ class ReplyCode(IntEnum):
     FAILURE = 2
 
 
-class Special(IntEnum):
+class RawSpecial(IntEnum):
     """Numbers of points that are none: where a trajectory begins, where it ends, and STOP."""
 
     BEGIN = -1
@@ -51,7 +51,7 @@ class Special(IntEnum):
     STOP = -4
 
 
-class TriState(IntEnum):
+class RawTriState(IntEnum):
     """A yes or no that the controller may not know."""
 
     UNKNOWN = -1
@@ -59,14 +59,14 @@ class TriState(IntEnum):
     TRUE = 1
 
 
-class Mode(IntEnum):
+class RawMode(IntEnum):
     """Operating mode of the controller."""
 
     MANUAL = 1
     AUTO = 2
 
 
-class Feature(IntFlag):
+class RawFeature(IntFlag):
     """What a driver can do, told in HELLO, and what a client asks for in it."""
 
     PROGRESS = 1
@@ -77,7 +77,7 @@ class Feature(IntFlag):
     FEEDBACK = 32
 
 
-class StreamFlag(IntFlag):
+class RawStreamFlag(IntFlag):
     """What a batch of points says about its stream."""
 
     BEGIN = 1
@@ -85,7 +85,7 @@ class StreamFlag(IntFlag):
     FLUSH = 4
 
 
-class TrajectoryState(IntEnum):
+class RawTrajectoryState(IntEnum):
     """State of the newest trajectory, told in PROGRESS."""
 
     NONE = 0
@@ -99,7 +99,7 @@ class TrajectoryState(IntEnum):
     PAUSED = 8
 
 
-class Reason(IntEnum):
+class RawReason(IntEnum):
     """Why a trajectory was refused, or ended early."""
 
     NONE = 0
@@ -138,7 +138,7 @@ class Reason(IntEnum):
     INTERNAL = 49
 
 
-def text_of(reason: Reason) -> str:
+def text_of(reason: RawReason) -> str:
     """What the operator reads of it."""
     return spec.Reason(reason).text
 
@@ -153,7 +153,7 @@ Joints: TypeAlias = tuple[float, ...]
 """Ten controller axis values in wire order."""
 
 
-class TrajectoryPoint(NamedTuple):
+class RawTrajectoryPoint(NamedTuple):
     """JOINT_TRAJ_PT: `duration` is s from the point before."""
 
     sequence: int
@@ -162,14 +162,14 @@ class TrajectoryPoint(NamedTuple):
     duration: float
 
 
-class JointPosition(NamedTuple):
+class RawJointPosition(NamedTuple):
     """JOINT_POSITION."""
 
     sequence: int
     joints: Joints
 
 
-class Status(NamedTuple):
+class RawStatus(NamedTuple):
     """STATUS."""
 
     drives_powered: int
@@ -181,11 +181,11 @@ class Status(NamedTuple):
     motion_possible: int
 
 
-class Ping(NamedTuple):
+class RawPing(NamedTuple):
     """PING has no data."""
 
 
-class JointFeedback(NamedTuple):
+class RawJointFeedback(NamedTuple):
     """JOINT_FEEDBACK."""
 
     robot_id: int
@@ -196,7 +196,7 @@ class JointFeedback(NamedTuple):
     accelerations: Joints
 
 
-class Hello(NamedTuple):
+class RawHello(NamedTuple):
     """HELLO as a client asks it."""
 
     protocol: int
@@ -204,7 +204,7 @@ class Hello(NamedTuple):
     subscribe: int
 
 
-class HelloReply(NamedTuple):
+class RawHelloReply(NamedTuple):
     """HELLO as the driver answers it."""
 
     protocol: int
@@ -229,13 +229,13 @@ class HelloReply(NamedTuple):
     signals: int
 
 
-class HelloRefusal(NamedTuple):
+class RawHelloRefusal(NamedTuple):
     """HELLO of a version that does not fit."""
 
     protocol: int
 
 
-class Progress(NamedTuple):
+class RawProgress(NamedTuple):
     """PROGRESS; `point` from 0 (-1: none), `joint` from 1 (0: none)."""
 
     trajectory: int
@@ -248,7 +248,7 @@ class Progress(NamedTuple):
     joint: int
 
 
-class Stopped(NamedTuple):
+class RawStopped(NamedTuple):
     """STOPPED: where the robot stands after a halt."""
 
     trajectory: int
@@ -257,25 +257,25 @@ class Stopped(NamedTuple):
     joints: Joints
 
 
-class Pause(NamedTuple):
+class RawPause(NamedTuple):
     """PAUSE: 1 hold, 0 go on."""
 
     paused: int
 
 
-class Speed(NamedTuple):
+class RawSpeed(NamedTuple):
     """SPEED, 1 to 100 %."""
 
     percent: float
 
 
-class Heartbeat(NamedTuple):
+class RawHeartbeat(NamedTuple):
     """HEARTBEAT: s until the next one must come; 0 ends the watch."""
 
     timeout: float
 
 
-class Signal(NamedTuple):
+class RawSignal(NamedTuple):
     """SIGNAL: read, or with `write` 1 write."""
 
     signal: int
@@ -283,7 +283,7 @@ class Signal(NamedTuple):
     value: float
 
 
-class Event(NamedTuple):
+class RawEvent(NamedTuple):
     """EVENT of the controller's log."""
 
     domain: int
@@ -292,7 +292,7 @@ class Event(NamedTuple):
     title: str
 
 
-class PointsAccepted(NamedTuple):
+class RawPointsAccepted(NamedTuple):
     """Reply to POINTS: all of them are in."""
 
     stream: int
@@ -304,7 +304,7 @@ class PointsAccepted(NamedTuple):
     state: int
 
 
-class PointsRefused(NamedTuple):
+class RawPointsRefused(NamedTuple):
     """Reply to POINTS: those from `accepted` on are not executed."""
 
     stream: int
@@ -315,33 +315,33 @@ class PointsRefused(NamedTuple):
     joint: int
 
 
-class NotDone(NamedTuple):
+class RawNotDone(NamedTuple):
     """Reply to PAUSE, SPEED, HEARTBEAT and SIGNAL."""
 
     reason: int
 
 
-class HeartbeatReply(NamedTuple):
+class RawHeartbeatReply(NamedTuple):
     """Reply to HEARTBEAT: the newest trajectory and its state."""
 
     trajectory: int
     state: int
 
 
-class SignalReply(NamedTuple):
+class RawSignalReply(NamedTuple):
     """Reply to SIGNAL: the value as it was read, after any writing."""
 
     signal: int
     value: float
 
 
-class Accepted(NamedTuple):
+class RawAccepted(NamedTuple):
     """Reply to an end frame: the trajectory was taken under this number."""
 
     trajectory: int
 
 
-class Refused(NamedTuple):
+class RawRefused(NamedTuple):
     """Reply to a point: nothing moves."""
 
     reason: int
@@ -349,67 +349,48 @@ class Refused(NamedTuple):
     joint: int
 
 
-class Acknowledged(NamedTuple):
+class RawAcknowledged(NamedTuple):
     """A success reply without data."""
 
 
-class Failure(NamedTuple):
+class RawFailure(NamedTuple):
     """A failure reply without data."""
 
 
-Content: TypeAlias = (
-    TrajectoryPoint
-    | JointPosition
-    | Status
-    | Ping
-    | JointFeedback
-    | Hello
-    | HelloReply
-    | HelloRefusal
-    | Progress
-    | Stopped
-    | Pause
-    | Speed
-    | Heartbeat
-    | Signal
-    | Event
-    | PointsAccepted
-    | PointsRefused
-    | NotDone
-    | HeartbeatReply
-    | SignalReply
-    | Accepted
-    | Refused
-    | Acknowledged
-    | Failure
+_Told: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
+_Asked: TypeAlias = RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal
+_Done: TypeAlias = RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted
+_Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
+RawContent: TypeAlias = (
+    _Told | _Asked | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
 )
-_LAYOUTS: tuple[tuple[int, int, type[Content], str], ...] = (
+_LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     # Number, reply code (0: a topic or a request), and for each field a code of struct.
-    (PING, 0, Ping, ""),
-    (JOINT_POSITION, 0, JointPosition, "i 10f"),
-    (JOINT_TRAJ_PT, 0, TrajectoryPoint, "i 10f f f"),
-    (JOINT_TRAJ_PT, 1, Accepted, "i"),
-    (JOINT_TRAJ_PT, 2, Refused, "i i i"),
-    (STATUS, 0, Status, "i i i i i i i"),
-    (JOINT_FEEDBACK, 0, JointFeedback, "i i f 10f 10f 10f"),
-    (HELLO, 0, Hello, "i 3i i"),
-    (HELLO, 1, HelloReply, "i 3i 12s 12s i i i i f f f f 10f 10f 10f i i f i i"),
-    (HELLO, 2, HelloRefusal, "i"),
-    (PROGRESS, 0, Progress, "i i i i i i i i"),
-    (POINTS, 1, PointsAccepted, "i i i i i i i"),
-    (POINTS, 2, PointsRefused, "i i i i i i"),
-    (STOPPED, 0, Stopped, "i i i 10f"),
-    (PAUSE, 0, Pause, "i"),
-    (PAUSE, 2, NotDone, "i"),
-    (SPEED, 0, Speed, "f"),
-    (SPEED, 2, NotDone, "i"),
-    (HEARTBEAT, 0, Heartbeat, "f"),
-    (HEARTBEAT, 1, HeartbeatReply, "i i"),
-    (HEARTBEAT, 2, NotDone, "i"),
-    (SIGNAL, 0, Signal, "i i f"),
-    (SIGNAL, 1, SignalReply, "i f"),
-    (SIGNAL, 2, NotDone, "i"),
-    (EVENT, 0, Event, "i i i 80s"),
+    (PING, 0, RawPing, ""),
+    (JOINT_POSITION, 0, RawJointPosition, "i 10f"),
+    (JOINT_TRAJ_PT, 0, RawTrajectoryPoint, "i 10f f f"),
+    (JOINT_TRAJ_PT, 1, RawAccepted, "i"),
+    (JOINT_TRAJ_PT, 2, RawRefused, "i i i"),
+    (STATUS, 0, RawStatus, "i i i i i i i"),
+    (JOINT_FEEDBACK, 0, RawJointFeedback, "i i f 10f 10f 10f"),
+    (HELLO, 0, RawHello, "i 3i i"),
+    (HELLO, 1, RawHelloReply, "i 3i 12s 12s i i i i f f f f 10f 10f 10f i i f i i"),
+    (HELLO, 2, RawHelloRefusal, "i"),
+    (PROGRESS, 0, RawProgress, "i i i i i i i i"),
+    (POINTS, 1, RawPointsAccepted, "i i i i i i i"),
+    (POINTS, 2, RawPointsRefused, "i i i i i i"),
+    (STOPPED, 0, RawStopped, "i i i 10f"),
+    (PAUSE, 0, RawPause, "i"),
+    (PAUSE, 2, RawNotDone, "i"),
+    (SPEED, 0, RawSpeed, "f"),
+    (SPEED, 2, RawNotDone, "i"),
+    (HEARTBEAT, 0, RawHeartbeat, "f"),
+    (HEARTBEAT, 1, RawHeartbeatReply, "i i"),
+    (HEARTBEAT, 2, RawNotDone, "i"),
+    (SIGNAL, 0, RawSignal, "i i f"),
+    (SIGNAL, 1, RawSignalReply, "i f"),
+    (SIGNAL, 2, RawNotDone, "i"),
+    (EVENT, 0, RawEvent, "i i i 80s"),
 )
 _ASKED = {kind: (number, layout) for number, code, kind, layout in _LAYOUTS if code == 0}
 _KNOWN = {
@@ -419,7 +400,7 @@ _KNOWN = {
 _HEAD = struct.Struct("<4i")
 
 
-class Frame(NamedTuple):
+class RawFrame(NamedTuple):
     """One message: the header's three numbers and the data behind them."""
 
     number: int
@@ -434,7 +415,7 @@ class Splitter:
     def __init__(self) -> None:
         self._rest = b""
 
-    def feed(self, data: bytes) -> list[Frame]:
+    def feed(self, data: bytes) -> list[RawFrame]:
         """Add bytes; the messages that they complete. Broken for a length that none has."""
         self._rest += data
         found = []
@@ -445,17 +426,17 @@ class Splitter:
             if len(self._rest) < 4 + length:
                 break
             _, number, comm, reply = _HEAD.unpack_from(self._rest)
-            found.append(Frame(number, comm, reply, self._rest[16 : 4 + length]))
+            found.append(RawFrame(number, comm, reply, self._rest[16 : 4 + length]))
             self._rest = self._rest[4 + length :]
         return found
 
 
-def framed(number: int, data: bytes, comm: int = Comm.REQUEST, *, more: int = 0) -> bytes:
+def framed(number: int, data: bytes, comm: int = RawComm.REQUEST, *, more: int = 0) -> bytes:
     """Any data as a message; its length field says `more` bytes than there are."""
     return _HEAD.pack(12 + len(data) + more, number, comm, 0) + data
 
 
-def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
+def encode(content: RawContent, comm: RawComm = RawComm.TOPIC) -> bytes:
     """A topic or request."""
     number, layout = _ASKED[type(content)]
     flat: list[object] = []
@@ -464,12 +445,12 @@ def encode(content: Content, comm: Comm = Comm.TOPIC) -> bytes:
     return framed(number, struct.pack("<" + layout, *flat), comm)
 
 
-def decode(frame: Frame) -> Content:
+def decode(frame: RawFrame) -> RawContent:
     """What a message says. Broken for one that docs/develop/protocol.md does not know."""
     number, comm, code, data = frame
-    good = code in (1, 2) if comm == Comm.REPLY else (comm in (1, 2) and code == 0)
-    if good and comm == Comm.REPLY and not data:
-        return Acknowledged() if code == ReplyCode.SUCCESS else Failure()
+    good = code in (1, 2) if comm == RawComm.REPLY else (comm in (1, 2) and code == 0)
+    if good and comm == RawComm.REPLY and not data:
+        return RawAcknowledged() if code == RawReplyCode.SUCCESS else RawFailure()
     if not good or (number, code, len(data)) not in _KNOWN:
         raise Broken(f"no message has type {number}, {comm=}, {code=} and {len(data)} bytes")
     kind, layout = _KNOWN[number, code, len(data)]
@@ -495,7 +476,7 @@ def batch_points(joint_count: int) -> int:
 
 
 def points_frame(
-    stream: int, first: int, points: Sequence[Point], flags: int = 0, comm: int = Comm.REQUEST
+    stream: int, first: int, points: Sequence[Point], flags: int = 0, comm: int = RawComm.REQUEST
 ) -> bytes:
     """A batch of a stream."""
     words = [word for point in points for word in words_of(point)]
@@ -519,7 +500,7 @@ def words_frame(
     count: int,
     words: Sequence[int],
     flags: int = 0,
-    comm: int = Comm.REQUEST,
+    comm: int = RawComm.REQUEST,
 ) -> bytes:
     """A batch of any words, that says to have `count` points; its checksum is right."""
     whole = [stream + (flags << 32), first + (count << 32), *words]

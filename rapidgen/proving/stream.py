@@ -5,12 +5,12 @@ from collections.abc import Sequence
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import POINTS, Reason, StreamFlag, batch_points, points_frame
+from rapidgen.proving.messages import POINTS, RawReason, RawStreamFlag, batch_points, points_frame
 from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
 
-BEGIN, END, FLUSH = StreamFlag.BEGIN, StreamFlag.END, StreamFlag.FLUSH
-NONE = StreamFlag(0)
+BEGIN, END, FLUSH = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.FLUSH
+NONE = RawStreamFlag(0)
 
 
 class Streamer:
@@ -23,15 +23,17 @@ class Streamer:
         self.sent = 0
         """Points sent so far."""
         self.room = bench.config.trajectory.ring - 1
-        self.last: messages.Content | None = None
+        self.last: messages.RawContent | None = None
         self.points: list[Point] = []
 
-    def frame(self, points: Sequence[Point], flags: StreamFlag, first: int | None = None) -> bytes:
+    def frame(
+        self, points: Sequence[Point], flags: RawStreamFlag, first: int | None = None
+    ) -> bytes:
         """One POINTS message."""
         at = self.sent if first is None else first
         return points_frame(self.number, at, points, flags)
 
-    def put(self, points: Sequence[Point], flags: StreamFlag = NONE) -> messages.Content:
+    def put(self, points: Sequence[Point], flags: RawStreamFlag = NONE) -> messages.RawContent:
         """Send one batch, in several messages where it does not fit into one; the last reply."""
         most = batch_points(len(self.bench.position))
         parts = [points[at : at + most] for at in range(0, len(points), most)] or [points]
@@ -43,22 +45,27 @@ class Streamer:
             told = self.reply()
         return told
 
-    def reply(self) -> messages.Content:
+    def say(self, frame: bytes) -> messages.RawContent:
+        """Send a batch as bytes, right or wrong; the reply to it."""
+        self.link.send(frame)
+        return self.reply()
+
+    def reply(self) -> messages.RawContent:
         """The next reply to a batch."""
         self.last = self.link.reply(POINTS, 5)
-        if isinstance(self.last, messages.PointsAccepted):
+        if isinstance(self.last, messages.RawPointsAccepted):
             self.room = self.last.room
         return self.last
 
-    def accepted(self, what: str) -> messages.PointsAccepted:
+    def accepted(self, what: str) -> messages.RawPointsAccepted:
         """The last reply; Broken unless it is a success."""
-        if not isinstance(self.last, messages.PointsAccepted):
+        if not isinstance(self.last, messages.RawPointsAccepted):
             raise Broken(f"{what}: the reply is {self.last}")
         return self.last
 
-    def refused(self, reason: Reason, what: str) -> messages.PointsRefused:
+    def refused(self, reason: RawReason, what: str) -> messages.RawPointsRefused:
         """The last reply; Broken unless it is a refusal for that reason."""
-        if not isinstance(self.last, messages.PointsRefused) or self.last.reason != reason:
+        if not isinstance(self.last, messages.RawPointsRefused) or self.last.reason != reason:
             raise Broken(f"{what}: wanted {reason.name}, the reply is {self.last}")
         return self.last
 
@@ -72,7 +79,7 @@ class Streamer:
                 self.put(())
                 continue
             at += len(batch)
-            flags = StreamFlag(0)
+            flags = RawStreamFlag(0)
             if not self.sent:
                 flags |= BEGIN
             if end and at == len(points):

@@ -7,19 +7,19 @@ from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
+from rapidgen.machine.meetings import Meetings
 from rapidgen.machine.network.interface import Network
+from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.system_parameters import SystemParameters
+from rapidgen.machine.texts import TextTables
 from rapidgen.motion.system import MotionSystem
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.meetings import Meetings
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
-from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Switches
-from rapidgen.runtime.texts import TextTables
 from rapidgen.system.model import ModuleFile, System
 
 if TYPE_CHECKING:

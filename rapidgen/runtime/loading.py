@@ -11,9 +11,8 @@ from typing import TYPE_CHECKING
 
 from rapidgen.diagnostics import Severity
 from rapidgen.machine.calendar import date_time
-from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.missing import missing_routines
-from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.disks import file_path, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.text import literal_text

@@ -10,7 +10,7 @@ are the dict itself: do not change it.
 
 import importlib
 import pkgutil
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Literal, TypeAlias, TypeVar
@@ -53,6 +53,14 @@ def builtin(
         return function
 
     return bind
+
+
+def builtins(
+    functions: Mapping[str, Callable[..., Value]], *, cost: Cost = "call", pure: bool = False
+) -> None:
+    """Bind a table of functions, each of which says in one expression what its built-in does."""
+    for name, function in functions.items():
+        builtin(name, cost=cost, pure=pure)(function)
 
 
 def bound(name: str) -> Builtin | None:

@@ -1,25 +1,13 @@
-"""Values as RAPID writes them, and back: ValToStr, TPWrite \\Num, Write, NumToStr, StrToVal.
-
-One "standard format" for all [S4 reference: ValToStr, TPWrite, Write]: 6 significant digits
-(15 of a dnum [mem]), no trailing zeros, no point for a whole number; a num whose fraction is
-below 0.000005 or above 0.999995 counts as whole. Exponents look like 1E+10 [mem].
-"""
+"""Values as RAPID writes them, and back: ValToStr, TPWrite, Write, StrToVal."""
 
 import math
 import re
-from decimal import ROUND_DOWN, ROUND_HALF_UP, Context, Decimal
 
+from rapidgen.rapid.number_text import DNUM_DIGITS, NUM_DIGITS, number_text
 from rapidgen.rapid.numbers import MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import DNUM, Record, Type, Value
 
-NUM_DIGITS = 6
-DNUM_DIGITS = 15
-_FRACTION = 0.000005
-_EXACT = 2**24
-"""Whole numbers below are exact in a num."""
-_ALL_DIGITS = Context(prec=800)
-"""Enough for every float with decimals behind it."""
 _LITERAL = re.compile(
     r'[+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?|TRUE|FALSE|"(?:[^"]|"")*"|[\[\],]', re.IGNORECASE
 )
@@ -31,18 +19,6 @@ def limited(text: str) -> str:
     if len(text) > MAX_STRING:
         raise RapidError("ERR_STRTOOLNG", f"{len(text)} characters")
     return text
-
-
-def number_text(value: float, digits: int = NUM_DIGITS, *, whole: bool = False) -> str:
-    """A number in the standard format; `whole`: all digits of one that is whole and exact."""
-    if digits == NUM_DIGITS and math.isfinite(value):
-        fraction = abs(value) % 1
-        if fraction < _FRACTION or fraction > 1 - _FRACTION:
-            value = round(value)
-            if whole and abs(value) < _EXACT:
-                return str(value)
-    text = f"{value:.{digits}G}"
-    return "0" if text == "-0" else text
 
 
 def value_text(
@@ -83,30 +59,6 @@ def literal_text(value: Value, type_: Type) -> str:
         if single(float(text)) == value:
             return text
     return text
-
-
-def to_places(value: float, places: int, *, truncate: bool = False) -> Decimal:
-    """`value` rounded (half away from zero) or cut to a number of decimals."""
-    step = Decimal(1).scaleb(-places)
-    rounding = ROUND_DOWN if truncate else ROUND_HALF_UP
-    return Decimal(value).quantize(step, rounding, _ALL_DIGITS)
-
-
-def fixed_text(value: float, places: int) -> str:
-    """`value` with so many decimals."""
-    text = f"{to_places(value, places):f}"
-    return text[1:] if text.startswith("-") and not text.strip("-0.") else text
-
-
-def exponent_text(value: float, places: int) -> str:
-    """`value` as 3.85E-01: so many decimals and an exponent of two digits or more."""
-    number = Decimal(value)
-    exponent = number.adjusted() if number else 0
-    mantissa = number.scaleb(-exponent).quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP)
-    if abs(mantissa) >= 10:
-        exponent += 1
-        mantissa = number.scaleb(-exponent).quantize(Decimal(1).scaleb(-places), ROUND_HALF_UP)
-    return f"{mantissa:f}E{exponent:+03d}"
 
 
 class NotALiteral(Exception):

@@ -225,21 +225,34 @@ def assign_array(target: dict[int, Value], value: dict[int, Value]) -> None:
 
 
 class PersistentCell(WaitSet):
-    """One PERS: its value and who watches it. `w` is the list of watchers."""
+    """One PERS: its value and who watches it. `w` is the list of watchers.
 
-    __slots__ = ("dims", "name", "type", "v")
+    With `variable` it is no persistent, but a VAR that all tasks have in common: of a shared
+    module [K §14.2].
+    """
 
-    def __init__(self, name: str, type: Type, dims: tuple[int, ...], value: Value) -> None:
+    __slots__ = ("_variable", "dims", "name", "type", "v")
+
+    def __init__(
+        self,
+        name: str,
+        type: Type,
+        dims: tuple[int, ...],
+        value: Value,
+        *,
+        variable: bool = False,
+    ) -> None:
         super().__init__()
+        self._variable = variable
         self.name = name
         self.type = type
         self.dims = dims
         self.v = value
 
     @property
-    def cell(self) -> "PersistentCell":
-        """Itself: a cell stands wherever a built-in wants a `Ref`."""
-        return self
+    def cell(self) -> "PersistentCell | None":
+        """Itself: a cell stands wherever a built-in wants a `Ref`. None tells a variable."""
+        return None if self._variable else self
 
     @property
     def whole(self) -> bool:
@@ -255,17 +268,6 @@ class PersistentCell(WaitSet):
         store(self, value)
         if self.w:
             self.notify()
-
-
-class SharedVariable(PersistentCell):
-    """One VAR that all tasks have in common: of a shared module [K §14.2]. No persistent."""
-
-    __slots__ = ()
-
-    @property
-    def cell(self) -> None:  # type: ignore[override]
-        """What tells a PERS from a variable."""
-        return None
 
 
 class Ref:

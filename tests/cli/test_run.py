@@ -211,3 +211,11 @@ def test_nothing_runs_with_options_that_make_no_sense(program, capsys, options) 
     out, err = capsys.readouterr()
     assert out == ""
     assert "RG901" in err
+
+
+@pytest.mark.parametrize("name", ["irb120", "cell.yaml"])
+def test_a_configuration_is_not_taken(tmp_path, monkeypatch, capsys, name):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "cell.yaml").write_text("model: irb120\n")
+    assert main(["run", name]) == 2
+    assert f"rapidgen sim {name}" in capsys.readouterr().err

@@ -1,6 +1,5 @@
 """`rapidgen sim`: a process of its own, over real sockets."""
 
-import json
 import signal
 import socket
 import struct
@@ -15,58 +14,10 @@ JOINT, STATUS = 10, 13
 SIM = [sys.executable, "-m", "rapidgen.cli", "sim"]
 
 
-class Running:
-    """A simulation that has said `ready`."""
-
-    def __init__(self, *arguments):
-        self.process = subprocess.Popen(
-            [*SIM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
-        )
-        line = self.process.stdout.readline()
-        if not line.startswith("ready "):
-            self.process.kill()
-            raise AssertionError(line + self.process.communicate()[1])
-        self.ready = json.loads(line.removeprefix("ready "))
-
-    def connect(self, port):
-        return socket.create_connection((self.ready["host"], port), timeout=60)
-
-    def control(self, **request):
-        with self.connect(self.ready["control"]) as sock, sock.makefile("rw") as file:
-            file.write(json.dumps(request) + "\n")
-            file.flush()
-            return json.loads(file.readline())
-
-    def end(self, number=signal.SIGINT):
-        """Interrupt it; (exit code, rest of stdout, stderr)."""
-        self.process.send_signal(number)
-        out, err = self.process.communicate(timeout=60)
-        return self.process.returncode, out, err
-
-    def close(self):
-        """End it whatever a test has left; a killed one could not remove its files."""
-        self.process.terminate()
-        self.process.communicate(timeout=60)
-
-
-@pytest.fixture
-def start():
-    """Starts simulations and ends them."""
-    running = []
-
-    def begin(*arguments):
-        running.append(Running(*arguments))
-        return running[-1]
-
-    yield begin
-    for one in running:
-        one.close()
-
-
-def message(sock):
-    """One message of the state server: (type, data)."""
-    length, kind, comm, reply = struct.unpack("<4i", sock.recv(16, socket.MSG_WAITALL))
-    assert (comm, reply) == (1, 0)
+def message(sock, comm=1, reply=0):
+    """One message, by default of the state server: (type, data)."""
+    length, kind, *head = struct.unpack("<4i", sock.recv(16, socket.MSG_WAITALL))
+    assert head == [comm, reply]
     return kind, sock.recv(length - 12, socket.MSG_WAITALL)
 
 
@@ -79,6 +30,7 @@ def test_a_shipped_robot_serves_moves_and_ends_cleanly(start):
     sim = start("irb120", "--ports", "auto")
     ports = sim.ready["ports"]["rob1"]
     assert sim.ready["name"] == "irb120"
+    assert set(ports) == {"motion", "control", "state"}
     with sim.connect(ports["motion"]) as motion, sim.connect(ports["state"]) as state:
         assert {message(state)[0] for _ in range(4)} == {JOINT, STATUS}
         for sequence, angle in ((-1, 0.0), (1, 0.05), (-3, 0.1)):
@@ -214,16 +166,10 @@ def of_signal(sock, index, value=None):
     """Read or write a signal over a group's control connection; its value then."""
     write = value is not None
     sock.sendall(struct.pack("<4i2if", 24, 1307, 2, 0, index, write, value or 0.0))
-    kind, data = message_of_any(sock)
+    kind, data = message(sock, 3, 1)
     assert kind == 1307
     assert struct.unpack_from("<i", data)[0] == index
     return struct.unpack_from("<f", data, 4)[0]
-
-
-def message_of_any(sock):
-    """One message without a look at its kind of communication: (type, data)."""
-    length, kind, _, _ = struct.unpack("<4i", sock.recv(16, socket.MSG_WAITALL))
-    return kind, sock.recv(length - 12, socket.MSG_WAITALL)
 
 
 @pytest.mark.parametrize("built", [False, True])
@@ -269,6 +215,16 @@ def test_a_port_that_is_taken_is_said_at_once():
         code, out, err = failing("irb120", "--port-offset", str(offset))
     assert (code, out) == (1, "")
     assert "RG431" in err
+
+
+@pytest.mark.parametrize("role", ["motion", "control", "state"])
+def test_each_port_is_looked_at(role, capsys):
+    with socket.socket() as other:
+        other.bind(("127.0.0.1", 0))
+        other.listen()
+        taken = other.getsockname()[1]
+        assert main(["sim", "irb120", "--set", f"ports.{role}={taken}"]) == 1
+    assert f"error[RG431]: port {taken} of 127.0.0.1 cannot be had" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

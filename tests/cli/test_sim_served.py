@@ -2,9 +2,7 @@
 
 import ftplib
 import io
-import json
 import os
-import signal
 import socket
 import subprocess
 import sys
@@ -24,28 +22,9 @@ def rapidgen(*arguments, **environment):
     )
 
 
-@pytest.fixture
-def sim():
-    """A controller that serves its HOME, and what its `ready` told."""
-    process = subprocess.Popen(
-        [*RAPIDGEN, "sim", "irb120", "--ports", "auto", "--ftp", "0", "--sftp", "0"],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        line = process.stdout.readline()
-        assert line.startswith("ready "), process.communicate()[1]
-        yield process, json.loads(line.removeprefix("ready "))
-    finally:
-        # A killed one could not remove its files.
-        process.terminate()
-        process.communicate(timeout=60)
-
-
-def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim, tmp_path):
-    process, ready = sim
-    sftp, ftp = ready["sftp"], ready["ftp"]
+def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(start, tmp_path):
+    sim = start("irb120", "--ports", "auto", "--ftp", "0", "--sftp", "0")
+    sftp, ftp = sim.ready["sftp"], sim.ready["ftp"]
     assert sftp["password"] != ftp["password"]
     known = tmp_path / "known_hosts"
     known.write_text(sftp["host_key"] + "\n")
@@ -69,9 +48,8 @@ def test_a_deployment_over_sftp_arrives_in_the_home_of_a_running_controller(sim,
             path = module.relative_to(built / "HOME").as_posix()
             client.retrbinary(f"RETR {path}", found.write)
             assert found.getvalue() == module.read_bytes(), path
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=60)
-    assert (process.returncode, out) == (0, "")
+    code, out, err = sim.end()
+    assert (code, out) == (0, "")
     assert "Traceback" not in err
     for port in (sftp["port"], ftp["port"]):
         with pytest.raises(ConnectionRefusedError):

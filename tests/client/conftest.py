@@ -1,6 +1,7 @@
 import sys
 import threading
 import time
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
@@ -54,6 +55,19 @@ def client(request, patient):
         return request.param(*arguments, timeouts=patient(**(hasty or {})), **options)
 
     return make
+
+
+@pytest.fixture
+def connected(fake, client):
+    """A client of either kind at a controller of this script, and the controller."""
+
+    @contextmanager
+    def connect(*, hasty=None, reconnect=0.0, **script):
+        controller = fake(**script)
+        with client(controller.address, hasty=hasty, reconnect=reconnect) as robot:
+            yield robot, controller
+
+    return connect
 
 
 @pytest.fixture

@@ -47,6 +47,12 @@ def driven(name="irb120", *, group=0, seed=0, signals=(), overrides=None, **opti
         yield robot, controller
 
 
+def complaints(peer):
+    """What the event log of a virtual controller has beside information."""
+    log = peer.log if isinstance(peer, VirtualController) else ()
+    return [event for event in log if event.type.name != "INFO"]
+
+
 def wave(count=None, step=0.1, speed=0.02):
     """Points, without end where nobody says how many, from where the robot stands."""
     for n in itertools.count() if count is None else range(count):

@@ -41,9 +41,8 @@ def rapidgen(request):
     return request.param
 
 
-def test_connects_and_tells_the_state(fake, client, rapidgen):
-    controller = fake(rapidgen=rapidgen)
-    with client(controller.address) as robot:
+def test_connects_and_tells_the_state(connected, rapidgen):
+    with connected(rapidgen=rapidgen) as (robot, controller):
         assert robot.driver.is_rapidgen is rapidgen
         assert bool(robot.driver.version) is rapidgen
         state = robot.next_state()
@@ -59,9 +58,8 @@ def test_connects_and_tells_the_state(fake, client, rapidgen):
     assert controller.hellos == 1
 
 
-def test_executes_to_the_end(fake, client, rapidgen):
-    controller = fake(rapidgen=rapidgen)
-    with client(controller.address) as robot:
+def test_executes_to_the_end(connected, rapidgen):
+    with connected(rapidgen=rapidgen) as (robot, controller):
         execution = robot.execute(PATH)
         result = execution.result()
         assert result.points == 3
@@ -78,30 +76,27 @@ def test_executes_to_the_end(fake, client, rapidgen):
         assert [duration for _, duration in controller.points] == pytest.approx([0.1, 0.1, 0.1])
 
 
-def test_a_loop_is_not_done_before_it_was_run(fake, client, rapidgen):
+def test_a_loop_is_not_done_before_it_was_run(connected, rapidgen):
     # A path that ends where it begins
-    with client(fake(rapidgen=rapidgen).address) as robot:
+    with connected(rapidgen=rapidgen) as (robot, _):
         assert robot.execute(LOOP).result().seconds > 0.2
 
 
-def test_a_driver_that_never_says_moving_is_judged_by_time_too(fake, client):
-    controller = fake(rapidgen=False, status={"in_motion": 0})
-    with client(controller.address) as robot:
+def test_a_driver_that_never_says_moving_is_judged_by_time_too(connected):
+    with connected(rapidgen=False, status={"in_motion": 0}) as (robot, _):
         assert robot.execute(LOOP).result().seconds > 0.2
 
 
-def test_a_robot_that_never_moves_has_not_arrived(fake, client):
-    controller = fake(rapidgen=False, moves=False)
-    with client(controller.address) as robot:
+def test_a_robot_that_never_moves_has_not_arrived(connected):
+    with connected(rapidgen=False, moves=False) as (robot, _):
         with pytest.raises(MotionFailed, match="never moved") as error:
             robot.execute(LOOP).result()
         assert error.value.states
         assert error.value.messages
 
 
-def test_stop_while_moving(fake, client, rapidgen):
-    controller = fake(rapidgen=rapidgen)
-    with client(controller.address) as robot:
+def test_stop_while_moving(connected, rapidgen):
+    with connected(rapidgen=rapidgen) as (robot, controller):
         execution = robot.execute(LONG)
         robot.wait_until(lambda s: s.joints[0] > 0.005, timeout=60)
         state = robot.stop()
@@ -117,9 +112,8 @@ def test_stop_while_moving(fake, client, rapidgen):
         robot.execute(Trajectory.from_points([state.joints, [0.0] * 6], seconds=0.2)).result()
 
 
-def test_cancel_is_stop_and_nothing_after_the_end(fake, client):
-    controller = fake()
-    with client(controller.address) as robot:
+def test_cancel_is_stop_and_nothing_after_the_end(connected):
+    with connected() as (robot, controller):
         execution = robot.execute(LONG)
         state = execution.cancel()
         assert execution.stopped_position == state.joints
@@ -127,9 +121,8 @@ def test_cancel_is_stop_and_nothing_after_the_end(fake, client):
         assert len(controller.stops) == 1
 
 
-def test_closing_stops_what_moves(fake, client):
-    controller = fake()
-    with client(controller.address) as robot:
+def test_closing_stops_what_moves(connected):
+    with connected() as (robot, controller):
         robot.execute(LONG)
     assert len(controller.stops) == 1
 
@@ -143,9 +136,8 @@ def test_closing_says_that_it_could_not_stop_and_closes_all_the_same(fake, clien
     assert comes(lambda: not controller._clients)
 
 
-def test_refusal_tells_reason_point_and_joint(fake, client):
-    controller = fake(refuse=(4, 1, 3))
-    with client(controller.address) as robot:
+def test_refusal_tells_reason_point_and_joint(connected):
+    with connected(refuse=(4, 1, 3)) as (robot, controller):
         with pytest.raises(TrajectoryRefused, match="joint_3") as error:
             robot.execute(PATH)
         assert (error.value.reason, error.value.point) == (Reason.JOINT_LIMIT, 1)
@@ -160,8 +152,8 @@ def test_refusal_without_a_reason(fake, client):
         robot.execute(PATH)
 
 
-def test_failure_on_the_way(fake, client):
-    with client(fake(ends_at=0.6).address) as robot:
+def test_failure_on_the_way(connected):
+    with connected(ends_at=0.6) as (robot, _):
         execution = robot.execute(PATH)
         with pytest.raises(MotionFailed, match="while moving") as error:
             execution.result()
@@ -169,8 +161,8 @@ def test_failure_on_the_way(fake, client):
         assert error.value.reached == 2
 
 
-def test_failure_on_the_way_of_a_plain_driver(fake, client):
-    with client(fake(rapidgen=False, ends_at=0.6).address) as robot:
+def test_failure_on_the_way_of_a_plain_driver(connected):
+    with connected(rapidgen=False, ends_at=0.6) as (robot, _):
         execution = robot.execute(PATH)
         with pytest.raises(MotionFailed, match="stands elsewhere"):
             execution.result()
@@ -179,27 +171,23 @@ def test_failure_on_the_way_of_a_plain_driver(fake, client):
 @pytest.mark.parametrize(
     "status", [{"e_stopped": 1}, {"drives": 0}, {"possible": 0}], ids=lambda s: next(iter(s))
 )
-def test_a_robot_that_cannot_move_gets_nothing(fake, client, status):
-    controller = fake(status=status)
-    robot_in = client(controller.address)
-    with robot_in as robot, pytest.raises(NotReady):
+def test_a_robot_that_cannot_move_gets_nothing(connected, status):
+    with connected(status=status) as (robot, controller), pytest.raises(NotReady):
         robot.execute(PATH)
     assert controller.frames == []
 
 
-def test_emergency_stop_on_the_way_of_a_plain_driver(fake, client):
-    controller = fake(rapidgen=False)
-    with client(controller.address) as robot:
+def test_emergency_stop_on_the_way_of_a_plain_driver(connected):
+    with connected(rapidgen=False) as (robot, controller):
         execution = robot.execute(LONG)
         controller.script.status = {"e_stopped": 1, "drives": 0}
         with pytest.raises(MotionFailed, match="emergency stop"):
             execution.result()
 
 
-def test_an_invalid_trajectory_sends_nothing(fake, client):
-    controller = fake()
+def test_an_invalid_trajectory_sends_nothing(connected):
     far = Trajectory.from_points([[0.5] * 6, [9.0] * 6], seconds=0.01)
-    with client(controller.address) as robot:
+    with connected() as (robot, controller):
         with pytest.raises(InvalidTrajectory) as error:
             robot.execute(far)
         assert {"RG614", "RG615", "RG616", "RG618"} <= {d.code for d in error.value.diagnostics}
@@ -218,27 +206,26 @@ def test_a_plain_driver_gets_at_most_100_points(fake, client, target):
     assert controller.frames == []
 
 
-def test_one_trajectory_at_a_time(fake, client):
-    with client(fake().address) as robot:
+def test_one_trajectory_at_a_time(connected):
+    with connected() as (robot, _):
         robot.execute(LONG)
         with pytest.raises(NotReady, match="under way"):
             robot.execute(PATH)
 
 
 @pytest.mark.parametrize("chop", [1, 3, 7, 60])
-def test_split_and_merged_segments(fake, client, chop):
-    with client(fake(chop=chop, merge=1 + chop % 3).address) as robot:
+def test_split_and_merged_segments(connected, chop):
+    with connected(chop=chop, merge=1 + chop % 3) as (robot, _):
         robot.execute(PATH).result()
 
 
-def test_late_reply(fake, client):
-    with client(fake(end_delay=0.3).address) as robot:
+def test_late_reply(connected):
+    with connected(end_delay=0.3) as (robot, _):
         robot.execute(PATH).result()
 
 
-def test_missing_reply_to_the_end(fake, client, comes):
-    controller = fake(answer_end=False)
-    with client(controller.address, hasty={"reply": 0.3}) as robot:
+def test_missing_reply_to_the_end(connected, comes):
+    with connected(answer_end=False, hasty={"reply": 0.3}) as (robot, controller):
         with pytest.raises(RobotTimeout, match="did not answer"):
             robot.execute(PATH)
         # Nobody knows whether it moves: it was stopped.
@@ -246,8 +233,7 @@ def test_missing_reply_to_the_end(fake, client, comes):
 
 
 def test_missing_reply_to_stop(fake, client):
-    controller = fake(answer_stop=False)
-    robot_in = client(controller.address, hasty={"stop": 0.3})
+    robot_in = client(fake(answer_stop=False).address, hasty={"stop": 0.3})
     with robot_in as robot, pytest.raises(StopFailed, match="did not answer"):
         robot.stop()
 
@@ -259,9 +245,8 @@ def test_a_controller_that_cannot_stop(fake, client, control):
         robot.stop()
 
 
-def test_a_stop_that_is_not_seen(fake, client):
-    controller = fake(coasts=True)
-    with client(controller.address, hasty={"stop": 0.3}) as robot:
+def test_a_stop_that_is_not_seen(connected):
+    with connected(coasts=True, hasty={"stop": 0.3}) as (robot, controller):
         robot.execute(LONG)
         robot.wait_until(lambda s: s.is_moving, timeout=60)
         with pytest.raises(StopFailed, match="not seen to stand"):
@@ -269,18 +254,16 @@ def test_a_stop_that_is_not_seen(fake, client):
         controller.script.coasts = False
 
 
-def test_silence_during_a_motion_stops_it(fake, client, comes):
-    controller = fake(silent_after=0.1)
-    with client(controller.address, hasty={"silence": 0.4}) as robot:
+def test_silence_during_a_motion_stops_it(connected, comes):
+    with connected(silent_after=0.1, hasty={"silence": 0.4}) as (robot, controller):
         execution = robot.execute(LONG)
         with pytest.raises(RobotTimeout, match="no state"):
             execution.result()
         assert comes(lambda: controller.stops)
 
 
-def test_lost_connection_during_a_motion(fake, client, rapidgen, comes):
-    controller = fake(rapidgen=rapidgen)
-    with client(controller.address) as robot:
+def test_lost_connection_during_a_motion(connected, rapidgen, comes):
+    with connected(rapidgen=rapidgen) as (robot, controller):
         execution = robot.execute(LONG)
         controller.drop("state")
         with pytest.raises(ConnectionLost, match="state port") as error:
@@ -292,9 +275,8 @@ def test_lost_connection_during_a_motion(fake, client, rapidgen, comes):
             robot.execute(PATH)
 
 
-def test_reconnects_as_told_and_never_moves_by_itself(fake, client, comes):
-    controller = fake()
-    with client(controller.address, reconnect=3.0) as robot:
+def test_reconnects_as_told_and_never_moves_by_itself(connected, comes):
+    with connected(reconnect=3.0) as (robot, controller):
         execution = robot.execute(LONG)
         controller.drop()
         with pytest.raises(ConnectionLost):
@@ -455,8 +437,8 @@ def test_stop_without_a_connection(fake, client):
             robot.end()
 
 
-def test_recording(fake, client, tmp_path):
-    with client(fake().address) as robot:
+def test_recording(connected, tmp_path):
+    with connected() as (robot, _):
         with robot.recording() as recording:
             robot.execute(PATH).result()
         assert len(recording) > 5

@@ -1,7 +1,6 @@
 """Streams, the control port and what the state port tells beside states, over real sockets."""
 
 import dataclasses
-import itertools
 import struct
 import threading
 
@@ -35,13 +34,12 @@ def streams(**options):
     return {"stream": model, "control": True}
 
 
-def test_streams_to_the_end(fake, client):
-    controller = fake(**streams())
-    with client(controller.address) as robot:
+def test_streams_to_the_end(connected):
+    with connected(**streams()) as (robot, controller):
         assert "take points" not in str(robot.driver.cannot)
         with robot.stream() as stream:
             assert stream.way is None
-            stream.extend(itertools.islice(wave(), 600))
+            stream.extend(wave(600))
             assert stream.way == "stream"
             assert (stream.total, stream.time) == (600, pytest.approx(59.9))
         result = stream.result()
@@ -51,13 +49,12 @@ def test_streams_to_the_end(fake, client):
         assert stream.progress.fraction == 1.0
         assert stream.stopped_position == pytest.approx(result.state.joints)
     executed = [q for _, q in controller.script.stream.executed]
-    asked = [q for _, q in itertools.islice(wave(), 600)]
+    asked = [q for _, q in wave(600)]
     assert np.array(executed) == pytest.approx(np.array(asked), abs=1e-6)
 
 
-def test_nothing_appended_is_nothing_done(fake, client):
-    controller = fake(**streams())
-    with client(controller.address) as robot:
+def test_nothing_appended_is_nothing_done(connected):
+    with connected(**streams()) as (robot, controller):
         with robot.stream() as stream:
             stream.append([], np.zeros((0, 6)))
         with pytest.raises(InvalidTrajectory, match="no points"):
@@ -65,10 +62,9 @@ def test_nothing_appended_is_nothing_done(fake, client):
     assert controller.script.stream.batches == 0
 
 
-def test_columns_go_by_name(fake, client):
-    controller = fake(**streams())
+def test_columns_go_by_name(connected):
     names = [f"joint_{n}" for n in (6, 5, 4, 3, 2, 1)]
-    with client(controller.address) as robot:
+    with connected(**streams()) as (robot, controller):
         with robot.stream(names) as stream:
             stream.append([0, 1], [[0] * 6, [0.6, 0.5, 0.4, 0.3, 0.2, 0.1]])
         with pytest.raises(InvalidTrajectory, match="no joint 'elbow'"):
@@ -76,9 +72,8 @@ def test_columns_go_by_name(fake, client):
     assert controller.script.stream.position == pytest.approx([0.1, 0.2, 0.3, 0.4, 0.5, 0.6])
 
 
-def test_refused_at_the_first_points_nothing_moves(fake, client):
-    controller = fake(**streams(start_fault=Reason.NOT_ALLOWED))
-    with client(controller.address) as robot:
+def test_refused_at_the_first_points_nothing_moves(connected):
+    with connected(**streams(start_fault=Reason.NOT_ALLOWED)) as (robot, controller):
         stream = robot.stream()
         with pytest.raises(TrajectoryRefused, match="may not move this robot") as error:
             stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
@@ -92,9 +87,8 @@ def test_refused_at_the_first_points_nothing_moves(fake, client):
 
 
 @pytest.mark.parametrize("point", [0, 7, 250])
-def test_refused_on_the_way_it_ends_in_order_and_says_which(fake, client, point):
-    controller = fake(**streams(point_fault=(point, Reason.JOINT_LIMIT, 3)))
-    with client(controller.address) as robot:
+def test_refused_on_the_way_it_ends_in_order_and_says_which(connected, point):
+    with connected(**streams(point_fault=(point, Reason.JOINT_LIMIT, 3))) as (robot, controller):
         stream = robot.stream()
         kind = MotionFailed if point else TrajectoryRefused
         with pytest.raises(kind, match=rf"at point {point}, joint_3: .* outside its") as error:
@@ -110,9 +104,8 @@ def test_refused_on_the_way_it_ends_in_order_and_says_which(fake, client, point)
         assert error.value.states[-1].joints == pytest.approx(executed[-1][1])
 
 
-def test_stop_from_another_thread(fake, client):
-    controller = fake(**streams(speed=1))
-    with client(controller.address) as robot:
+def test_stop_from_another_thread(connected):
+    with connected(**streams(speed=1)) as (robot, controller):
         stream = robot.stream()
         failed = []
 
@@ -134,15 +127,14 @@ def test_stop_from_another_thread(fake, client):
         assert robot._core.motion.stood is not None
 
 
-def test_closing_stops_a_stream(fake, client):
-    controller = fake(**streams(speed=1))
-    with client(controller.address) as robot:
+def test_closing_stops_a_stream(connected):
+    with connected(**streams(speed=1)) as (robot, controller):
         robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
     assert controller.script.stream.state == TrajectoryState.STOPPED
 
 
-def test_only_one_motion_at_a_time(fake, client):
-    with client(fake(**streams(speed=1)).address) as robot:
+def test_only_one_motion_at_a_time(connected):
+    with connected(**streams(speed=1)) as (robot, _):
         robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
         with pytest.raises(NotReady, match="under way"):
             robot.stream().append([0, 10], [[0.0] * 6, [0.1] * 6])
@@ -150,8 +142,8 @@ def test_only_one_motion_at_a_time(fake, client):
             robot.execute(Trajectory.from_points([[0.0] * 6, [0.1] * 6], seconds=1))
 
 
-def test_a_stream_that_has_ended_takes_nothing(fake, client):
-    with client(fake(**streams()).address) as robot:
+def test_a_stream_that_has_ended_takes_nothing(connected):
+    with connected(**streams()) as (robot, _):
         stream = robot.stream()
         stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
         stream.end()
@@ -161,9 +153,8 @@ def test_a_stream_that_has_ended_takes_nothing(fake, client):
         assert stream.result().points == 2
 
 
-def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(fake, client):
-    controller = fake(capacity=50)
-    with client(controller.address) as robot:
+def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(connected):
+    with connected(capacity=50) as (robot, controller):
         assert any("take points while it moves" in text for text in robot.driver.cannot)
         stream = robot.stream()
         stream.append([0.0, 0.1], [[0.0] * 6, [0.01] * 6])
@@ -190,11 +181,10 @@ def test_a_driver_that_does_not_stream_gets_the_points_at_the_end(fake, client):
                 what()
 
 
-def test_execute_tells_the_way(fake, client):
-    controller = fake(**streams(ring=64))
+def test_execute_tells_the_way(connected):
     short = Trajectory.from_points([[0.0] * 6, [0.01] * 6], seconds=0.1)
     long = Trajectory.from_points([[0.01 * (n > 30)] * 6 for n in range(100)], seconds=0.1)
-    with client(controller.address) as robot:
+    with connected(**streams(ring=64)) as (robot, _):
         execution = robot.execute(long)
         assert execution.way == "stream"
         assert execution.planned_seconds == pytest.approx(10)
@@ -204,10 +194,9 @@ def test_execute_tells_the_way(fake, client):
         assert execution.trajectory.names == robot.group.names
 
 
-def test_what_no_pair_holds_is_downloaded(fake, client):
-    controller = fake(**streams(ring=64), capacity=1000)
+def test_what_no_pair_holds_is_downloaded(connected):
     path = Trajectory(np.arange(70) * 40.0, np.zeros((70, 6)))
-    with client(controller.address) as robot:
+    with connected(**streams(ring=64), capacity=1000) as (robot, _):
         assert robot.way_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):
             robot.execute(path, way="stream")
@@ -257,9 +246,8 @@ def _mapping(config):
     return Group.of(config, config.groups[0]).mapping
 
 
-def test_a_control_port_of_another_driver_is_left_alone(fake, client):
-    controller = fake(**streams(), foreign_control=True)
-    with client(controller.address) as robot:
+def test_a_control_port_of_another_driver_is_left_alone(connected):
+    with connected(**streams(), foreign_control=True) as (robot, controller):
         assert any("another driver answers" in text for text in robot.driver.cannot)
         with pytest.raises(NotSupported, match="another driver"):
             robot.pause()
@@ -278,38 +266,28 @@ def test_a_control_port_that_nobody_knows(fake, client):
             stream.append([0, 1], [[0.0] * 6, [0.1] * 6])
 
 
-def test_a_silent_control_port_leaves_the_motion_port_for_stop(fake, client):
-    controller = fake(**streams(speed=1), control_hears_stop=False)
-    with client(controller.address, hasty={"stop": 0.5}) as robot:
-        stream = robot.stream()
-        stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
-        robot.stop()
-        assert len(controller.stops) == 1
-        with pytest.raises(MotionStopped):
-            stream.result()
-
-
-def test_stop_goes_over_the_control_port_alone_when_all_is_answered(fake, client):
-    controller = fake(**streams(speed=1))
-    with client(controller.address) as robot:
+@pytest.mark.parametrize("heard", [True, False])
+def test_stop_goes_over_the_control_port_alone_unless_that_is_silent(connected, heard):
+    script = {**streams(speed=1), "control_hears_stop": heard}
+    with connected(**script, hasty={} if heard else {"stop": 0.5}) as (robot, controller):
         stream = robot.stream()
         stream.append([0, 30], [[0.0] * 6, [0.3] * 6])
         robot.stop()
         assert len(controller.stops) == 1
         assert stream.stopped_position is not None
+        with pytest.raises(MotionStopped):
+            stream.result()
 
 
-def test_replies_get_lost(fake, client, comes):
-    controller = fake(**streams(lose_replies_from=5))
-    with client(controller.address, hasty={"reply": 0.5}) as robot:
+def test_replies_get_lost(connected, comes):
+    with connected(**streams(lose_replies_from=5), hasty={"reply": 0.5}) as (robot, controller):
         with pytest.raises(RobotTimeout, match="did not answer a batch"):
             robot.stream().extend(wave())
         assert comes(lambda: controller.script.stream.state == TrajectoryState.STOPPED)
 
 
-def test_events(fake, client, comes):
-    controller = fake()
-    with client(controller.address) as robot:
+def test_events(connected, comes):
+    with connected() as (robot, controller):
         data = struct.pack("<3i80s", 5, 24, 3, b"Corner path failure")
         strange = struct.pack("<3i80s", 1, 10, 9, b"?")
         missed = struct.pack("<3i80s", 0, 7, 2, b"")

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 import numpy as np
 import pytest
 from both_clients import Simulated
-from driven import wave
+from driven import complaints, driven, wave
 from fake_stream import DONE, StreamModel
 from simulated_clock import SimulatedDriver, SimulatedLoop
 
@@ -29,6 +29,9 @@ from rapidgen.client.core import checks as checks_module
 from rapidgen.wire.simple_message import spec
 from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
+NOT_IN_TIME = 59901
+"""Event of the virtual controller: a move took longer than was programmed."""
+
 
 @contextmanager
 def streamed(*, control=True, timeouts=None, state_period=0.1, pace=1, **options):
@@ -41,12 +44,91 @@ def streamed(*, control=True, timeouts=None, state_period=0.1, pace=1, **options
         yield robot, driver
 
 
+@pytest.fixture(params=[streamed, driven], ids=["scripted", "ours"])
+def carried(request):
+    """The same with a scripted driver and with our own on the virtual controller."""
+    return request.param
+
+
+def test_it_starves_stands_and_goes_on(carried):
+    with carried() as (robot, peer):
+        points = list(wave(40))
+        stream = robot.stream()
+        stream.append(*zip(*points[:20], strict=True))
+        state = robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 20)
+        assert stream.progress.state is TrajectoryState.STARVED
+        assert stream.progress.reached == 20
+        assert state.joints == pytest.approx(points[19][1], abs=1e-6)
+        assert stream.starved == 1
+        assert any("ran out of points at point 20" in text for _, text in robot.messages)
+        # less than the driver likes to have: it waits for more, until it is told
+        stream.append(*zip(*points[20:22], strict=True))
+        robot.sleep(3)
+        assert stream.progress.state is TrajectoryState.STARVED
+        stream.flush()
+        robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
+        robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
+        stream.append(*zip(*points[22:], strict=True))
+        robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
+        result = stream.result()
+        assert (result.points, result.starved) == (40, 2)
+        assert result.deviation < 1e-5
+        # a controlled stop on the path: no corner path failure
+        assert not complaints(peer)
+
+
+def test_pause_resume_and_speed(carried):
+    with carried() as (robot, peer):
+        stream = robot.stream()
+        stream.append(*zip(*wave(100), strict=True))
+        robot.sleep(2)
+        robot.pause()
+        state = robot.wait_until(lambda s: s.trajectory is TrajectoryState.PAUSED, 5)
+        robot.sleep(20)
+        held = robot.state.joints
+        assert held == pytest.approx(state.joints, abs=0.02)
+        # however long it is held: nobody gives up
+        waiting = stream.later.result()
+        robot.sleep(600)
+        assert robot.state.joints == held
+        assert not waiting.done()
+        began = robot.time()
+        robot.resume()
+        robot.set_speed(50)
+        result = waiting.result()
+        assert result.points == 100
+        assert result.deviation < 1e-5
+        assert robot.time() - began == pytest.approx(2 * 8, abs=1)
+        assert {event.code for event in complaints(peer)} <= {NOT_IN_TIME}
+        with pytest.raises(ValueError, match="1 to 100"):
+            robot.set_speed(0)
+
+
+def test_a_client_that_dies_is_missed(carried):
+    with carried(timeouts=Timeouts(heartbeat=1)) as (robot, _):
+        stream = robot.stream()
+        stream.append(*zip(*wave(100), strict=True))
+        robot.sleep(2)
+        # as a process that was frozen: its timers do not run, its kernel keeps the connections
+        robot._carrier._timer.cancel()
+        robot._carrier._pump, pump = lambda: None, robot._carrier._pump
+        robot.sleep(3)
+        here = robot.state
+        assert not here.is_moving
+        assert here.trajectory is TrajectoryState.FAILED
+        robot._carrier._pump = pump
+        with pytest.raises(MotionFailed, match="client") as error:
+            stream.result()
+        assert error.value.reason is Reason.CLIENT_LOST
+        assert robot.state.joints == here.joints
+
+
 def test_a_hundred_thousand_points():
     count = 100_000
 
     with streamed(state_period=0.5) as (robot, driver):
         with robot.stream() as stream:
-            stream.extend(itertools.islice(wave(), count))
+            stream.extend(wave(count))
         result = stream.result()
     model = driver.model
     assert model.reached == result.points == count
@@ -59,7 +141,7 @@ def test_a_hundred_thousand_points():
     assert model.most_waiting <= model.ring
     # 30 points a message but for a few
     assert np.mean(model.sizes) > 28
-    asked = [q for _, q in itertools.islice(wave(), count)]
+    asked = [q for _, q in wave(count)]
     executed = [q for _, q in model.executed]
     assert np.abs(np.array(executed) - np.array(asked)).max() <= 0.5e-6 + 1e-12
     # nothing adds up: the durations of all points give the time of the last
@@ -87,7 +169,7 @@ def test_motion_begins_before_the_last_point_was_made():
         seen = []
 
         def points():
-            for n, (t, q) in enumerate(itertools.islice(wave(), 3000)):
+            for n, (t, q) in enumerate(wave(3000)):
                 seen.append((n, driver.model.reached))
                 yield t, q
 
@@ -113,7 +195,7 @@ def test_indices_wrap(monkeypatch):
 
     with streamed() as (robot, driver):
         with robot.stream() as stream:
-            stream.extend(itertools.islice(wave(), 3000))
+            stream.extend(wave(3000))
             progress = stream.progress
         progress, result = progress, stream.result()
     assert result.points == 3000
@@ -131,35 +213,10 @@ def test_unwrapping():
     assert unwrapped(wrap - 2, 3 * wrap + 1) == 3 * wrap - 2
 
 
-def test_it_starves_stands_and_goes_on():
-    with streamed() as (robot, driver):
-        points = list(itertools.islice(wave(), 40))
-        stream = robot.stream()
-        stream.append(*zip(*points[:20], strict=True))
-        state = robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
-        assert stream.progress.state is TrajectoryState.STARVED
-        assert stream.progress.reached == 20
-        assert state.joints == pytest.approx(points[19][1], abs=1e-6)
-        assert stream.starved == 1
-        assert any("ran out of points at point 20" in text for _, text in robot.messages)
-        # less than the driver likes to have: it waits for more, until it is told
-        stream.append(*zip(*points[20:22], strict=True))
-        robot.sleep(3)
-        assert stream.progress.state is TrajectoryState.STARVED
-        stream.flush()
-        robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
-        robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 10)
-        stream.append(*zip(*points[22:], strict=True))
-        robot.wait_until(lambda s: s.trajectory is TrajectoryState.MOVING, 1)
-        result = stream.result()
-    assert (result.points, result.starved) == (40, 2)
-    assert len(driver.model.executed) == 40
-
-
 def test_a_ring_that_holds_less_than_the_driver_likes_to_have():
     with streamed(preload=60.0, ring=100) as (robot, driver):
         with robot.stream() as stream:
-            stream.extend(itertools.islice(wave(), 1000))
+            stream.extend(wave(1000))
         result = stream.result()
     assert (result.points, result.starved) == (1000, 0)
     # the end and the order to start, and no other question
@@ -225,7 +282,7 @@ def test_a_controller_that_takes_no_heartbeat():
 def test_who_sees_nothing_sends_no_heartbeat_either():
     with streamed() as (robot, driver):
         stream = robot.stream()
-        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        stream.append(*zip(*wave(100), strict=True))
         robot.sleep(2)
         # No STOP gets through, and no state comes.
         driver.model.control, hear = (
@@ -299,31 +356,6 @@ def test_one_message_with_the_state_of_before_is_not_believed():
         assert told
         assert not stream.is_over
         assert stream.result().seconds > 9
-
-
-def test_pause_resume_and_speed():
-    with streamed() as (robot, driver):
-        stream = robot.stream()
-        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
-        robot.sleep(2)
-        robot.pause()
-        robot.sleep(0.3)
-        state = robot.state
-        assert state.trajectory is TrajectoryState.PAUSED
-        # however long it is held: nobody gives up
-        waiting = stream.later.result()
-        robot.sleep(600)
-        assert robot.state.joints == state.joints
-        assert not waiting.done()
-        began = driver.loop.time()
-        robot.resume()
-        robot.set_speed(50)
-        result = waiting.result()
-        with pytest.raises(ValueError, match="1 to 100"):
-            robot.set_speed(0)
-        result, took = result, driver.loop.time() - began
-    assert result.points == 100
-    assert took == pytest.approx(2 * 8, abs=1)
 
 
 @pytest.mark.parametrize("control", [True, False])
@@ -406,23 +438,6 @@ def test_heartbeats_come_with_a_download_too_and_not_without_a_motion():
         stream.result()
 
 
-def test_a_client_that_dies_is_missed():
-    with streamed() as (robot, driver):
-        stream = robot.stream()
-        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
-        robot.sleep(2)
-        # as a process that was frozen: its timers do not run, its kernel keeps the connections
-        robot._carrier._timer.cancel()
-        robot._carrier._pump = lambda: None
-        robot.sleep(2.5)
-        assert driver.model.state == TrajectoryState.FAILED
-        assert driver.model.reason == Reason.CLIENT_LOST
-        del robot._carrier._pump
-        with pytest.raises(MotionFailed, match="client") as error:
-            stream.result()
-        assert error.value.reason is Reason.CLIENT_LOST
-
-
 def test_no_heartbeats_where_nobody_wants_them():
     with streamed(timeouts=Timeouts(heartbeat=0)) as (robot, driver):
         with robot.stream() as stream:
@@ -448,7 +463,7 @@ def test_a_control_port_that_falls_silent_stops_the_motion():
 def test_a_lost_connection_stops_the_motion_though_nobody_waits():
     with streamed() as (robot, driver):
         stream = robot.stream()
-        stream.append(*zip(*itertools.islice(wave(), 100), strict=True))
+        stream.append(*zip(*wave(100), strict=True))
         robot.sleep(2)
         state = next(link for port, link in robot._carrier._links.items() if port.name == "STATE")
         state.transport.close()

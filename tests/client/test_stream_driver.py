@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from driven import driven, robot_of, wave
+from driven import complaints, driven, robot_of, wave
 
 from rapidgen.client import (
     MotionFailed,
@@ -19,13 +19,6 @@ from rapidgen.client.flows import control
 from rapidgen.config import load_config
 from rapidgen.system.model import SignalSpec
 from rapidgen.wire.simple_message.spec import EventType, Feature, Reason, TrajectoryState
-
-NOT_IN_TIME = 59901
-"""Event of the virtual controller: a move took longer than was programmed."""
-
-
-def complaints(controller):
-    return [event for event in controller.log if event.type.name != "INFO"]
 
 
 def test_what_the_driver_can():
@@ -67,31 +60,12 @@ def test_motion_begins_at_once_however_long_the_trajectory():
     assert long < begins(1000, "download") / 2
 
 
-def test_starved_and_going_on():
-    with driven() as (robot, controller):
-        points = list(wave(60))
-        stream = robot.stream()
-        stream.append(*zip(*points[:30], strict=True))
-        state = robot.wait_until(lambda s: s.trajectory is TrajectoryState.STARVED, 20)
-        assert state.joints == pytest.approx(points[29][1], abs=1e-5)
-        assert stream.progress.reached == 30
-        stream.append(*zip(*points[30:], strict=True))
-        result = stream.result()
-        assert (result.points, result.starved) == (60, 1)
-        assert result.deviation < 1e-5
-        # a controlled stop on the path: no corner path failure
-        assert not complaints(controller)
-
-
 def test_a_fault_that_only_the_driver_finds(monkeypatch):
-    def unchecked(ordered, group, wire, durations, start, before):
-        return []
-
     with driven() as (robot, _):
         points = list(wave(200))
         points[120][1][2] = 9.0
         stream = robot.stream()
-        monkeypatch.setattr(client_checks, "_content", unchecked)
+        monkeypatch.setattr(client_checks, "_content", lambda _: [])
         monkeypatch.setattr(client_checks, "on_the_grid", lambda wire, group: wire)
         stream.extend(points)
         with pytest.raises(MotionFailed, match="point 120, joint_3: a joint is outside") as error:
@@ -149,49 +123,6 @@ def test_stop_right_behind_the_first_points_stops():
         assert robot.state.joints == here
 
 
-def test_pause_resume_and_speed():
-    with driven() as (robot, controller):
-        stream = robot.stream()
-        stream.append(*zip(*wave(100), strict=True))
-        robot.sleep(2)
-        robot.pause()
-        state = robot.wait_until(lambda s: s.trajectory is TrajectoryState.PAUSED, 5)
-        robot.sleep(20)
-        assert robot.state.joints == pytest.approx(state.joints, abs=0.02)
-        held = robot.state.joints
-        robot.sleep(20)
-        assert robot.state.joints == held
-        robot.resume()
-        robot.set_speed(50)
-        began = robot.time()
-        result = stream.result()
-        took = robot.time() - began
-        assert result.points == 100
-        assert result.deviation < 1e-5
-        assert 14 < took < 20
-        assert {event.code for event in complaints(controller)} <= {NOT_IN_TIME}
-        with pytest.raises(RequestRefused) as error:
-            robot.set_speed(50)
-        assert error.value.reason is Reason.IDLE
-
-
-def test_a_client_that_freezes_is_missed():
-    with driven(timeouts=Timeouts(heartbeat=1)) as (robot, _):
-        stream = robot.stream()
-        stream.append(*zip(*wave(100), strict=True))
-        robot.sleep(2)
-        robot._carrier._timer.cancel()
-        pump, robot._carrier._pump = robot._carrier._pump, lambda: None
-        robot.sleep(3)
-        here = robot.state
-        assert not here.is_moving
-        robot._carrier._pump = pump
-        with pytest.raises(MotionFailed) as error:
-            stream.result()
-        assert error.value.reason is Reason.CLIENT_LOST
-        assert robot.state.joints == here.joints
-
-
 def test_heartbeats_end_with_the_motion():
     with driven(timeouts=Timeouts(heartbeat=0.5)) as (robot, _):
         result = robot.execute(Trajectory(*[[0, 3], [[0.0] * 6, [0.1] * 6]])).result()
@@ -199,6 +130,9 @@ def test_heartbeats_end_with_the_motion():
         robot.sleep(10)
         path = Trajectory([0, 3], [[0.1] * 6, [0.0] * 6])
         robot.execute(path).result()
+        with pytest.raises(RequestRefused) as error:
+            robot.set_speed(50)
+        assert error.value.reason is Reason.IDLE
 
 
 def test_a_download_is_paused_too():

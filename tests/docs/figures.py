@@ -135,6 +135,14 @@ def files() -> list[tuple[float, str]]:
     return sorted(((lines_of(p), p.relative_to(ROOT).as_posix()) for p in paths), reverse=True)
 
 
+def all_lines() -> list[tuple[float, str]]:
+    """Lines by top folder of package and tests."""
+    found: Counter[str] = Counter()
+    for size, name in files():
+        found["/".join(name.split("/")[:2])] += int(size)
+    return [(size, name) for name, size in found.most_common()]
+
+
 def ignored_imports() -> list[tuple[float, str]]:
     """Exceptions of the import contract."""
     text = (ROOT / "pyproject.toml").read_text("utf-8")
@@ -150,14 +158,16 @@ def goldens() -> list[tuple[float, str]]:
 FIGURES = [
     Figure("share of the largest room, %", rooms, 23, 21, together=False),
     Figure("share of the largest folder, its own files, %", folders, 14, together=False),
-    Figure("files in the largest circle of imports", circle_sizes, 43, 2, together=False),
+    Figure("files in the largest circle of imports", circle_sizes, 13, 2, together=False),
     Figure("type: ignore", lambda: words("# type: ignore"), 15),
-    Figure("the word Any besides the alias of RAPID values", anything, 75, 60),
-    Figure("public class names that stand for two things", double_names, 33, 12),
-    Figure("NotImplementedError", lambda: words("NotImplementedError$"), 2, 0),
+    Figure("the word Any besides the alias of RAPID values", anything, 60),
+    Figure("public class names that stand for two things", double_names, 32, 12),
+    Figure("NotImplementedError", lambda: words("NotImplementedError$"), 0),
     Figure("depth of inheritance", ladders, 3, 2, together=False),
     Figure("classes with two ancestors", mixed, 0),
-    Figure("lines of the longest file", files, 721, 600, together=False),
+    Figure("lines of the longest file", files, 645, 600, together=False),
+    # 4 % fewer than before the rooms.
+    Figure("lines of package and tests", all_lines, 96_200, 92_067),
     Figure("ignore_imports", ignored_imports, 0),
     Figure("lines of rapid_out", goldens, 17_000),
 ]

@@ -9,7 +9,7 @@ from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
 from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import MAX_JOINTS, JointPosition
+from rapidgen.proving.messages import MAX_JOINTS, RawJointPosition
 from rapidgen.proving.track import distance
 from rapidgen.system import parse_cfg, read_folder
 
@@ -35,11 +35,11 @@ def test_boots_and_moves(name, generation):
         assert bench.controller.diagnostics == []
         for number in range(len(config.groups)):
             own = bench.of_group(number)
-            state, points = own.state(), own.wave(3)
+            state, points = own.state(), own.wave(3, duration=1.0)
             own.moves_through(own.motion(), points)
             own.run(0.5)
             state.read()
-            told = state.expect(JointPosition, 2, "a JOINT arrives").joints
+            told = state.expect(RawJointPosition, 2, "a JOINT arrives").joints
             count = len(own.position)
             assert distance(told[:count], points[-1][0]) < 1e-6
             assert told[count:] == (0.0,) * (MAX_JOINTS - count)

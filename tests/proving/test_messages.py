@@ -45,17 +45,17 @@ def test_each_layout_is_that_of_the_specification(number, code, kind, layout):
         frames.feed(wire.encode(theirs))
         if "s" not in layout:
             assert own.encode(mine) == wire.encode(theirs)
-    assert own.decode(own.Frame._make(frames.next())) == mine
+    assert own.decode(own.RawFrame._make(frames.next())) == mine
 
 
 @pytest.mark.parametrize("name", [*ENUMS, "TrajectoryState", "Reason"])
 def test_numbers_are_those_of_the_specification(name):
-    for member in getattr(own, name):
+    for member in getattr(own, f"Raw{name}"):
         assert getattr(spec, name)[member.name] == member
 
 
 def test_texts_and_sizes_are():
-    assert own.text_of(own.Reason.CAPACITY) == spec.Reason.CAPACITY.text
+    assert own.text_of(own.RawReason.CAPACITY) == spec.Reason.CAPACITY.text
     for joints in range(1, 11):
         assert own.batch_points(joints) == known.batch_points(joints)
         assert own.point_pairs(joints) == known.point_pairs(joints)
@@ -82,6 +82,6 @@ def test_a_batch_is_that_of_the_client(joints):
     (theirs,) = bulk.encode_points(
         7, 3, [d for _, d in points], [p for p, _ in points], flags=spec.StreamFlag.BEGIN
     )
-    assert own.points_frame(7, 3, points, own.StreamFlag.BEGIN) == theirs
+    assert own.points_frame(7, 3, points, own.RawStreamFlag.BEGIN) == theirs
     with pytest.raises(ValueError, match="does not fit"):
         own.points_frame(7, 0, [((40.0,) * joints, 1.0)])

@@ -20,12 +20,12 @@ from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import (
     JOINT_POSITION,
     JOINT_TRAJ_PT,
-    Frame,
-    PointsAccepted,
-    PointsRefused,
-    Reason,
-    Status,
-    TrajectoryState,
+    RawFrame,
+    RawPointsAccepted,
+    RawPointsRefused,
+    RawReason,
+    RawStatus,
+    RawTrajectoryState,
 )
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import Streamer
@@ -260,9 +260,9 @@ def test_a_reply_that_does_not_come_is_seen(bench):
     with red("a reply of type 1 arrives"):
         link.reply(1, 0.2)
     with red("a STATUS arrives"):
-        link.expect(Status, 0.2, "a STATUS arrives")
+        link.expect(RawStatus, 0.2, "a STATUS arrives")
     link.send(STOP)
-    assert link.reply(JOINT_TRAJ_PT) == messages.Acknowledged()
+    assert link.reply(JOINT_TRAJ_PT) == messages.RawAcknowledged()
     # Each is read once.
     with red("another"):
         link.expect_reply(0.2, "another")
@@ -271,14 +271,14 @@ def test_a_reply_that_does_not_come_is_seen(bench):
 @pytest.mark.parametrize(
     ("frame", "wanted"),
     [
-        (Frame(13, 1, 0, bytes(28)), Status(*[0] * 7)),
-        (Frame(11, 3, 1, b""), messages.Acknowledged()),
-        (Frame(11, 3, 2, b""), messages.Failure()),
-        (Frame(13, 1, 0, bytes(24)), None),
-        (Frame(13, 1, 1, bytes(28)), None),
-        (Frame(13, 4, 0, bytes(28)), None),
-        (Frame(999, 1, 0, b""), None),
-        (Frame(11, 3, 0, b""), None),
+        (RawFrame(13, 1, 0, bytes(28)), RawStatus(*[0] * 7)),
+        (RawFrame(11, 3, 1, b""), messages.RawAcknowledged()),
+        (RawFrame(11, 3, 2, b""), messages.RawFailure()),
+        (RawFrame(13, 1, 0, bytes(24)), None),
+        (RawFrame(13, 1, 1, bytes(28)), None),
+        (RawFrame(13, 4, 0, bytes(28)), None),
+        (RawFrame(999, 1, 0, b""), None),
+        (RawFrame(11, 3, 0, b""), None),
     ],
 )
 def test_a_message_that_is_none_is_seen(frame, wanted):
@@ -296,7 +296,7 @@ def test_a_length_that_no_message_has_is_seen(length):
 
 
 def accepted(**changes):
-    return PointsAccepted(1, 1, 5, 100, 3, 1, TrajectoryState.MOVING)._replace(**changes)
+    return RawPointsAccepted(1, 1, 5, 100, 3, 1, RawTrajectoryState.MOVING)._replace(**changes)
 
 
 def test_replies_to_a_batch_are_told_apart(bench):
@@ -304,11 +304,11 @@ def test_replies_to_a_batch_are_told_apart(bench):
     stream.last = accepted()
     assert stream.accepted("points") is stream.last
     with red("wanted JOINT_LIMIT"):
-        stream.refused(Reason.JOINT_LIMIT, "points")
-    stream.last = PointsRefused(1, 1, 5, Reason.TOO_FAST, 5, 1)
-    assert stream.refused(Reason.TOO_FAST, "points") is stream.last
+        stream.refused(RawReason.JOINT_LIMIT, "points")
+    stream.last = RawPointsRefused(1, 1, 5, RawReason.TOO_FAST, 5, 1)
+    assert stream.refused(RawReason.TOO_FAST, "points") is stream.last
     with red("wanted JOINT_LIMIT"):
-        stream.refused(Reason.JOINT_LIMIT, "points")
+        stream.refused(RawReason.JOINT_LIMIT, "points")
     with red("the reply is"):
         stream.accepted("points")
 
@@ -322,14 +322,18 @@ def test_a_stream_that_is_refused_in_between_is_seen(bench):
 
 
 def test_confirmations_of_the_control_port_are_told_apart():
-    control.done(messages.Acknowledged(), "PAUSE")
-    control.not_done(messages.NotDone(Reason.IDLE), Reason.IDLE, "PAUSE")
-    for told in (messages.NotDone(Reason.IDLE), messages.Failure(), None):
+    control.done(messages.RawAcknowledged(), "PAUSE")
+    control.not_done(messages.RawNotDone(RawReason.IDLE), RawReason.IDLE, "PAUSE")
+    for told in (messages.RawNotDone(RawReason.IDLE), messages.RawFailure(), None):
         with red("PAUSE"):
             control.done(told, "PAUSE")
-    for told in (messages.NotDone(Reason.BAD_VALUE), messages.Failure(), messages.Acknowledged()):
+    for told in (
+        messages.RawNotDone(RawReason.BAD_VALUE),
+        messages.RawFailure(),
+        messages.RawAcknowledged(),
+    ):
         with red("wanted IDLE"):
-            control.not_done(told, Reason.IDLE, "PAUSE")
+            control.not_done(told, RawReason.IDLE, "PAUSE")
 
 
 def test_a_stop_that_is_not_confirmed_is_seen(bench):
@@ -341,8 +345,8 @@ def test_a_stop_that_is_not_confirmed_is_seen(bench):
 
 
 def test_each_reply_of_a_table_counts(bench):
-    good = messages.Acknowledged()
-    for wanted in (good, messages.Refused(Reason.JOINT_LIMIT, 0, 1), messages.Failure()):
+    good = messages.RawAcknowledged()
+    for wanted in (good, messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1), messages.RawFailure()):
         table = Table(bench)
         table.row(-1, bench.position, 9.0, wanted)
         table.row(1, bench.position, 9.0, good)
@@ -355,48 +359,48 @@ def test_each_reply_of_a_table_counts(bench):
 
 def test_what_a_table_shows_counts(bench):
     table = Table(bench)
-    table.row(-1, bench.position, 9.0, messages.Acknowledged())
+    table.row(-1, bench.position, 9.0, messages.RawAcknowledged())
     table.ask()
-    nothing = messages.Refused(0, -1, 0)
-    table.shows(TrajectoryState.RECEIVING, 1, nothing)
+    nothing = messages.RawRefused(0, -1, 0)
+    table.shows(RawTrajectoryState.RECEIVING, 1, nothing)
     for state, received, told in (
-        (TrajectoryState.MOVING, 1, nothing),
-        (TrajectoryState.RECEIVING, 2, nothing),
-        (TrajectoryState.RECEIVING, 1, messages.Refused(4, 0, 1)),
+        (RawTrajectoryState.MOVING, 1, nothing),
+        (RawTrajectoryState.RECEIVING, 2, nothing),
+        (RawTrajectoryState.RECEIVING, 1, messages.RawRefused(4, 0, 1)),
     ):
         with red("PROGRESS says"):
             table.shows(state, received, told)
     table.number += 1
     with red("PROGRESS says"):
-        table.shows(TrajectoryState.RECEIVING, 1, nothing)
+        table.shows(RawTrajectoryState.RECEIVING, 1, nothing)
 
 
 def test_a_refusal_that_does_not_come_is_seen(bench):
     points = bench.wave(4)
     wrong = track.changed(points[2][0], 0, 9.0)
     frames = bench.download([*points[:2], (wrong, 60.0), points[3]])
-    refusals.refused(bench, frames, [Reason.JOINT_LIMIT], 1, 2)
+    refusals.refused(bench, frames, [RawReason.JOINT_LIMIT], 1, 2)
     for reason, joint, point in (
-        (Reason.TOO_FAST, 0, None),
-        (Reason.JOINT_LIMIT, 2, None),
-        (Reason.JOINT_LIMIT, 1, 1),
+        (RawReason.TOO_FAST, 0, None),
+        (RawReason.JOINT_LIMIT, 2, None),
+        (RawReason.JOINT_LIMIT, 1, 1),
     ):
         with red("wanted in_error|had to be blamed"):
             refusals.refused(bench, frames, [reason], joint, point)
     with red("it had to be refused"):
-        refusals.refused(bench, bench.download(bench.wave(4)), [Reason.JOINT_LIMIT])
+        refusals.refused(bench, bench.download(bench.wave(4)), [RawReason.JOINT_LIMIT])
 
 
 def test_lines_that_the_operator_does_not_get_are_seen(bench):
     pendant = _Pendant(bench)
     with red("the pendant shows"):
-        pendant.says(Reason.NO_START, 0, 0, after="nothing")
+        pendant.says(RawReason.NO_START, 0, 0, after="nothing")
     point = bench.download(bench.wave(3))[68:136]
     for reason, place, joint, wrong in (
-        (Reason.NO_START, 0, 0, ""),
-        (Reason.JOINT_LIMIT, 0, 0, "the pendant shows"),
-        (Reason.NO_START, 2, 0, "the event log says"),
-        (Reason.NO_START, 0, 3, "the event log says"),
+        (RawReason.NO_START, 0, 0, ""),
+        (RawReason.JOINT_LIMIT, 0, 0, "the pendant shows"),
+        (RawReason.NO_START, 2, 0, "the event log says"),
+        (RawReason.NO_START, 0, 3, "the event log says"),
     ):
         bench.motion().send(point)
         bench.run(2.5)
@@ -413,9 +417,9 @@ def test_lines_that_the_operator_does_not_get_are_seen(bench):
 STEPS = [
     motion_task._Step(0, 1, 2, 1),
     motion_task._Step(1, 2, 3, 2),
-    motion_task._Step(2, 99, 3, 3, TrajectoryState.DONE),
+    motion_task._Step(2, 99, 3, 3, RawTrajectoryState.DONE),
 ]
-MOVING, DONE = TrajectoryState.MOVING, TrajectoryState.DONE
+MOVING, DONE = RawTrajectoryState.MOVING, RawTrajectoryState.DONE
 TOLD = [(0.5, MOVING, 2, 1), (1.5, MOVING, 3, 2), (2.1, DONE, 3, 3)]
 
 
@@ -487,11 +491,11 @@ def test_a_motion_that_begins_late_is_seen(bench):
     link = bench.motion()
     bench.run(0.5)
     link.send(bench.download(bench.wave(3)))
-    motion_task.begins(bench, bench.now)
+    motion_task.begins_soon(bench, bench.now)
     bench.wait_until_standing()
     link.send(bench.download(bench.wave(3)))
     with red("behind the end frame"):
-        motion_task.begins(bench, bench.now - 0.5)
+        motion_task.begins_soon(bench, bench.now - 0.5)
 
 
 # -- rounds of the state port ---------------------------------------------------------------------
@@ -501,7 +505,7 @@ PERIOD = CONFIG.state_period
 
 
 def rounds_at(*times):
-    return [state_port.Round(t, [Frame(JOINT_POSITION, 1, 0, bytes(44))]) for t in times]
+    return [state_port.Round(t, [RawFrame(JOINT_POSITION, 1, 0, bytes(44))]) for t in times]
 
 
 def test_rounds_on_their_turn_are_good(bench):
@@ -533,7 +537,7 @@ def test_what_clients_are_told_is_compared(bench):
     nothing = state_port._NONE
     state_port._all_alike(bench, [(one, nothing), (other, nothing)], since)
     with red("is told messages"):
-        state_port._all_alike(bench, [(one, state_port.Feature.PROGRESS)], since)
+        state_port._all_alike(bench, [(one, state_port.RawFeature.PROGRESS)], since)
     when, frame = other.frames[-1]
     other.frames[-1] = (when, frame._replace(data=bytes(len(frame.data))))
     with red("different"):
@@ -550,7 +554,7 @@ def test_what_clients_are_told_is_compared(bench):
         (13, "in_motion", 1, "is told with"),
         (13, "motion_possible", 0, "STATUS says"),
         (13, "e_stopped", 1, "STATUS says"),
-        (1301, "state", TrajectoryState.MOVING, "is told with"),
+        (1301, "state", RawTrajectoryState.MOVING, "is told with"),
         (1301, "reason", 4, None),
     ],
 )
@@ -608,9 +612,7 @@ def test_an_order_behind_a_stop_is_seen(given):
 def test_orders_are_heard(bench):
     heard = watched_orders(bench)
     link = bench.motion()
-    link.send(bench.download(bench.wave(6)))
-    bench.wait_until_moving()
-    bench.run(0.3)
+    bench.sets_off(link, bench.wave(6), 0.3)
     assert {o.instruction for o in heard if o.free} == {"MoveAbsJ"}
     link.send(STOP)
     bench.run(0.5)
@@ -624,8 +626,7 @@ def test_an_instruction_fails_as_often_as_told(bench):
     at_call(bench, "ROS_motion", "ClearPath", 3, lambda: calls.append(bench.now))
     link = bench.motion()
     for _ in range(2):
-        link.send(bench.download(bench.wave(6)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(6))
         link.send(STOP)
         bench.wait_until_standing()
         bench.run(1)

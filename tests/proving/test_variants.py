@@ -103,8 +103,7 @@ def test_quicker_and_slower_controllers(name):
 def test_a_controller_with_which_the_driver_cannot_work_moves_nothing(switch):
     """A task ends at its start, the first message breaks the link, or a stream is refused."""
     assert switch.partition("=")[0] in NEEDED
-    bench = Bench(*configured(), Setting(dialect=parse_dialect(switch)))
-    try:
+    with Bench(*configured(), Setting(dialect=parse_dialect(switch))) as bench:
         bench.run(0.5)
         if any(task.state == "error" for task in bench.controller.tasks.values()):
             return
@@ -120,5 +119,3 @@ def test_a_controller_with_which_the_driver_cannot_work_moves_nothing(switch):
             bench.stays(3, "its bytes cannot be read")
             assert link.lost
             assert link.read() == []
-    finally:
-        bench.close()

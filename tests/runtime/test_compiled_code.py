@@ -66,3 +66,21 @@ def test_constants_of_records_and_arrays_stand_in_constant_expressions() -> None
 def test_initial_value_of_another_type_is_refused_when_the_module_is_loaded() -> None:
     with pytest.raises(DiagnosticError, match="RG401: the value is bool, not num"):
         boot("VAR num a := TRUE;\nPROC main()\nENDPROC")
+
+
+def test_conditional_argument_of_no_parameter_is_refused() -> None:
+    controller, _ = boot("""
+    PROC foo(\\num known)
+    ENDPROC
+    PROC bar(\\num x)
+      foo \\unknown?x;
+    ENDPROC
+    PROC main()
+      bar;
+    ENDPROC""")
+    with controller:
+        controller.start_program()
+        controller.run(max_time=1)
+        fault = controller.task("T1").fault
+        assert fault is not None
+        assert "foo has no parameter unknown" in str(fault.arguments)

@@ -5,7 +5,7 @@ comes in pieces: the axis values and durations that go onto the wire.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -66,6 +66,34 @@ class CheckedPoints:
     way: ClassVar[Way] = "stream"
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Asked:
+    """What is looked at: points with the robot's columns, as axis values (n, k) and durations
+    (n,) s; `start` are the ten axis values where the robot stands, `before` the points that these
+    go on from."""
+
+    ordered: Trajectory
+    group: Group
+    wire: Array
+    durations: Array
+    start: Sequence[float] | None
+    before: LastPoint | None = None
+
+    @property
+    def origin(self) -> int:
+        """Number of the first point."""
+        return self.before.points if self.before else 0
+
+    def finding(
+        self, code: str, message: str, points: npt.NDArray[np.intp], help: str = "", *notes: str
+    ) -> Diagnostic:
+        """An error at the first of these points, which end its message."""
+        first, others = points[0] + self.origin, len(points) - 1
+        named = f"point {first} and {others} more" if others else f"point {first}"
+        at = self.ordered, int(points[0])
+        return _finding(code, f"{message} {named}", help, *notes, at=at)
+
+
 def check_trajectory(
     trajectory: Trajectory,
     group: Group,
@@ -87,9 +115,10 @@ def check_trajectory(
     with np.errstate(invalid="ignore", over="ignore"):
         wire = group.to_wire(ordered.positions)
         durations = np.concatenate([[first], np.diff(times)])
-        found = _content(ordered, group, wire, durations, start, None)
+        asked = _Asked(ordered, group, wire, durations, start)
+        found = _content(asked)
         if len(wire) > 1 or not (times[0] > 0 or goes_to_single):
-            found += _start(ordered, group, wire, start)
+            found += _start(asked)
     if len(wire) == 1:
         wire = np.repeat(wire, 2, axis=0)
         # A rapidgen driver goes by the second frame's duration, abb_driver takes both.
@@ -112,14 +141,13 @@ def check_points(
     since = times[0] - first if before is None else before.time
     with np.errstate(invalid="ignore", over="ignore"):
         wire = group.to_wire(ordered.positions)
-        durations = np.diff(times, prepend=since)
-        found = _content(ordered, group, wire, durations, start, before)
+        asked = _Asked(ordered, group, wire, np.diff(times, prepend=since), start, before)
+        found = _content(asked)
         if before is None:
-            found += _start(ordered, group, wire, start)
-        found += _fits(ordered, wire, durations, before)
+            found += _start(asked)
+        found += _fits(asked)
     _raise_errors(found)
-    points = len(ordered) + (before.points if before else 0)
-    return _points(ordered, group, wire, durations, since, points, tuple(found))
+    return _points(asked, since, tuple(found))
 
 
 def to_stream(
@@ -134,24 +162,17 @@ def to_stream(
         _raise_errors(_capacity(ordered, capacity))
         return checked
     since = ordered.times[0] - durations[0]
-    return _points(ordered, group, checked.wire, durations, since, len(ordered), checked.warnings)
+    asked = _Asked(ordered, group, checked.wire, durations, None)
+    return _points(asked, since, checked.warnings)
 
 
-def _points(
-    ordered: Trajectory,
-    group: Group,
-    wire: Array,
-    durations: Array,
-    since: float,
-    points: int,
-    warnings: tuple[Diagnostic, ...],
-) -> CheckedPoints:
-    times = ordered.times
+def _points(asked: _Asked, since: float, warnings: tuple[Diagnostic, ...]) -> CheckedPoints:
+    ordered, group, durations = asked.ordered, asked.group, asked.durations
     # Times are put on the grid, not durations: nothing adds up over a long stream.
-    steps = np.diff(np.rint(times * PAIR_SCALE), prepend=np.rint(since * PAIR_SCALE))
+    steps = np.diff(np.rint(ordered.times * PAIR_SCALE), prepend=np.rint(since * PAIR_SCALE))
     least = np.rint(np.minimum(durations, group.policy.min_segment) * PAIR_SCALE)
-    wire = on_the_grid(wire, group)
-    last = LastPoint(points, float(times[-1]), wire[-1])
+    wire = on_the_grid(asked.wire, group)
+    last = LastPoint(len(ordered) + asked.origin, float(ordered.times[-1]), wire[-1])
     return CheckedPoints(ordered, wire, np.maximum(steps, least) / PAIR_SCALE, last, warnings)
 
 
@@ -174,24 +195,9 @@ def _fitting(trajectory: Trajectory, group: Group, found: list[Diagnostic]) -> T
     return trajectory.reordered(group.names)
 
 
-def _content(
-    ordered: Trajectory,
-    group: Group,
-    wire: Array,
-    durations: Array,
-    start: Sequence[float] | None,
-    before: LastPoint | None,
-) -> list[Diagnostic]:
+def _content(asked: _Asked) -> list[Diagnostic]:
     """What is the same of a whole trajectory and of a piece."""
-    origin = before.points if before else 0
-    whole = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
-    return [
-        *_finite(ordered, group, origin),
-        *_times(ordered, before),
-        *_limits(ordered, group, wire, whole, origin),
-        *_speeds(ordered, group, wire, durations, start, before),
-        *_short(ordered, group, durations, origin),
-    ]
+    return [f for look in (_finite, _times, _limits, _speeds, _short) for f in look(asked)]
 
 
 def _raise_errors(found: list[Diagnostic]) -> None:
@@ -205,12 +211,11 @@ def _finding(
     help: str = "",
     *notes: str,
     at: tuple[Trajectory, int] | None = None,
-    severity: Severity = Severity.ERROR,
 ) -> Diagnostic:
     span = None
     if at is not None and at[0].path and at[0].lines:
         span = Span(at[0].path, at[0].lines[at[1]], 1)
-    return error(code, span, message, help, notes=notes, severity=severity)
+    return error(code, span, message, help, notes=notes)
 
 
 def _capacity(trajectory: Trajectory, capacity: int) -> list[Diagnostic]:
@@ -260,34 +265,22 @@ def _names(trajectory: Trajectory, group: Group) -> list[Diagnostic]:
     return found
 
 
-def _finite(trajectory: Trajectory, group: Group, origin: int) -> list[Diagnostic]:
+def _finite(asked: _Asked) -> list[Diagnostic]:
     found = []
-    bad = ~np.isfinite(trajectory.positions)
+    bad = ~np.isfinite(asked.ordered.positions)
     for column in np.flatnonzero(bad.any(axis=0)).tolist():
         points = np.flatnonzero(bad[:, column])
-        value = trajectory.positions[points[0], column]
-        found.append(
-            _finding(
-                "RG613",
-                f"{group.names[column]} is {value} at {_named(points, origin)}",
-                at=(trajectory, int(points[0])),
-            )
-        )
+        value = asked.ordered.positions[points[0], column]
+        message = f"{asked.group.names[column]} is {value} at"
+        found.append(asked.finding("RG613", message, points))
     return found
 
 
-def _times(trajectory: Trajectory, before: LastPoint | None) -> list[Diagnostic]:
-    times = trajectory.times
-    origin = before.points if before else 0
-    if not np.isfinite(times).all():
-        points = np.flatnonzero(~np.isfinite(times))
-        return [
-            _finding(
-                "RG613",
-                f"the time is {times[points[0]]} at {_named(points, origin)}",
-                at=(trajectory, int(points[0])),
-            )
-        ]
+def _times(asked: _Asked) -> list[Diagnostic]:
+    times, before = asked.ordered.times, asked.before
+    unknown = np.flatnonzero(~np.isfinite(times))
+    if len(unknown):
+        return [asked.finding("RG613", f"the time is {times[unknown[0]]} at", unknown)]
     found = []
     if before is None and times[0] < 0:
         found.append(
@@ -297,90 +290,70 @@ def _times(trajectory: Trajectory, before: LastPoint | None) -> list[Diagnostic]
     if before is not None and times[0] <= before.time:
         late = np.concatenate([[0], late])
     if len(late):
-        found.append(
-            _finding(
-                "RG612",
-                f"the time does not increase at {_named(late, origin)}",
-                "each point needs a later time than the one before",
-                at=(trajectory, int(late[0])),
-            )
-        )
+        mend = "each point needs a later time than the one before"
+        found.append(asked.finding("RG612", "the time does not increase at", late, mend))
     return found
 
 
-def _limits(
-    trajectory: Trajectory,
-    group: Group,
-    wire: Array,
-    whole: npt.NDArray[np.bool_],
-    origin: int,
-) -> list[Diagnostic]:
-    found = []
-    for column, joint in enumerate(group.joints):
-        values = wire[:, column]
+def _limits(asked: _Asked) -> list[Diagnostic]:
+    ordered, found = asked.ordered, []
+    whole = np.isfinite(ordered.positions).all(axis=1) & np.isfinite(ordered.times)
+    for column, joint in enumerate(asked.group.joints):
+        values = asked.wire[:, column]
         inside = (joint.lower - ROUNDING <= values) & (values <= joint.upper + ROUNDING)
         points = np.flatnonzero(~inside & whole)
         if not len(points):
             continue
         unit = "rad" if joint.kind == "revolute" else "m"
-        coupled = joint.axis == "rax_3" and bool(group.map.coupling)
+        coupled = joint.axis == "rax_3" and bool(asked.group.map.coupling)
         notes = ("axis 3 is coupled: its limits are those of joint 3 and 2 together",)
         worst = int(points[np.argmax(np.abs(values[points] - (joint.lower + joint.upper) / 2))])
         found.append(
-            _finding(
+            asked.finding(
                 "RG614",
-                f"{joint.name} is outside its limits at {_named(points, origin)}",
+                f"{joint.name} is outside its limits at",
+                points,
                 f"{joint.axis} has {joint.lower:.4f} to {joint.upper:.4f} {unit}; "
-                f"point {worst + origin} has {values[worst]:.4f} {unit}",
+                f"point {worst + asked.origin} has {values[worst]:.4f} {unit}",
                 *(notes if coupled else ()),
-                at=(trajectory, int(points[0])),
             )
         )
     return found
 
 
-def _speeds(
-    trajectory: Trajectory,
-    group: Group,
-    wire: Array,
-    durations: Array,
-    start: Sequence[float] | None,
-    before: LastPoint | None,
-) -> list[Diagnostic]:
+def _speeds(asked: _Asked) -> list[Diagnostic]:
     """Segment speeds; the approach to a first point with a time of its own counts as one."""
+    wire, start, before = asked.wire, asked.start, asked.before
     if before is not None:
         came_from = before.wire[None]
     else:
         came_from = wire[:1] if start is None else np.array([start[: wire.shape[1]]])
     steps = np.abs(np.diff(np.concatenate([came_from, wire]), axis=0))
-    rates = np.divide(
-        steps, durations[:, None], out=np.zeros_like(steps), where=durations[:, None] > 0
-    )
-    if before is None and trajectory.times[0] <= 0:
+    seconds = asked.durations[:, None]
+    rates = np.divide(steps, seconds, out=np.zeros_like(steps), where=seconds > 0)
+    if before is None and asked.ordered.times[0] <= 0:
         rates[0] = 0.0
-    origin = before.points if before else 0
     found = []
-    for column, joint in enumerate(group.joints):
+    for column, joint in enumerate(asked.group.joints):
         points = np.flatnonzero(rates[:, column] > joint.speed * _SPEED_ROUNDING)
         if not len(points):
             continue
         worst = float(rates[points, column].max())
         unit = "rad/s" if joint.kind == "revolute" else "m/s"
         found.append(
-            _finding(
+            asked.finding(
                 "RG615",
-                f"{joint.name} is too fast on the way to {_named(points, origin)}",
+                f"{joint.name} is too fast on the way to",
+                points,
                 f"it needs {worst:.3f} {unit}, {joint.axis} has {joint.speed:.3f}; "
                 f"`scaled({joint.speed / worst:.2f})` would fit",
-                at=(trajectory, int(points[0])),
             )
         )
     return found
 
 
-def _start(
-    trajectory: Trajectory, group: Group, wire: Array, start: Sequence[float] | None
-) -> list[Diagnostic]:
+def _start(asked: _Asked) -> list[Diagnostic]:
+    group, wire, start = asked.group, asked.wire, asked.start
     if start is None:
         return []
     away = np.abs(wire[0] - np.array(start[: wire.shape[1]]))
@@ -402,47 +375,33 @@ def _start(
             "go there first: `trajectory.starting_at(robot.state, seconds)`, or "
             "`rapidgen move --approach SECONDS`",
             *rows,
-            at=(trajectory, 0),
+            at=(asked.ordered, 0),
         )
     ]
 
 
-def _short(trajectory: Trajectory, group: Group, durations: Array, origin: int) -> list[Diagnostic]:
-    least = group.policy.min_segment
+def _short(asked: _Asked) -> list[Diagnostic]:
+    least, durations = asked.group.policy.min_segment, asked.durations
     points = np.flatnonzero((durations < least - _TIME_ROUNDING) & (durations > 0))
     if not len(points):
         return []
-    return [
-        _finding(
-            "RG618",
-            f"shorter than the path planner follows: the segment to {_named(points, origin)}",
-            f"{durations[points].min():.4f} s, at least {least:g} s: "
-            f"`Trajectory.resampled({least:g})`, or `rapidgen move --resample {least:g}`",
-            at=(trajectory, int(points[0])),
-            severity=Severity.ERROR if group.has_limits else Severity.WARNING,
-        )
-    ]
+    found = asked.finding(
+        "RG618",
+        "shorter than the path planner follows: the segment to",
+        points,
+        f"{durations[points].min():.4f} s, at least {least:g} s: "
+        f"`Trajectory.resampled({least:g})`, or `rapidgen move --resample {least:g}`",
+    )
+    return [found if asked.group.has_limits else replace(found, severity=Severity.WARNING)]
 
 
-def _fits(
-    trajectory: Trajectory, wire: Array, durations: Array, before: LastPoint | None
-) -> list[Diagnostic]:
-    values = np.concatenate([wire, durations[:, None]], axis=1)
+def _fits(asked: _Asked) -> list[Diagnostic]:
+    values = np.concatenate([asked.wire, asked.durations[:, None]], axis=1)
     points = np.flatnonzero((np.abs(values) > PAIR_LIMIT).any(axis=1))
     if not len(points):
         return []
-    origin = before.points if before else 0
-    return [
-        _finding(
-            "RG623",
-            f"a value is too large for a stream at {_named(points, origin)}",
-            f"{PAIR_LIMIT:.2f} s, rad or m are the most: "
-            "`Trajectory.resampled(10)` divides a long segment",
-            at=(trajectory, int(points[0])),
-        )
-    ]
-
-
-def _named(points: npt.NDArray[np.intp], origin: int = 0) -> str:
-    first = points[0] + origin
-    return f"point {first}" if len(points) == 1 else f"point {first} and {len(points) - 1} more"
+    mend = (
+        f"{PAIR_LIMIT:.2f} s, rad or m are the most: "
+        "`Trajectory.resampled(10)` divides a long segment"
+    )
+    return [asked.finding("RG623", "a value is too large for a stream at", points, mend)]

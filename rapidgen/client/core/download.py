@@ -123,14 +123,8 @@ class Download(CommandedMotion):
         told = self._told() if self.phase is not Phase.SENDING else None
         state = trajectory_state(told.state) if told is not None else None
         if told is not None and state is not None:
-            return Progress(
-                state,
-                total,
-                told.received,
-                told.planned,
-                told.reached,
-                min(1.0, told.reached / self.frames),
-            )
+            share = min(1.0, told.reached / self.frames)
+            return Progress(state, total, told.received, told.planned, told.reached, share)
         if self.result is not None:
             return Progress(TrajectoryState.DONE, total, fraction=1.0)
         if self.phase is Phase.SENDING:

@@ -13,7 +13,7 @@ from rapidgen.client.core.checks import Way
 from rapidgen.client.core.group import Group
 from rapidgen.client.core.state import Progress, State
 from rapidgen.client.core.state_port import StatePort
-from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, RobotTimeout, fault
+from rapidgen.client.errors import MotionFailed, MotionStopped, RobotError, TrajectoryRefused, fault
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.diagnostics import Diagnostic
 from rapidgen.wire.simple_message import messages
@@ -135,11 +135,9 @@ class CommandedMotion(ABC):
         if silent <= self._silence:
             return False
         self.failed(
-            RobotTimeout.because(
-                "RG603",
+            state_port.late(
                 f"no state for {silent:.1f} s while the robot may be moving",
                 "look at the robot; a STOP was sent",
-                **state_port.evidence(),
             )
         )
         return True
@@ -240,6 +238,22 @@ def reason_text(number: int) -> str:
     """A reason of the wire in words."""
     reason = reason_of(number)
     return reason.text if reason is not None else f"reason {number}"
+
+
+def refused(
+    group: Group, state_port: StatePort, reason: int | None, point: int = -1, joint: int = 0
+) -> TrajectoryRefused:
+    """The controller took nothing, for a reason of the wire; None where it gave none."""
+    text = "no reason given" if reason is None else reason_text(reason)
+    return TrajectoryRefused.because(
+        "RG620",
+        f"the controller refused{place_of(group, point, joint)}: {text}",
+        "nothing moved",
+        reason=None if reason is None else reason_of(reason),
+        point=point,
+        joint=joint,
+        **state_port.evidence(),
+    )
 
 
 def place_of(group: Group, point: int, joint: int) -> str:

@@ -19,7 +19,7 @@ from rapidgen.client.core.checks import (
 from rapidgen.client.core.download import Download
 from rapidgen.client.core.group import PLAIN_CAPACITY, Group
 from rapidgen.client.core.heartbeat import HeartbeatSchedule
-from rapidgen.client.core.motion import place_of, reason_of, reason_text
+from rapidgen.client.core.motion import refused
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
 from rapidgen.client.core.stream import PointStream
@@ -30,7 +30,6 @@ from rapidgen.client.errors import (
     ProtocolError,
     RobotError,
     RobotTimeout,
-    TrajectoryRefused,
     fault,
 )
 from rapidgen.client.trajectory import Trajectory
@@ -226,11 +225,9 @@ class Core:
             return
         if not run.is_over and self.heartbeat.is_late(self.clock()):
             run.failed(
-                RobotTimeout.because(
-                    "RG603",
+                self.state_port.late(
                     "the control port does not answer any more while the robot may be moving",
                     "a STOP was sent; look at the robot",
-                    **self.evidence(),
                 )
             )
         run.step()
@@ -470,26 +467,13 @@ class Core:
         if isinstance(reply, messages.Acknowledged):
             run.accepted(None)
             return
-        error = self._refusal(reply)
+        if isinstance(reply, messages.Refused):
+            told = reply.reason, reply.point, reply.joint
+            error = refused(self.known_group, self.state_port, *told)
+        else:
+            error = refused(self.known_group, self.state_port, None)
         run.failed(error)
         raise error
-
-    def _refusal(self, reply: Content) -> TrajectoryRefused:
-        point, joint, text = -1, 0, "no reason given"
-        reason = None
-        if isinstance(reply, messages.Refused):
-            point, joint = reply.point, reply.joint
-            reason, text = reason_of(reply.reason), reason_text(reply.reason)
-        where = place_of(self.known_group, point, joint)
-        return TrajectoryRefused.because(
-            "RG620",
-            f"the controller refused{where}: {text}",
-            "nothing moved",
-            reason=reason,
-            point=point,
-            joint=joint,
-            **self.evidence(),
-        )
 
     def request_stop(self, port: Port) -> PendingReply:
         """A STOP is about to be sent on this connection."""

@@ -18,6 +18,7 @@ from rapidgen.client.core.state import (
     status_of,
     trajectory_state,
 )
+from rapidgen.client.errors import RobotTimeout
 from rapidgen.wire.simple_message import ContentError, FrameSplitter, decode, messages
 from rapidgen.wire.simple_message.declaration import Content
 from rapidgen.wire.simple_message.frames import Frame
@@ -233,6 +234,10 @@ class StatePort:
     def evidence(self) -> Evidence:
         """The last messages and states, for an exception."""
         return {"messages": self.messages, "states": self.states}
+
+    def late(self, message: str, mend: str = "") -> RobotTimeout:
+        """What did not come in time, with the last messages and states."""
+        return RobotTimeout.because("RG603", message, mend, **self.evidence())
 
     def note(self, text: str) -> None:
         """Keep a line beside the messages."""

@@ -11,14 +11,13 @@ import numpy as np
 
 from rapidgen.client.core.checks import CheckedPoints
 from rapidgen.client.core.group import Group
-from rapidgen.client.core.motion import CommandedMotion, place_of, reason_of, reason_text
+from rapidgen.client.core.motion import CommandedMotion, refused
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.state import Progress, trajectory_state
 from rapidgen.client.core.state_port import StatePort
 from rapidgen.client.errors import (
     MotionStopped,
     ProtocolError,
-    RobotTimeout,
     TrajectoryRefused,
 )
 from rapidgen.wire.simple_message import messages
@@ -172,11 +171,9 @@ class PointStream(CommandedMotion):
         waited = self._state_port.clock() - self._flights[0].sent if self._flights else 0.0
         if waited > self._patience:
             self.failed(
-                RobotTimeout.because(
-                    "RG603",
+                self._state_port.late(
                     f"the controller did not answer a batch of points within {waited:.1f} s",
                     "a STOP was sent; look at the robot",
-                    **self._state_port.evidence(),
                 )
             )
             return
@@ -220,19 +217,7 @@ class PointStream(CommandedMotion):
             if self.number is None and isinstance(reply, messages.PointsRefused):
                 self.accepted(reply.trajectory)
             return
-        text = reason_text(reason) if reason else "no reason given"
-        where = place_of(self._group, point, joint)
-        self.failed(
-            TrajectoryRefused.because(
-                "RG620",
-                f"the controller refused{where}: {text}",
-                "nothing moved",
-                reason=reason_of(reason),
-                point=point,
-                joint=joint,
-                **self._state_port.evidence(),
-            )
-        )
+        self.failed(refused(self._group, self._state_port, reason or None, point, joint))
 
     def _by_progress(self, told: messages.ProgressReport) -> None:
         if self._state_port.progresses != self._looked_at:

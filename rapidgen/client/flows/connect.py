@@ -39,11 +39,9 @@ def _open(core: Core) -> Flow[None]:
     if not core.state_open:
         raise core.disconnected()
     if not came:
-        raise RobotTimeout.because(
-            "RG603",
+        raise core.state_port.late(
             f"connected, but no joints and status came within {limits.state:g} s",
             "is the state server's task running?",
-            **core.evidence(),
         )
     if not core.plain:
         left = max(0.0, asked + limits.hello - core.clock())

@@ -2,7 +2,7 @@
 
 from rapidgen.client.core.motion import reason_of, reason_text
 from rapidgen.client.core.robot import Core
-from rapidgen.client.errors import NotSupported, RequestRefused, RobotTimeout
+from rapidgen.client.errors import NotSupported, RequestRefused
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.diagnostics import suggest
@@ -91,12 +91,7 @@ def _ask(core: Core, content: Content, what: str) -> Flow[Content]:
     if reply is None:
         if not control.is_open:
             raise core.disconnected()
-        raise RobotTimeout.because(
-            "RG603",
-            f"no reply to the request to {what}",
-            "look at the controller",
-            **core.evidence(),
-        )
+        raise core.state_port.late(f"no reply to the request to {what}", "look at the controller")
     if isinstance(reply, messages.NotDone | messages.Failure):
         number = reply.reason if isinstance(reply, messages.NotDone) else 0
         raise RequestRefused.because(

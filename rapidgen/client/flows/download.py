@@ -4,7 +4,7 @@ from rapidgen.client.core.checks import CheckedTrajectory
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.request_port import PendingReply
 from rapidgen.client.core.robot import Core
-from rapidgen.client.errors import RobotError, RobotTimeout
+from rapidgen.client.errors import RobotError
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Send, Wait
 from rapidgen.client.flows.stop import PER_POINT, stop_and_leave
 from rapidgen.wire.simple_message.bulk import FRAME_BYTES, encode_trajectory
@@ -60,12 +60,10 @@ class Sending:
         if motion.error is not None:
             raise motion.error
         if pending.reply is None:
-            raise RobotTimeout.because(
-                "RG603",
+            raise core.state_port.late(
                 f"the controller did not answer within {patience:.1f} s whether it took the "
                 "trajectory",
                 "a STOP was sent; look at the robot",
-                **core.evidence(),
             )
 
     def job(self) -> Job:

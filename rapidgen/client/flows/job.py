@@ -10,7 +10,7 @@ from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import State
 from rapidgen.client.core.stream import PointStream
-from rapidgen.client.errors import InvalidTrajectory, RobotTimeout
+from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.flows.download import download
 from rapidgen.client.flows.effects import Flow
 from rapidgen.client.flows.motion import patience, ready, until, wait_for_result
@@ -143,11 +143,9 @@ def _until(core: Core, stream: PointStream, condition: Callable[[], bool]) -> Fl
     """Until the condition holds; the error of a stream that is over is raised."""
     if not (yield from until(core, stream, condition)):
         stream.failed(
-            RobotTimeout.because(
-                "RG603",
+            core.state_port.late(
                 f"the controller has not taken points for {patience(core, stream):.1f} s",
                 "a STOP was sent; look at the robot",
-                **core.evidence(),
             )
         )
     if stream.error is not None:

@@ -5,7 +5,6 @@ from functools import partial
 
 from rapidgen.client.core.motion import CommandedMotion, Result
 from rapidgen.client.core.robot import Core
-from rapidgen.client.errors import RobotTimeout
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import INTERRUPTIONS, Flow, Wait
 from rapidgen.client.flows.stop import stop_and_leave
@@ -61,10 +60,8 @@ def wait_for_result(core: Core, motion: CommandedMotion, timeout: float | None) 
         raise motion.error
     if motion.result is None:
         waited = patience(core, motion) if timeout is None else timeout
-        raise RobotTimeout.because(
-            "RG603",
+        raise core.state_port.late(
             f"the motion did not end within {waited:.1f} s; it goes on",
             "wait longer with result(timeout), or stop()",
-            **core.evidence(),
         )
     return motion.result

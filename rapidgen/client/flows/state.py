@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from rapidgen.client.core.robot import Core
 from rapidgen.client.core.state import Event, Feedback, State
-from rapidgen.client.errors import NotSupported, RobotTimeout
+from rapidgen.client.errors import NotSupported
 from rapidgen.client.flows.connect import alive
 from rapidgen.client.flows.effects import Flow, Wait
 from rapidgen.wire.simple_message.spec import Feature
@@ -33,9 +33,7 @@ def _until(
         return found[0]
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout.because(
-        "RG603", f"{what} did not come within {timeout:g} s", **core.evidence()
-    )
+    raise core.state_port.late(f"{what} did not come within {timeout:g} s")
 
 
 def next_state(core: Core, timeout: float | None = None) -> Flow[State]:
@@ -63,7 +61,7 @@ def next_event(
         return found[0]
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout.because("RG603", f"no event came within {timeout:g} s", **core.evidence())
+    raise core.state_port.late(f"no event came within {timeout:g} s")
 
 
 def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
@@ -87,4 +85,4 @@ def next_feedback(core: Core, timeout: float | None = None) -> Flow[Feedback]:
         return feedback
     if not core.state_open:
         raise core.disconnected()
-    raise RobotTimeout.because("RG603", f"no feedback came within {limit:g} s", **core.evidence())
+    raise core.state_port.late(f"no feedback came within {limit:g} s")

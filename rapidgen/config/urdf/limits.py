@@ -1,6 +1,7 @@
 """Limits and speeds of URDF joints as controller figures, and the figures that cannot be."""
 
 import math
+from collections.abc import Iterator
 
 from rapidgen.config.draft import JointDraft
 from rapidgen.config.urdf.robot import UrdfJoint
@@ -75,66 +76,49 @@ def _continuous(draft: JointDraft, span: Span | None) -> Diagnostic:
     )
 
 
-def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagnostic]:
+def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[Diagnostic]:
     name, lower, upper = joint.name, joint.lower, joint.upper
     linear = joint.kind == "prismatic"
+    widest = max(abs(lower or 0.0), abs(upper or 0.0))
     if lower is None or upper is None:
-        return [
-            error(
-                "RG038",
-                span,
-                f"joint '{name}' has no limits",
-                f"add\njoints:\n  {name}: {{axis: {draft.axis}, lower: ..., upper: ...}}",
-            )
-        ]
-    if lower > upper:
-        return [error("RG053", span, f"joint '{name}': lower {lower:g} is above upper {upper:g}")]
-    if lower == upper:
-        return [
-            error(
-                "RG039",
-                span,
-                f"joint '{name}' has the range {lower:g}..{upper:g}",
-                f"add its range under joints.{name}, or name it under urdf.ignore_joints",
-                label="a placeholder",
-            )
-        ]
-    found: list[Diagnostic] = []
-    widest = max(abs(lower), abs(upper))
-    if not linear and widest > DEGREES_AS_RADIANS:
-        return [
-            error(
-                "RG037",
-                span,
-                f"joint '{name}': limit {widest:g} rad looks like degrees",
-                "a URDF has radians",
-                label=f"{math.degrees(widest):,.0f} deg",
-            )
-        ]
-    if linear and widest > LONG:
-        return [error("RG041", span, f"joint '{name}': {widest:g} m is no stroke; are these mm?")]
-    if linear and upper - lower < SHORT:
-        return [error("RG041", span, f"joint '{name}': a stroke of {upper - lower:g} m is no axis")]
-    if linear and upper - lower > LOOKS_LIKE_MM:
-        found.append(
-            error(
-                "RG041",
-                span,
-                f"joint '{name}': a stroke of {upper - lower:g} m; are these mm?",
-                severity=Severity.WARNING,
-            )
+        mend = f"add\njoints:\n  {name}: {{axis: {draft.axis}, lower: ..., upper: ...}}"
+        yield error("RG038", span, f"joint '{name}' has no limits", mend)
+    elif lower > upper:
+        yield error("RG053", span, f"joint '{name}': lower {lower:g} is above upper {upper:g}")
+    elif lower == upper:
+        yield error(
+            "RG039",
+            span,
+            f"joint '{name}' has the range {lower:g}..{upper:g}",
+            f"add its range under joints.{name}, or name it under urdf.ignore_joints",
+            label="a placeholder",
         )
-    factor = 1000.0 if linear else 180 / math.pi
-    ends = sorted(draft.sign * end * factor + draft.offset for end in (lower, upper))
-    draft.lower, draft.upper = ends
-    found += _rounded(draft, span)
-    return found
+    elif not linear and widest > DEGREES_AS_RADIANS:
+        yield error(
+            "RG037",
+            span,
+            f"joint '{name}': limit {widest:g} rad looks like degrees",
+            "a URDF has radians",
+            label=f"{math.degrees(widest):,.0f} deg",
+        )
+    elif linear and widest > LONG:
+        yield error("RG041", span, f"joint '{name}': {widest:g} m is no stroke; are these mm?")
+    elif linear and upper - lower < SHORT:
+        yield error("RG041", span, f"joint '{name}': a stroke of {upper - lower:g} m is no axis")
+    else:
+        if linear and upper - lower > LOOKS_LIKE_MM:
+            message = f"joint '{name}': a stroke of {upper - lower:g} m; are these mm?"
+            yield error("RG041", span, message, severity=Severity.WARNING)
+        factor = 1000.0 if linear else 180 / math.pi
+        ends = sorted(draft.sign * end * factor + draft.offset for end in (lower, upper))
+        draft.lower, draft.upper = ends
+        yield from _rounded(draft, span)
 
 
-def _rounded(draft: JointDraft, span: Span | None) -> list[Diagnostic]:
+def _rounded(draft: JointDraft, span: Span | None) -> Iterator[Diagnostic]:
     """3.1416 rad is 180.0004 deg: a limit that someone rounded outwards."""
     if draft.unit == "mm" or draft.lower is None or draft.upper is None:
-        return []
+        return
     lower, upper = draft.lower, draft.upper
     ends = []
     if 0.0001 < upper - round(upper) < _ROUNDING:
@@ -143,61 +127,29 @@ def _rounded(draft: JointDraft, span: Span | None) -> list[Diagnostic]:
     if 0.0001 < round(lower) - lower < _ROUNDING:
         draft.lower = float(round(lower))
         ends.append(f"{lower:.4f} to {draft.lower:g}")
-    if not ends:
-        return []
-    return [
-        error(
-            "RG054",
-            span,
-            f"joint '{draft.name}': limits rounded inwards, {' and '.join(ends)} deg",
-            severity=Severity.INFO,
-        )
-    ]
+    if ends:
+        message = f"joint '{draft.name}': limits rounded inwards, {' and '.join(ends)} deg"
+        yield error("RG054", span, message, severity=Severity.INFO)
 
 
-def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> list[Diagnostic]:
+def _speed(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[Diagnostic]:
     name, velocity = joint.name, joint.velocity
-    if velocity is None:
-        return [
-            error(
-                "RG038",
-                span,
-                f"joint '{name}' has no velocity",
-                f"add joints.{name}.speed, from the robot's data sheet",
-            )
-        ]
-    if velocity <= 0:
-        return [
-            error(
-                "RG039",
-                span,
-                f"joint '{name}' has the velocity {velocity:g}",
-                f"add joints.{name}.speed, from the robot's data sheet",
-                label="a placeholder",
-            )
-        ]
     linear = joint.kind == "prismatic"
+    mend = f"add joints.{name}.speed, from the robot's data sheet"
+    if velocity is None:
+        yield error("RG038", span, f"joint '{name}' has no velocity", mend)
+        return
+    if velocity <= 0:
+        message = f"joint '{name}' has the velocity {velocity:g}"
+        yield error("RG039", span, message, mend, label="a placeholder")
+        return
     draft.speed = velocity * 1000 if linear else math.degrees(velocity)
     if velocity >= PLACEHOLDER_SPEED:
         draft.unsure = (*draft.unsure, "speed")
-        return [
-            error(
-                "RG039",
-                span,
-                f"joint '{name}': {velocity:g} {'m/s' if linear else 'rad/s'} looks like a "
-                "placeholder",
-                f"add joints.{name}.speed, from the robot's data sheet",
-                severity=Severity.WARNING,
-            )
-        ]
-    if not linear and velocity > FAST_TURN:
+        unit = "m/s" if linear else "rad/s"
+        message = f"joint '{name}': {velocity:g} {unit} looks like a placeholder"
+        yield error("RG039", span, message, mend, severity=Severity.WARNING)
+    elif not linear and velocity > FAST_TURN:
         draft.unsure = (*draft.unsure, "speed")
-        return [
-            error(
-                "RG037",
-                span,
-                f"joint '{name}': {velocity:g} rad/s looks like degrees per second",
-                severity=Severity.WARNING,
-            )
-        ]
-    return []
+        message = f"joint '{name}': {velocity:g} rad/s looks like degrees per second"
+        yield error("RG037", span, message, severity=Severity.WARNING)

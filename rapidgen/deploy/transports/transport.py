@@ -9,7 +9,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-from rapidgen.diagnostics import DiagnosticError, error
+from rapidgen.diagnostics import DiagnosticError, error, refusal
 
 FILE_LIMIT = 8 * 1024 * 1024
 """Largest file that is read from a controller; a RAPID module of 8 MB is refused elsewhere too."""
@@ -97,6 +97,11 @@ class Transport(Protocol):
 
     def close(self) -> None:
         """End the connection; never raises."""
+
+
+def refused(code: str, message: str, mend: str = "") -> DiagnosticError:
+    """What a controller's state forbids, to be raised: no place in a text, exit code 1."""
+    return refusal(code, None, message, mend, exit_code=1)
 
 
 def safe(path: str) -> str:

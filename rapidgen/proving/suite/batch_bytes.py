@@ -5,18 +5,7 @@ import struct
 
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.messages import (
-    INDEX_WRAP,
-    POINTS,
-    Comm,
-    Reason,
-    TrajectoryState,
-    decode,
-    framed,
-    points_frame,
-    words_frame,
-    words_of,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.suite.streams import way
@@ -42,8 +31,7 @@ def _in_pieces(bench: Bench) -> None:
             stream.reply()
             if stream.accepted(f"in pieces of {size} bytes").accepted != count:
                 raise Broken(f"{count} points in pieces of {size} bytes: {stream.last}")
-        bench.wait_until_at(points[-1][0], 10)
-        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+        bench.arrives(points, since, 10)
 
 
 @case("batch-topics", "batches as topics are not answered, STATUS and PROGRESS tell of them")
@@ -52,14 +40,17 @@ def _as_topics(bench: Bench) -> None:
     points = way(bench, 20)
     for first, flags in ((0, BEGIN), (20, NONE), (50, NONE)):
         own = [(p, 0.12) for p, _ in points] if first != 20 else points[-1:] * 2
-        link.send(points_frame(7, first, own, flags, Comm.TOPIC))
+        link.send(messages.points_frame(7, first, own, flags, RawComm.TOPIC))
     bench.wait_until_at(points[-1][0], 20)
     bench.run(1 + 2 * bench.config.state_period)
     if link.read():
         raise Broken("batches as topics were answered")
     progress, status = bench.progress(watcher), bench.status(watcher)
-    wanted = (TrajectoryState.FAILED, 22, 22, 22, Reason.SEQUENCE_GAP, 22, 0)
-    if progress[1:] != wanted or (status.in_error, status.error_code) != (1, Reason.SEQUENCE_GAP):
+    wanted = (RawTrajectoryState.FAILED, 22, 22, 22, RawReason.SEQUENCE_GAP, 22, 0)
+    if progress[1:] != wanted or (status.in_error, status.error_code) != (
+        1,
+        RawReason.SEQUENCE_GAP,
+    ):
         raise Broken(f"a topic behind 22 points had a hole, {progress}, {status}")
 
 
@@ -76,8 +67,7 @@ def _just_in_time(bench: Bench) -> None:
         bench.run(4.25 * seconds + 0.02 * number)
         stream.put(points[6:], END)
         stream.accepted("points that come just in time, or too late")
-        bench.wait_until_at(points[-1][0], 20)
-        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+        bench.arrives(points, since, 20)
         if any(e.code == 50_024 for e in bench.controller.log.since(last)):
             raise Broken(f"a corner had no successor: {number * 20} ms later")
 
@@ -98,7 +88,7 @@ def _damage(bench: Bench) -> None:
         bench.run(0.3)
         stream.link.close()
         bench.wait_until_standing(10)
-        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+        bench.executed(points, since)
         bench.healthy()
 
 
@@ -108,35 +98,39 @@ def _shapes(bench: Bench) -> None:
     points = way(bench, 10)
     for comm in (0, 3, 7):
         link = bench.motion()
-        link.send(points_frame(7, 0, points, BEGIN, comm))
-        bench.until(lambda: link.lost, 5, f"comm_type {comm} drops the client")  # noqa: B023
+        link.send(messages.points_frame(7, 0, points, BEGIN, comm))
+        link.wait_until_lost(5, f"comm_type {comm} drops the client")
     link = bench.motion()
     for size in (0, 8, 16):
-        link.send(framed(POINTS, bytes(size)))
-        told = decode(link.expect_reply(2, "a batch without a head is answered"))
-        if not isinstance(told, messages.PointsRefused | messages.Failure):
+        link.send(messages.framed(messages.POINTS, bytes(size)))
+        told = messages.decode(link.expect_reply(2, "a batch without a head is answered"))
+        if not isinstance(told, messages.RawPointsRefused | messages.RawFailure):
             raise Broken(f"a batch of {size} bytes is answered by {told}")
-    for number, first in enumerate((1, INDEX_WRAP - 1), 2):
-        link.send(points_frame(number, first, points, BEGIN))
+    for number, first in enumerate((1, messages.INDEX_WRAP - 1), 2):
+        link.send(messages.points_frame(number, first, points, BEGIN))
         stream = Streamer(bench, link, number=number)
         stream.reply()
-        told = stream.refused(Reason.SEQUENCE_GAP, f"a beginning at point {first}")
+        told = stream.refused(RawReason.SEQUENCE_GAP, f"a beginning at point {first}")
         if (told.accepted, told.point) != (0, 0):
             raise Broken(f"a beginning at point {first}: the reply is {told}")
     bench.stays(1, "no stream has begun")
-    words = [word for point in points[5:] for word in words_of(point)]
-    exchanged = bytearray(points_frame(7, 5, points[5:]))
+    words = [word for point in points[5:] for word in messages.words_of(point)]
+    exchanged = bytearray(messages.points_frame(7, 5, points[5:]))
     exchanged[32:48] = exchanged[40:48] + exchanged[32:40]
-    data = points_frame(7, 5, points[5:])[16:]
-    wrong = [(bytes(exchanged), Reason.CHECKSUM)]
-    wrong += [(words_frame(7, 5, c, words), Reason.FRAMING) for c in (4, 6, 0, 2**31)]
-    wrong += [(framed(POINTS, data[:more]), Reason.FRAMING) for more in (-8, -4)]
-    wrong += [(framed(POINTS, data + bytes(more)), Reason.FRAMING) for more in (4, 8)]
+    data = messages.points_frame(7, 5, points[5:])[16:]
+    wrong = [(bytes(exchanged), RawReason.CHECKSUM)]
+    wrong += [(messages.words_frame(7, 5, c, words), RawReason.FRAMING) for c in (4, 6, 0, 2**31)]
+    wrong += [
+        (messages.framed(messages.POINTS, data[:more]), RawReason.FRAMING) for more in (-8, -4)
+    ]
+    wrong += [
+        (messages.framed(messages.POINTS, data + bytes(more)), RawReason.FRAMING) for more in (4, 8)
+    ]
     for value in (2**53 + 1, 2**63, 2**64 - 1):
         for place in (32, 40, len(data) + 8):
-            spoilt = bytearray(points_frame(7, 5, points[5:]))
+            spoilt = bytearray(messages.points_frame(7, 5, points[5:]))
             struct.pack_into("<Q", spoilt, place, value)
-            wrong.append((bytes(spoilt), Reason.CHECKSUM))
+            wrong.append((bytes(spoilt), RawReason.CHECKSUM))
     for bad, reason in wrong:
         points = way(bench, 10)
         stream = Streamer(bench, link, number=7)

@@ -1,19 +1,9 @@
 """Batches of points one by one: what each reply says, and each way to spoil one."""
 
-from functools import partial
-
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import (
-    INDEX_WRAP,
-    JOINT_TRAJ_PT,
-    Reason,
-    StreamFlag,
-    TrajectoryState,
-    point_pairs,
-)
+from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streams import way
@@ -21,7 +11,7 @@ from rapidgen.proving.track import Point, distance
 
 case = Theme("streaming")
 
-_NONE = StreamFlag(0)
+_NONE = RawStreamFlag(0)
 _LARGEST = 2**23 - 1
 
 
@@ -44,19 +34,22 @@ def _replies(bench: Bench) -> None:
         if bench.progress(watcher).trajectory != told.trajectory:
             raise Broken(f"PROGRESS is of another trajectory than {told}")
     stream.put(())
-    if stream.accepted("a batch without points").state != TrajectoryState.MOVING:
+    if stream.accepted("a batch without points").state != RawTrajectoryState.MOVING:
         raise Broken(f"the robot moves, the reply is {stream.last}")
     bench.wait_until_at(points[-1][0], 30)
     bench.run(0.5)
     stream.put(())
     told = stream.accepted("a batch without points, starved")
-    if told[2:] != (40, ring - 1, 40, 40, TrajectoryState.STARVED):
+    if told[2:] != (40, ring - 1, 40, 40, RawTrajectoryState.STARVED):
         raise Broken(f"all of 40 points are executed, the reply is {told}")
     stream.put((), END)
     bench.run(0.5)
     for flags in (_NONE, END):
         stream.put((), flags)
-        if stream.accepted("a batch without points behind the end").state != TrajectoryState.DONE:
+        if (
+            stream.accepted("a batch without points behind the end").state
+            != RawTrajectoryState.DONE
+        ):
             raise Broken(f"the stream is done, the reply is {stream.last}")
 
 
@@ -68,16 +61,16 @@ def _strange(bench: Bench) -> None:
     for number, flags in ((7, _NONE), (7, END), (0, BEGIN), (0, _NONE), (_LARGEST + 1, BEGIN)):
         stream.number, stream.sent = number, 0
         stream.put(points, flags)
-        told = stream.refused(Reason.NO_START, f"stream {number}, {flags!r}")
+        told = stream.refused(RawReason.NO_START, f"stream {number}, {flags!r}")
         wanted = number if number <= _LARGEST else 0
-        if told != messages.PointsRefused(wanted, 0, 0, Reason.NO_START, -1, 0):
+        if told != messages.RawPointsRefused(wanted, 0, 0, RawReason.NO_START, -1, 0):
             raise Broken(f"a batch of no stream is answered by {told}")
     stream.number, stream.sent = 7, 0
     stream.put(points, BEGIN)
     stream.accepted("a beginning")
     stream.number = 8
     stream.put(points)
-    stream.refused(Reason.NO_START, "a batch of another stream")
+    stream.refused(RawReason.NO_START, "a batch of another stream")
     stream.number, stream.sent = 7, 4
     stream.put(way(bench, 4), END)
     stream.accepted("the rest of a stream")
@@ -97,16 +90,14 @@ def _no_number(bench: Bench) -> None:
     last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
     for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
         stream = Streamer(bench, number=3)
-        stream.link.send(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
-        stream.reply()
+        stream.say(_spoilt(stream.frame(way(bench, 4), BEGIN), place))
         told = stream.last
-        if not isinstance(told, messages.PointsRefused) or told.accepted or told.stream != whose:
+        if not isinstance(told, messages.RawPointsRefused) or told.accepted or told.stream != whose:
             raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
-        if place >= 32 and told.reason != Reason.CHECKSUM:
+        if place >= 32 and told.reason != RawReason.CHECKSUM:
             raise Broken(f"8 bytes of ff at {place} of stream 3, the reply is {told}")
         bench.stays(1, "a beginning is damaged")
-        stream.link.close()
-        bench.run(0.5)
+        stream.link.close(then=0.5)
 
 
 @case("batch-beginning", "a damaged beginning while a stream moves")
@@ -120,9 +111,8 @@ def _damaged_beginning(bench: Bench) -> None:
         wrong = Streamer(bench, stream.link, number=number)
         data = bytearray(wrong.frame(way(bench, 3), BEGIN))
         data[60] ^= 1
-        stream.link.send(bytes(data))
-        stream.reply()
-        told = stream.refused(Reason.CHECKSUM, "a damaged beginning")
+        stream.say(bytes(data))
+        told = stream.refused(RawReason.CHECKSUM, "a damaged beginning")
         if told.stream != number:
             raise Broken(f"a damaged beginning of stream {number}: the reply is {told}")
         stream.put(points[20:], END)
@@ -130,23 +120,22 @@ def _damaged_beginning(bench: Bench) -> None:
             stream.accepted("points of the stream under way")
             bench.wait_until_at(points[-1][0], 20)
         else:
-            stream.refused(Reason.CHECKSUM, "points behind a damaged beginning")
+            stream.refused(RawReason.CHECKSUM, "points behind a damaged beginning")
             bench.wait_until_at(points[19][0], 20)
-        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
-        stream.link.close()
-        bench.run(1.2)
+        bench.executed(points, since)
+        stream.link.close(then=1.2)
 
 
 @case("batch-padding", "a value for a joint that is not there")
 def _padding(bench: Bench) -> None:
     """Where a point has a place for a joint that the robot lacks that place is zero."""
     joints = len(bench.position)
-    if 2 * point_pairs(joints) == joints + 1:
+    if 2 * messages.point_pairs(joints) == joints + 1:
         return
     stream = Streamer(bench)
     here = bench.position
     stream.put([((*here, 0.5), 1.0)] * 2, BEGIN | END)
-    told = stream.refused(Reason.BAD_PADDING, "a value for a joint that is not there")
+    told = stream.refused(RawReason.BAD_PADDING, "a value for a joint that is not there")
     if (told.accepted, told.point) != (0, 0):
         raise Broken(f"the first point has a value too many, the reply is {told}")
 
@@ -169,16 +158,15 @@ def _enough(bench: Bench) -> None:
             bench.stays(2, f"{(count - 1) * duration:g} s wait in the ring")
         stream.put((), FLUSH)
         bench.wait_until_at(points[-1][0], 10)
-        stream.link.close()
-        bench.run(1.2)
+        stream.link.close(then=1.2)
 
 
 @case("batch-not-now", "a stream while no motion is possible", "R7a", background=True)
 def _not_now(bench: Bench) -> None:
     """A stream that begins while no motion is possible is refused, like a download."""
     for action, reasons in (
-        ("stop", (Reason.NOT_EXECUTING,)),
-        ("e-stop", (Reason.EMERGENCY_STOP, Reason.MOTORS_OFF)),
+        ("stop", (RawReason.NOT_EXECUTING,)),
+        ("e-stop", (RawReason.EMERGENCY_STOP, RawReason.MOTORS_OFF)),
     ):
         bench.controller.perform(action)
         bench.run(0.5)
@@ -187,14 +175,13 @@ def _not_now(bench: Bench) -> None:
         stream.accepted("a beginning without points")
         stream.put(way(bench, 20))
         told = stream.last
-        if not isinstance(told, messages.PointsRefused) or told.reason not in reasons:
+        if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
             raise Broken(f"after {action} points are answered by {told}")
         if (told.accepted, told.point, told.joint) != (0, -1, 0):
             raise Broken(f"after {action} points are answered by {told}")
         bench.start_again()
         bench.stays(3, f"points came after {action}")
-        stream.link.close()
-        bench.run(1.2)
+        stream.link.close(then=1.2)
 
 
 @case("batch-ends-early", "streams that end before they move", "R5")
@@ -204,13 +191,12 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream = Streamer(bench)
     # A refusal of before is none of the next stream's.
     stream.put([(p, 0.0) for p, _ in way(bench, 2)], BEGIN | END)
-    stream.refused(Reason.BAD_DURATION, "a second point without a duration")
+    stream.refused(RawReason.BAD_DURATION, "a second point without a duration")
     stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
-    stream.link.send(STOP)
-    stream.link.reply(JOINT_TRAJ_PT)
+    stream.link.stop()
     stream.put(way(bench, 20))
-    refusal = stream.refused(Reason.STOPPED, "points behind a STOP")
+    refusal = stream.refused(RawReason.STOPPED, "points behind a STOP")
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
         raise Broken(f"points behind a STOP are answered by {refusal}")
     bench.stays(1, "the stream was stopped")
@@ -218,7 +204,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.put((), BEGIN)
     stream.link.send(bench.download(bench.wave(3))[:68])
     stream.put(way(bench, 20))
-    stream.refused(Reason.SUPERSEDED, "points behind a download")
+    stream.refused(RawReason.SUPERSEDED, "points behind a download")
     bench.stays(1, "the stream was superseded")
     for number in (3, 4):
         stream.number, stream.sent = number, 0
@@ -227,11 +213,10 @@ def _ends_before_it_moves(bench: Bench) -> None:
             stream.put(way(bench, 3), _NONE)
             stream.sent = 17
             stream.put(way(bench, 3), _NONE)
-            stream.refused(Reason.SEQUENCE_GAP, "points behind a hole")
-        stream.link.close()
-        bench.run(1)
+            stream.refused(RawReason.SEQUENCE_GAP, "points behind a hole")
+        stream.link.close(then=1)
         told = bench.progress(watcher)
-        wanted = (TrajectoryState.REFUSED, Reason.INCOMPLETE) if number == 3 else None
+        wanted = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
         if wanted and ((told.state, told.reason) != wanted or (told.point, told.joint) != (0, 0)):
             raise Broken(f"a stream without a point was left, PROGRESS says {told}")
         stream = Streamer(bench)
@@ -291,19 +276,15 @@ def _silent(bench: Bench) -> None:
     bench.run(2.5)
     stream.put(points[25:50], END)
     stream.accepted("points after 2.5 s of silence")
-    bench.until(partial(_is_lost, stream), 2, "a client whose stream has ended gives way")
+    stream.link.wait_until_lost(2, "a client whose stream has ended gives way")
     bench.wait_until_standing(2)
     bench.stays(1, "its client was replaced")
-
-
-def _is_lost(stream: Streamer) -> bool:
-    return stream.link.lost
 
 
 @case("batch-index-wraps", "more points than numbers")
 def _index_wraps(bench: Bench) -> None:
     """Points are counted anew behind the last number that a controller counts exactly."""
-    last = INDEX_WRAP
+    last = messages.INDEX_WRAP
     stream, since = Streamer(bench), bench.now
     points = way(bench, 40)
     stream.put(points[:10], BEGIN)
@@ -321,14 +302,13 @@ def _index_wraps(bench: Bench) -> None:
     stream.sent = 5
     stream.put(points[20:], END)
     stream.accepted("points behind the last number")
-    bench.wait_until_at(points[-1][0], 20)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 20)
 
 
 @case("batch-unreadable", "bytes of a batch that cannot be read", "R3")
 def _unreadable(bench: Bench) -> None:
     """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
-    joints = point_pairs(len(bench.position))
+    joints = messages.point_pairs(len(bench.position))
     # The frame's own and the kind of message; two words of the head, those of two points, the
     # checksum.
     # An error of the former passes through routines without a handler, where errors do that.
@@ -345,14 +325,13 @@ def _unreadable(bench: Bench) -> None:
         if not stream.link.lost:
             stream.reply()
             told = stream.last
-            if not isinstance(told, messages.PointsRefused) or told.reason != Reason.CHECKSUM:
+            if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.CHECKSUM:
                 raise Broken(f"read {after} of a batch has failed, the reply is {told}")
         bench.wait_until_standing(10)
-        bench.followed([bench.track_at(since), *(p for p, _ in points[:8])], since=since)
+        bench.executed(points[:8], since)
         bench.stays(0.3, f"read {after} of a batch has failed")
         bench.healthy()
-        stream.link.close()
-        bench.run(0.3)
+        stream.link.close(then=0.3)
 
 
 @case("batch-behind-end", "points behind the end")
@@ -362,13 +341,13 @@ def _behind_the_end(bench: Bench) -> None:
     stream = Streamer(bench)
     stream.all(way(bench, 12))
     stream.put(way(bench, 3))
-    told = stream.refused(Reason.SEQUENCE_GAP, "points behind the end")
+    told = stream.refused(RawReason.SEQUENCE_GAP, "points behind the end")
     if (told.accepted, told.point) != (12, 12):
         raise Broken(f"points came behind 12 and the end, the reply is {told}")
     bench.wait_until_at(stream.points[11][0], 20)
     bench.run(0.5)
     progress = bench.progress(watcher)
-    if (progress.state, progress.reached) != (TrajectoryState.DONE, 12):
+    if (progress.state, progress.reached) != (RawTrajectoryState.DONE, 12):
         raise Broken(f"points came behind the end, PROGRESS says {progress}")
 
 

@@ -3,7 +3,7 @@
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, point_frame, raw_point
-from rapidgen.proving.messages import JOINT_POSITION, STATUS, Comm, ReplyCode, decode
+from rapidgen.proving.messages import JOINT_POSITION, STATUS, RawComm, RawReplyCode, decode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point, distance
 
@@ -70,7 +70,7 @@ def _state_stream(bench: Bench) -> None:
     for number, size in ((JOINT_POSITION, 44), (STATUS, 28)):
         stamps = [when for when, f in frames if f.number == number]
         if any(
-            f.comm != Comm.TOPIC or f.reply or len(f.data) != size
+            f.comm != RawComm.TOPIC or f.reply or len(f.data) != size
             for _, f in frames
             if f.number == number
         ):
@@ -94,15 +94,14 @@ def _state_is_true(bench: Bench) -> None:
     if (idle.mode, idle.motion_possible) != (2, 1):
         raise Broken(f"a robot in automatic mode with its program running says {idle}")
     points = bench.wave(6)
-    motion.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(motion, points)
     if bench.status(link).in_motion != 1:
         raise Broken("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
     joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
     last = joints[-1]
-    assert isinstance(last, messages.JointPosition)
+    assert isinstance(last, messages.RawJointPosition)
     here = bench.position
     if distance(last.joints[: len(here)], here) > 1e-4 or any(last.joints[len(here) :]):
         raise Broken(f"JOINT says {last.joints}, the robot stands at {here}")
@@ -125,7 +124,7 @@ def _short_movements_show(bench: Bench) -> None:
         motion.send(bench.download([(here, 10.0), (target, 0.1), (target, 0.1)]))
         bench.run(1.0)
         seen = [decode(f) for _, f in link.frames[before:] if f.number == STATUS]
-        if not any(isinstance(s, messages.Status) and s.in_motion == 1 for s in seen):
+        if not any(isinstance(s, messages.RawStatus) and s.in_motion == 1 for s in seen):
             raise Broken("a movement between two STATUS messages was in none of them")
 
 
@@ -134,7 +133,7 @@ def _stop_is_answered(bench: Bench) -> None:
     link = bench.motion()
     link.send(STOP)
     frame = link.expect_reply(_REPLY, "STOP is answered by an idle driver")
-    if frame != (11, Comm.REPLY, ReplyCode.SUCCESS, b""):
+    if frame != (11, RawComm.REPLY, RawReplyCode.SUCCESS, b""):
         raise Broken(f"the reply to STOP is {frame}")
 
 
@@ -187,7 +186,7 @@ def _full_capacity(bench: Bench) -> None:
 def _ping(bench: Bench) -> None:
     link = bench.motion()
     link.send(b"\x0c\0\0\0\x01\0\0\0\x02\0\0\0\0\0\0\0")
-    if link.expect_reply(_REPLY, "PING is answered").comm != Comm.REPLY:
+    if link.expect_reply(_REPLY, "PING is answered").comm != RawComm.REPLY:
         raise Broken("PING was not answered by a reply")
 
 
@@ -196,9 +195,9 @@ def _requests_are_answered(bench: Bench) -> None:
     link = bench.motion()
     points = bench.wave(3)
     for number, (joints, duration) in enumerate(points):
-        link.send(point_frame(number, len(points), joints, duration, Comm.REQUEST))
+        link.send(point_frame(number, len(points), joints, duration, RawComm.REQUEST))
         frame = link.expect_reply(_REPLY, f"point {number} sent as a request is answered")
-        if frame.reply != ReplyCode.SUCCESS:
+        if frame.reply != RawReplyCode.SUCCESS:
             raise Broken(f"point {number} of a good trajectory was refused: {decode(frame)}")
     bench.wait_until_at(points[-1][0])
 

@@ -1,8 +1,9 @@
 """What a configuration can ask for: slower rather than refused, a slow TCP, some clients alone."""
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, raw_point
-from rapidgen.proving.messages import JOINT_TRAJ_PT, STATUS, Acknowledged, Reason, Status, decode
+from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.refusals import refused
@@ -36,8 +37,7 @@ def _slowed_down(bench: Bench) -> None:
             stream.accepted("a stream that is too fast")
         else:
             bench.motion().send(bench.download(points))
-        bench.wait_until_at(points[-1][0], 20)
-        bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+        bench.arrives(points, since, 20)
         if not any("slowed down" in str(e) for e in bench.controller.log.since(last)):
             raise Broken("a trajectory was slowed down, the event log does not say so")
         bench.run(1.5)
@@ -55,14 +55,14 @@ def _tcp_too_fast(bench: Bench) -> None:
     if bench.tcp_seconds(here, away) < 1.2 * seconds:
         return
     points = [(here, 1.0), (away, seconds), (here, 9.0)]
-    refused(bench, bench.download(points), [Reason.TCP_TOO_FAST], point=1)
+    refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     good = bench.wave(8)
     stream = Streamer(bench)
     stream.put(good, BEGIN)
     stream.accepted("the first points")
     end = good[-1][0]
     stream.put([(changed(end, 0, end[0] + step), seconds)], END)
-    told = stream.refused(Reason.TCP_TOO_FAST, "a TCP that is too fast")
+    told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
     if (told.accepted, told.point, told.joint) != (8, 8, 0):
         raise Broken(f"eight points were right, the reply is {told}")
     bench.wait_until_at(end, 20)
@@ -97,7 +97,7 @@ def _stalls(bench: Bench) -> None:
     if link.lost:
         raise Broken("a client that takes its time is dropped")
     if seconds:
-        bench.until(lambda: link.lost, 2, "a client that stalls inside of a message is dropped")
+        link.wait_until_lost(2, "a client that stalls inside of a message is dropped")
     else:
         link.close()
     bench.moves_through(bench.motion(), bench.wave(3))
@@ -111,11 +111,9 @@ def _control_silent(bench: Bench) -> None:
     bench.run(0.2)
     silent.stop_reading()
     for _ in range(3):
-        link.send(bench.download(bench.wave(12)))
-        bench.wait_until_moving()
-        bench.run(0.3)
+        bench.sets_off(link, bench.wave(12), 0.3)
         link.send(STOP)
-        if link.reply(JOINT_TRAJ_PT) != Acknowledged():
+        if link.reply(messages.JOINT_TRAJ_PT) != messages.RawAcknowledged():
             raise Broken("STOP is not confirmed while a control client does not read")
         bench.wait_until_standing(3)
         bench.run(0.5)
@@ -127,9 +125,7 @@ def _braking(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
     period = bench.config.state_period
     for _ in range(3):
-        link.send(bench.download(bench.wave(12, size=0.3)))
-        bench.wait_until_moving()
-        bench.run(0.6)
+        bench.sets_off(link, bench.wave(12, size=0.3), 0.6)
         link.send(STOP)
         since = bench.now
         bench.wait_until_standing(3)
@@ -142,9 +138,13 @@ def _braking(bench: Bench) -> None:
             raise Broken("the robot stands, STATUS says that it is in motion")
 
 
-def _told(link: RawLink, since: float) -> list[tuple[float, Status]]:
-    found = [(t, decode(f)) for t, f in link.frames if t >= since and f.number == STATUS]
-    return [(t, status) for t, status in found if isinstance(status, Status)]
+def _told(link: RawLink, since: float) -> list[tuple[float, messages.RawStatus]]:
+    found = [
+        (t, messages.decode(f))
+        for t, f in link.frames
+        if t >= since and f.number == messages.STATUS
+    ]
+    return [(t, status) for t, status in found if isinstance(status, messages.RawStatus)]
 
 
 @reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")

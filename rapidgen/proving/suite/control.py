@@ -7,16 +7,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    MAX_JOINTS,
-    STOPPED,
-    Comm,
-    Reason,
-    StreamFlag,
-    TrajectoryState,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.motion_task import patience
@@ -25,25 +16,24 @@ from rapidgen.proving.track import distance
 
 case = Theme("controlling", port="control")
 
-_TRAJ = JOINT_TRAJ_PT
+_TRAJ = messages.JOINT_TRAJ_PT
 
 
 def stop(link: RawLink, seconds: float = 1) -> None:
     """STOP over this connection; Broken unless it is confirmed in time."""
-    link.send(STOP)
-    if not isinstance(link.reply(_TRAJ, seconds), messages.Acknowledged):
+    if not isinstance(link.stop(seconds), messages.RawAcknowledged):
         raise Broken("STOP on the control port is not confirmed")
 
 
-def not_done(told: object, reason: Reason, what: str) -> None:
+def not_done(told: object, reason: RawReason, what: str) -> None:
     """Broken unless a reply says that it was not done, for that reason."""
-    if told != messages.NotDone(reason):
+    if told != messages.RawNotDone(reason):
         raise Broken(f"{what}: wanted {reason.name}, the reply is {told}")
 
 
 def done(told: object, what: str) -> None:
     """Broken unless a reply is a plain success."""
-    if not isinstance(told, messages.Acknowledged):
+    if not isinstance(told, messages.RawAcknowledged):
         raise Broken(f"{what}: the reply is {told}")
 
 
@@ -54,9 +44,7 @@ def _stops(bench: Bench) -> None:
     stop(control)
     for delay in (0.0, 0.02, 0.7):
         link, since, points = bench.motion(), bench.now, bench.wave(12)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(delay)
+        bench.sets_off(link, points, delay)
         asked = bench.now
         control.read()
         stop(control)
@@ -64,21 +52,20 @@ def _stops(bench: Bench) -> None:
         if bench.now - asked > 1.5:
             raise Broken(f"the robot stood {bench.now - asked:.2f} s after STOP")
         bench.followed([p for p, _ in points], since=since)
-        told = control.expect(messages.Stopped, 2, "STOPPED arrives")
+        told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
         progress = bench.progress(watcher)
-        here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
+        here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
         if max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-4:
             raise Broken(f"the robot stands at {here}, STOPPED says {told.joints}")
         if (told.trajectory, told.reached, told.reason) != (
             progress.trajectory,
             progress.reached,
-            Reason.STOPPED,
+            RawReason.STOPPED,
         ):
             raise Broken(f"STOPPED says {told}, PROGRESS {progress}")
         bench.stays(2, "it was stopped over the control port")
         bench.moves_through(link, bench.wave(3))
-        link.close()
-        bench.run(1.5)
+        link.close(then=1.5)
 
 
 @case("stop-under-load", "STOP is answered whatever lies before the motion server", "R5")
@@ -87,8 +74,8 @@ def _stop_under_load(bench: Bench) -> None:
     control = bench.control()
     # Others that have to be told everything, and a client that beats.
     for _ in range(3):
-        bench.state().send(encode(HELLO._replace(subscribe=49), Comm.REQUEST))
-    control.ask(messages.Heartbeat(5))
+        bench.state().send(messages.encode(HELLO._replace(subscribe=49), RawComm.REQUEST))
+    control.ask(messages.RawHeartbeat(5))
     orders = watched_orders(bench)
     for _ in range(4):
         stream = Streamer(bench)
@@ -96,7 +83,7 @@ def _stop_under_load(bench: Bench) -> None:
         stream.put(points[:20], BEGIN)
         bench.wait_until_moving()
         # Questions without points: each is read, checked and answered.
-        question = stream.frame((), StreamFlag(0))
+        question = stream.frame((), RawStreamFlag(0))
         stream.link.send(question * 400)
         asked = bench.now
         stop(control)
@@ -107,8 +94,7 @@ def _stop_under_load(bench: Bench) -> None:
             raise Broken(f"under load the robot is told to stop after {late - asked:.3f} s")
         bench.wait_until_standing(3)
         bench.stays(1, "it was stopped under load")
-        stream.link.close()
-        bench.run(2)
+        stream.link.close(then=2)
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
@@ -122,12 +108,10 @@ def _stop_at_any_moment(bench: Bench) -> None:
         bench.run(step * 0.004)
         stop(control)
         if step % 3 == 0:
-            link.send(STOP)
-            link.reply(_TRAJ, 2)
+            link.stop()
         bench.wait_until_standing(5)
         bench.run(0.3)
-        link.send(STOP)
-        link.reply(_TRAJ, 2)
+        link.stop()
         bench.stays(0.4, f"STOP came {step * 4} ms behind a trajectory")
     bench.moves_through(link, bench.wave(4))
 
@@ -136,29 +120,28 @@ def _stop_at_any_moment(bench: Bench) -> None:
 def _pauses(bench: Bench) -> None:
     """It stands on its path, and goes on from there to the end, in order."""
     control, watcher = bench.control(), bench.watcher()
-    not_done(control.ask(messages.Pause(1)), Reason.IDLE, "a pause of nothing")
-    not_done(control.ask(messages.Pause(0)), Reason.IDLE, "an end of no pause")
+    not_done(control.ask(messages.RawPause(1)), RawReason.IDLE, "a pause of nothing")
+    not_done(control.ask(messages.RawPause(0)), RawReason.IDLE, "an end of no pause")
     link, since, points = bench.motion(), bench.now, bench.wave(14)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     for _ in range(3):
         bench.run(0.8)
-        done(control.ask(messages.Pause(1)), "PAUSE")
+        done(control.ask(messages.RawPause(1)), "PAUSE")
         bench.wait_until_standing(3)
         bench.stays(4, "it is paused")
         told, status = bench.progress(watcher), bench.status(watcher)
-        if told.state != TrajectoryState.PAUSED or told.reason:
+        if told.state != RawTrajectoryState.PAUSED or told.reason:
             raise Broken(f"a trajectory is paused, PROGRESS says {told}")
         if (status.in_motion, status.in_error) != (0, 0):
             raise Broken(f"a trajectory is paused, STATUS says {status}")
-        done(control.ask(messages.Pause(1)), "PAUSE again")
-        done(control.ask(messages.Pause(0)), "the end of PAUSE")
+        done(control.ask(messages.RawPause(1)), "PAUSE again")
+        done(control.ask(messages.RawPause(0)), "the end of PAUSE")
         bench.wait_until_moving(2)
-        done(control.ask(messages.Pause(0)), "the end of no pause, on the way")
+        done(control.ask(messages.RawPause(0)), "the end of no pause, on the way")
     bench.wait_until_at(points[-1][0], 30)
     bench.followed([p for p, _ in points], since=since)
     for wrong in (2, -1, 7):
-        not_done(control.ask(messages.Pause(wrong)), Reason.BAD_VALUE, f"PAUSE {wrong}")
+        not_done(control.ask(messages.RawPause(wrong)), RawReason.BAD_VALUE, f"PAUSE {wrong}")
 
 
 @case("pause-ends", "what halts a motion halts a paused one", "R6", background=True)
@@ -166,14 +149,11 @@ def _pause_ends(bench: Bench) -> None:
     """What halts a motion halts a paused one; nothing of it goes on."""
     for action in ("STOP", "control STOP", "e-stop", "motors-off", "stop", "leaves", "another"):
         control, link = bench.control(), bench.motion()
-        link.send(bench.download(bench.wave(14)))
-        bench.wait_until_moving()
-        bench.run(0.5)
-        done(control.ask(messages.Pause(1)), "PAUSE")
+        bench.sets_off(link, bench.wave(14), 0.5)
+        done(control.ask(messages.RawPause(1)), "PAUSE")
         bench.wait_until_standing(3)
         if action == "STOP":
-            link.send(STOP)
-            link.reply(_TRAJ, 2)
+            link.stop()
         elif action == "control STOP":
             stop(control)
         elif action == "leaves":
@@ -184,16 +164,15 @@ def _pause_ends(bench: Bench) -> None:
         else:
             bench.controller.perform(action)
         bench.run(0.5)
-        told = control.ask(messages.Pause(0))
-        if isinstance(told, messages.Acknowledged) and action != "another":
+        told = control.ask(messages.RawPause(0))
+        if isinstance(told, messages.RawAcknowledged) and action != "another":
             raise Broken(f"after {action} an end of the pause is taken: {told}")
         bench.wait_until_standing(5)
         bench.stays(3, f"it was paused, then came {action}")
         bench.start_again()
         bench.stays(3, f"it was paused, then came {action} and a start of the program")
         control.close()
-        link.close()
-        bench.run(2)
+        link.close(then=2)
         bench.moves_through(bench.motion(), bench.wave(3))
         bench.run(1.5)
 
@@ -202,17 +181,16 @@ def _pause_ends(bench: Bench) -> None:
 def _speed(bench: Bench) -> None:
     """Half the speed for this trajectory, and the full one again for the next."""
     control, link = bench.control(), bench.motion()
-    not_done(control.ask(messages.Speed(50)), Reason.IDLE, "SPEED of nothing")
+    not_done(control.ask(messages.RawSpeed(50)), RawReason.IDLE, "SPEED of nothing")
     taken = []
     for percent in (100.0, 50.0, 0.0):
         points, since = bench.wave(12), bench.now
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         if percent:
-            done(control.ask(messages.Speed(1)), "SPEED 1")
-            done(control.ask(messages.Speed(percent)), f"SPEED {percent:g}")
+            done(control.ask(messages.RawSpeed(1)), "SPEED 1")
+            done(control.ask(messages.RawSpeed(percent)), f"SPEED {percent:g}")
         for wrong in (0.0, -5.0, 101.0, 0.99, 1e6, math.nan, math.inf):
-            not_done(control.ask(messages.Speed(wrong)), Reason.BAD_VALUE, f"SPEED {wrong:g}")
+            not_done(control.ask(messages.RawSpeed(wrong)), RawReason.BAD_VALUE, f"SPEED {wrong:g}")
         bench.wait_until_at(points[-1][0], 60)
         bench.followed([p for p, _ in points], since=since)
         taken.append(bench.now - since)
@@ -228,35 +206,30 @@ def _speed(bench: Bench) -> None:
 def _nobody_answers(bench: Bench) -> None:
     """Whoever asks something of a motion task that does not run is told so, soon."""
     control, link = bench.control(), bench.motion()
-    link.send(bench.download(bench.wave(12)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(12))
     bench.controller.perform("stop")
     bench.run(0.5)
     asked = bench.now
-    told = control.ask(messages.Speed(50))
-    if not isinstance(told, messages.NotDone) or bench.now - asked > 1.5:
+    told = control.ask(messages.RawSpeed(50))
+    if not isinstance(told, messages.RawNotDone) or bench.now - asked > 1.5:
         raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.2f} s")
     bench.controller.perform("start")
     bench.stays(3, "the program was stopped and started")
     bench.moves_through(link, bench.wave(3))
-    link.send(bench.download(bench.wave(12)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(12))
     fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM")
-    not_done(control.ask(messages.Speed(50)), Reason.INTERNAL, "SPEED that is not set")
-    done(control.ask(messages.Speed(50)), "SPEED")
+    not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
+    done(control.ask(messages.RawSpeed(50)), "SPEED")
 
 
 @case("own-stop", "a StopMove that only its own task takes back")
 def _own_stop(bench: Bench) -> None:
     """Where a StopMove belongs to its task, the control server takes back its own."""
     motion = replace(bench.setting.motion, stop_owner="task")
-    other = bench.beside(bench.system, setting=replace(bench.setting, motion=motion))
-    try:
+    with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
         control, link = other.control(), other.motion()
         for leaves, failing in ((False, False), (True, False), (False, True)):
-            link.send(other.download(other.wave(12)))
-            other.wait_until_moving()
-            other.run(0.3)
+            other.sets_off(link, other.wave(12), 0.3)
             if failing:
                 fails(other, "ROS_control", "StartMove", "ERR_PATHDIST", 2)
             stop(control)
@@ -267,15 +240,12 @@ def _own_stop(bench: Bench) -> None:
             other.moves_through(link, other.wave(3))
             if leaves:
                 control = other.control()
-        link.send(other.download(other.wave(12)))
-        other.wait_until_moving()
-        done(control.ask(messages.Pause(1)), "PAUSE")
+        other.sets_off(link, other.wave(12))
+        done(control.ask(messages.RawPause(1)), "PAUSE")
         other.wait_until_standing(3)
         stop(control)
         other.stays(1, "it was paused, and stopped over the control port")
         other.moves_through(link, other.wave(3))
-    finally:
-        other.close()
 
 
 @case("heartbeats", "a missing heartbeat stops the robot", "R12")
@@ -284,45 +254,45 @@ def _heartbeats(bench: Bench) -> None:
     watcher = bench.watcher()
     for before in (False, True):
         control, link = bench.control(), bench.motion()
-        beat = messages.Heartbeat(0.5)
+        beat = messages.RawHeartbeat(0.5)
         if before:
             control.ask(beat)
         points = bench.wave(30)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         told = control.ask(beat)
         for _ in range(12):
             bench.run(0.3)
             told = control.ask(beat)
-            if not isinstance(told, messages.HeartbeatReply):
+            if not isinstance(told, messages.RawHeartbeatReply):
                 raise Broken(f"HEARTBEAT is answered by {told}")
             if told.trajectory != bench.progress(watcher).trajectory:
                 raise Broken(f"HEARTBEAT is answered for another trajectory: {told}")
-            if bench.standing or told.state != TrajectoryState.MOVING:
+            if bench.standing or told.state != RawTrajectoryState.MOVING:
                 raise Broken(f"the robot does not move although heartbeats come: {told}")
         last = bench.now
-        told_stop = control.expect(messages.Stopped, 3, "without a heartbeat the robot stops")
+        told_stop = control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops")
         bench.wait_until_standing(3)
-        if not 0.45 < bench.now - last < 2.5 or told_stop.reason != Reason.CLIENT_LOST:
+        if not 0.45 < bench.now - last < 2.5 or told_stop.reason != RawReason.CLIENT_LOST:
             raise Broken(f"{bench.now - last:.2f} s after the last heartbeat: {told_stop}")
         bench.stays(3, "a heartbeat is missing")
         # It is missed once.
         bench.moves_through(link, bench.wave(6))
-        link.send(bench.download(bench.wave(30)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(30))
         control.ask(beat)
         bench.wait_until_standing(3)
-        told = control.ask(messages.Heartbeat(0))
-        if not isinstance(told, messages.HeartbeatReply) or told.state != TrajectoryState.FAILED:
+        told = control.ask(messages.RawHeartbeat(0))
+        if (
+            not isinstance(told, messages.RawHeartbeatReply)
+            or told.state != RawTrajectoryState.FAILED
+        ):
             raise Broken(f"a heartbeat after one was missing is answered by {told}")
         bench.moves_through(link, bench.wave(10))
-        if not isinstance(control.ask(messages.Heartbeat(3600)), messages.HeartbeatReply):
+        if not isinstance(control.ask(messages.RawHeartbeat(3600)), messages.RawHeartbeatReply):
             raise Broken("an hour between heartbeats is refused")
         for wrong in (-1.0, 3601.0, 1e5, math.nan, math.inf):
-            not_done(control.ask(messages.Heartbeat(wrong)), Reason.BAD_VALUE, f"{wrong:g} s")
+            not_done(control.ask(messages.RawHeartbeat(wrong)), RawReason.BAD_VALUE, f"{wrong:g} s")
         link.close()
-        control.close()
-        bench.run(2)
+        control.close(then=2)
 
 
 @case("heartbeat-in-time", "the stop for a missing heartbeat comes in time", "R12")
@@ -331,15 +301,14 @@ def _heartbeat_in_time(bench: Bench) -> None:
     control, link = bench.control(), bench.motion()
     orders = watched_orders(bench)
     for seconds in (0.25, 0.53):
-        link.send(bench.download(bench.wave(20)))
-        bench.wait_until_moving()
-        control.ask(messages.Heartbeat(seconds))
+        bench.sets_off(link, bench.wave(20))
+        control.ask(messages.RawHeartbeat(seconds))
         last = bench.now
         bench.wait_until_standing(3)
         stops = [o.time for o in orders if o.instruction == "StopMove" and o.time > last]
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.06:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
-        control.ask(messages.Heartbeat(0))
+        control.ask(messages.RawHeartbeat(0))
         bench.moves_through(link, bench.wave(4))
 
 
@@ -359,10 +328,9 @@ def _instructions_fail(bench: Bench) -> None:
             continue
         control, link = bench.control(), bench.motion()
         points = bench.wave(30)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         recovers = fails(bench, "ROS_control", instruction, error)
-        control.send(encode(HELLO, Comm.REQUEST))
+        control.send(messages.encode(HELLO, RawComm.REQUEST))
         bench.run(0.3)
         control.send(STOP)
         bench.run(1)
@@ -375,15 +343,13 @@ def _instructions_fail(bench: Bench) -> None:
         bench.stays(1, f"it was stopped; {instruction} of the control server has failed")
         bench.moves_through(link, bench.wave(3))
         control.close()
-        link.close()
-        bench.run(1.3)
+        link.close(then=1.3)
 
 
 @case("supervisor-gone", "a supervisor that does not answer", "R7b", background=True)
 def _supervisor_is_gone(bench: Bench) -> None:
     """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
-    other = bench.beside(bench.system)
-    try:
+    with bench.beside(bench.system) as other:
         control, link = other.control(), other.motion()
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(1)
@@ -392,43 +358,33 @@ def _supervisor_is_gone(bench: Bench) -> None:
         for asked in (control, link):
             asked.send(STOP)
             told = asked.reply(_TRAJ, 3)
-            if not isinstance(told, messages.Failure):
+            if not isinstance(told, messages.RawFailure):
                 raise Broken(f"the supervisor does not answer, STOP is answered by {told}")
-        not_done(control.ask(messages.Pause(1), 3), Reason.INTERNAL, "PAUSE")
+        not_done(control.ask(messages.RawPause(1), 3), RawReason.INTERNAL, "PAUSE")
         other.stays(1, "the supervisor does not answer")
-    finally:
-        other.close()
-    other = bench.beside(bench.system)
-    try:
+    with bench.beside(bench.system) as other:
         control, link = other.control(), other.motion()
-        link.send(other.download(other.wave(30)))
-        other.wait_until_moving()
+        other.sets_off(link, other.wave(30))
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(0.5)
-        control.send(STOP)
-        control.reply(_TRAJ, 3)
+        control.stop(3)
         other.wait_until_standing(1)
         other.stays(3, "it was stopped, the supervisor does not answer")
-    finally:
-        other.close()
 
 
 @case("old-end", "STOPPED tells what ends, not what has ended")
 def _old_end(bench: Bench) -> None:
     """A client that comes later is not told of what ended before; a cut tells joint and place."""
     link = bench.motion()
-    link.send(bench.download(bench.wave(12)))
-    bench.wait_until_moving()
-    link.send(STOP)
-    link.reply(_TRAJ, 2)
+    bench.sets_off(link, bench.wave(12))
+    link.stop()
     bench.wait_until_standing(3)
     bench.run(patience(bench))
     control = bench.control()
     bench.run(1)
-    if any(f.number == STOPPED for f in control.read()):
+    if any(f.number == messages.STOPPED for f in control.read()):
         raise Broken("a client is told of a trajectory that had ended before it came")
-    link.close()
-    bench.run(1.2)
+    link.close(then=1.2)
     stream = Streamer(bench)
     points = way(bench, 20)
     stream.put(points, BEGIN)
@@ -436,9 +392,9 @@ def _old_end(bench: Bench) -> None:
     joint = bench.group.joints[1]
     here = points[-1][0]
     stream.put([((here[0], joint.upper + 0.1, *here[2:]), 30.0)])
-    stream.refused(Reason.JOINT_LIMIT, "joint 2 is outside its limits")
-    told = control.expect(messages.Stopped, 10, "STOPPED arrives")
-    if (told.reached, told.reason) != (20, Reason.JOINT_LIMIT):
+    stream.refused(RawReason.JOINT_LIMIT, "joint 2 is outside its limits")
+    told = control.expect(messages.RawStopped, 10, "STOPPED arrives")
+    if (told.reached, told.reason) != (20, RawReason.JOINT_LIMIT):
         raise Broken(f"a stream was cut behind 20 points, STOPPED says {told}")
     # Axes that follow late are not quite there yet.
     near = 1e-3 + 0.2 * bench.setting.motion.servo_lag
@@ -454,29 +410,28 @@ def _stream_over_control(bench: Bench) -> None:
     points = way(bench, 90)
     stream.put(points[:25], BEGIN)
     bench.wait_until_moving()
-    done(control.ask(messages.Speed(60)), "SPEED of a stream")
+    done(control.ask(messages.RawSpeed(60)), "SPEED of a stream")
     bench.run(0.7)
-    done(control.ask(messages.Pause(1)), "PAUSE of a stream")
+    done(control.ask(messages.RawPause(1)), "PAUSE of a stream")
     bench.wait_until_standing(3)
     stream.put(points[25:50])
     stream.accepted("points while the stream is paused")
     bench.stays(3, "the stream is paused")
-    done(control.ask(messages.Pause(0)), "the end of a pause")
+    done(control.ask(messages.RawPause(0)), "the end of a pause")
     stream.put(points[50:70])
     stream.accepted("points behind a pause")
     stream.put(points[70:], END)
     stream.accepted("the end of a stream behind a pause")
-    bench.wait_until_at(points[-1][0], 60)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 60)
     stream = Streamer(bench, stream.link, number=2)
     stream.put(way(bench, 25), BEGIN)
     bench.wait_until_moving()
     bench.run(0.5)
     control.read()
     stop(control)
-    told = control.expect(messages.Stopped, 2, "STOPPED arrives")
+    told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
     stream.put(way(bench, 3))
-    refusal = stream.refused(Reason.STOPPED, "points behind a STOP")
+    refusal = stream.refused(RawReason.STOPPED, "points behind a STOP")
     if refusal.trajectory != told.trajectory or refusal.point != told.reached:
         raise Broken(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
     bench.stays(2, "the stream was stopped")

@@ -4,14 +4,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    MAX_JOINTS,
-    Comm,
-    Reason,
-    TrajectoryState,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.control import not_done, stop
@@ -19,9 +12,9 @@ from rapidgen.proving.suite.streams import way
 
 case = Theme("controlling", port="control")
 
-_TRAJ = JOINT_TRAJ_PT
-_FAILED = TrajectoryState.FAILED
-_PING = encode(messages.Ping(), Comm.REQUEST)
+_TRAJ = messages.JOINT_TRAJ_PT
+_FAILED = RawTrajectoryState.FAILED
+_PING = messages.encode(messages.RawPing(), RawComm.REQUEST)
 
 
 @case("stops-alone", "STOP while the supervisor hangs", "R7b")
@@ -30,9 +23,7 @@ def _alone(bench: Bench) -> None:
     control, link = bench.control(), bench.motion()
     supervisor = bench.controller.task(bench.task("ROS_supervisor"))
     points = bench.wave(12)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
-    bench.run(0.5)
+    bench.sets_off(link, points, 0.5)
     orders = watched_orders(bench)
     supervisor.stop()
     asked = bench.now
@@ -43,11 +34,11 @@ def _alone(bench: Bench) -> None:
         raise Broken(f"the supervisor hangs, STOP came, then {orders}")
     for chosen in (control, link):
         told = chosen.reply(_TRAJ, 2)
-        if not isinstance(told, messages.Failure) or not 0.9 < bench.now - asked < 1.5:
+        if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - asked < 1.5:
             raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
     for paused in (0, 1):
-        told = control.ask(messages.Pause(paused))
-        not_done(told, Reason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
+        told = control.ask(messages.RawPause(paused))
+        not_done(told, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
     bench.stays(0.5, "the robot was stopped, the supervisor hangs")
     link.send(bench.download(bench.wave(3)))
     bench.stays(1.5, "nobody can say whether the robot may move")
@@ -60,22 +51,20 @@ def _alone(bench: Bench) -> None:
 def _beats(bench: Bench) -> None:
     """To the moment, and missed once; none is awaited behind a HEARTBEAT of 0."""
     control, link = bench.control(), bench.motion()
-    told = control.ask(messages.Heartbeat(0))
-    if not isinstance(told, messages.HeartbeatReply) or told.state != TrajectoryState.NONE:
+    told = control.ask(messages.RawHeartbeat(0))
+    if not isinstance(told, messages.RawHeartbeatReply) or told.state != RawTrajectoryState.NONE:
         raise Broken(f"a heartbeat at rest is answered by {told}")
     points = bench.wave(12)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     for seconds in (0.3, 0.0):
-        control.ask(messages.Heartbeat(seconds))
+        control.ask(messages.RawHeartbeat(seconds))
     bench.wait_until_at(points[-1][0], 10)
     orders = watched_orders(bench)
     for seconds in (0.25, 1.03):
-        link.send(bench.download(bench.wave(12)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(12))
         orders.clear()
-        control.ask(messages.Heartbeat(0.1))
-        control.ask(messages.Heartbeat(seconds))
+        control.ask(messages.RawHeartbeat(0.1))
+        control.ask(messages.RawHeartbeat(seconds))
         last = bench.now
         bench.run(seconds - 0.01)
         for _ in range(8):
@@ -86,10 +75,10 @@ def _beats(bench: Bench) -> None:
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.04:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         if seconds > 1:
-            told = control.ask(messages.Heartbeat(0.2))
-            if not isinstance(told, messages.HeartbeatReply) or told.state != _FAILED:
+            told = control.ask(messages.RawHeartbeat(0.2))
+            if not isinstance(told, messages.RawHeartbeatReply) or told.state != _FAILED:
                 raise Broken(f"a heartbeat after one was missing is answered by {told}")
-            control.ask(messages.Heartbeat(0))
+            control.ask(messages.RawHeartbeat(0))
         bench.moves_through(link, bench.wave(5))
 
 
@@ -99,10 +88,9 @@ def _leave(bench: Bench) -> None:
     link, control = bench.motion(), bench.control()
     for how in ("leaves", "is replaced", "is reset", "has not beaten", "is dropped", "leaves"):
         points = bench.wave(6, duration=0.25)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
+        bench.sets_off(link, points)
         if how != "has not beaten":
-            control.ask(messages.Heartbeat(0.6))
+            control.ask(messages.RawHeartbeat(0.6))
         bench.run(0.2)
         next_one: RawLink | None = None
         if how == "is replaced":
@@ -136,21 +124,21 @@ def _not_begun(bench: Bench) -> None:
     stream.put(way(bench, 1), BEGIN)
     number = stream.accepted("the first points").trajectory
     stop(control)
-    told = control.expect(messages.Stopped, 2, "STOPPED arrives")
-    here = (*bench.position, *[0.0] * (MAX_JOINTS - len(bench.position)))
+    told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
+    here = (*bench.position, *[0.0] * (messages.MAX_JOINTS - len(bench.position)))
     if (
-        told[:3] != (number, 0, Reason.STOPPED)
+        told[:3] != (number, 0, RawReason.STOPPED)
         or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
     ):
         raise Broken(f"a stream was stopped before it moved, STOPPED says {told}")
     stream.put(way(bench, 2))
-    stream.refused(Reason.STOPPED, "points behind STOP")
+    stream.refused(RawReason.STOPPED, "points behind STOP")
     bench.run(0.3)
     progress = bench.progress(watcher)
     if (progress.trajectory, progress.state, progress.reason) != (
         number,
-        TrajectoryState.STOPPED,
-        Reason.STOPPED,
+        RawTrajectoryState.STOPPED,
+        RawReason.STOPPED,
     ):
         raise Broken(f"a stream was stopped before it moved, PROGRESS says {progress}")
     bench.stays(0.5, "the stream was stopped before it moved")

@@ -3,8 +3,9 @@
 from dataclasses import replace
 from functools import partial
 
+from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.messages import Mode, Reason, TrajectoryState, TriState, split_error_code
+from rapidgen.proving.messages import RawMode, RawReason, RawTrajectoryState, RawTriState
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("controller")
@@ -21,9 +22,7 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
         state, link = bench.state(), bench.motion()
         points = bench.wave(10)
         since = bench.now
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(delay)
+        bench.sets_off(link, points, delay)
         bench.controller.perform(action)
         bench.wait_until_standing(10)
         bench.followed([p for p, _ in points], since=since)
@@ -38,20 +37,18 @@ def _interrupted(bench: Bench, action: str, *, pp_to_main: bool = False) -> None
             if status.motion_possible != 1:
                 raise Broken(f"STATUS says that no motion is possible after {action}: {status}")
         link.close()
-        state.close()
-        bench.run(1.5)
+        state.close(then=1.5)
         link = bench.motion()
         bench.moves_through(link, bench.wave(3))
-        link.close()
-        bench.run(1.5)
+        link.close(then=1.5)
 
 
 @case("not-executing", "what comes while nothing executes is refused", "R7a", background=True)
 def _refused_while_not_executing(bench: Bench) -> None:
     for action, reasons in (
-        ("stop", (Reason.NOT_EXECUTING,)),
-        ("motors-off", (Reason.MOTORS_OFF, Reason.NOT_EXECUTING)),
-        ("e-stop", (Reason.EMERGENCY_STOP, Reason.MOTORS_OFF)),
+        ("stop", (RawReason.NOT_EXECUTING,)),
+        ("motors-off", (RawReason.MOTORS_OFF, RawReason.NOT_EXECUTING)),
+        ("e-stop", (RawReason.EMERGENCY_STOP, RawReason.MOTORS_OFF)),
     ):
         state, link = bench.watcher(), bench.motion()
         bench.controller.perform(action)
@@ -59,9 +56,9 @@ def _refused_while_not_executing(bench: Bench) -> None:
         link.send(bench.download(bench.wave(4)))
         bench.stays(5, f"the controller is in {action}")
         status, told = bench.status(state), bench.progress(state)
-        if (told.state, told.point, told.joint) != (TrajectoryState.REFUSED, -1, 0):
+        if (told.state, told.point, told.joint) != (RawTrajectoryState.REFUSED, -1, 0):
             raise Broken(f"after {action} a trajectory is refused for no point, PROGRESS: {told}")
-        reason, _ = split_error_code(status.error_code)
+        reason, _ = messages.split_error_code(status.error_code)
         if status.in_error != 1 or reason not in reasons:
             raise Broken(f"after {action} a trajectory is answered by {status}")
         if status.motion_possible != 0:
@@ -70,8 +67,7 @@ def _refused_while_not_executing(bench: Bench) -> None:
         bench.stays(5, "what came while nothing was executing is not kept")
         bench.moves_through(link, bench.wave(3))
         link.close()
-        state.close()
-        bench.run(1.5)
+        state.close(then=1.5)
 
 
 @case("e-stop-status", "STATUS shows an emergency stop", "R15", background=True)
@@ -93,7 +89,7 @@ def _manual_mode_shows(bench: Bench) -> None:
     state = bench.state()
     bench.controller.perform("manual")
     bench.run(0.5)
-    if bench.status(state).mode != Mode.MANUAL:
+    if bench.status(state).mode != RawMode.MANUAL:
         raise Broken("in manual mode STATUS does not say so")
 
 
@@ -108,22 +104,18 @@ def _pp_to_main_idle(bench: Bench) -> None:
         bench.run(1)
         link = bench.motion()
         bench.moves_through(link, bench.wave(3))
-        link.close()
-        bench.run(1.5)
+        link.close(then=1.5)
 
 
 @case("without-signals", "missing signals are not fatal", "R15")
 def _without_signals(bench: Bench) -> None:
     bare = replace(bench.system, signals=(), outputs=(), cross=())
-    other = bench.beside(bare)
-    try:
+    with bench.beside(bare) as other:
         state, link = other.state(), other.motion()
         status = other.status(state)
-        if status.drives_powered != TriState.UNKNOWN:
+        if status.drives_powered != RawTriState.UNKNOWN:
             raise Broken(f"without signals STATUS says {status}")
         other.moves_through(link, other.wave(4))
-    finally:
-        other.close()
 
 
 @case("mixed-builds", "modules of different builds refuse to move", once=True)
@@ -137,8 +129,7 @@ def _mixed_builds(bench: Bench) -> None:
     }
     for path, data in sorted(files.items()):
         mixed = with_module(bench.system, path, data.replace(build, b"0123456789ab"))
-        other = bench.beside(mixed)
-        try:
+        with bench.beside(mixed) as other:
             state, link = other.watcher(), other.motion()
             other.run(0.5)
             frames = other.download(other.wave(4))
@@ -146,7 +137,7 @@ def _mixed_builds(bench: Bench) -> None:
             other.run(0.5)
             told = other.progress(state)
             if (told.state, told.reason, told.point, told.joint) != (
-                TrajectoryState.REFUSED, Reason.BUILD_MISMATCH, -1, 0
+                RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH, -1, 0
             ):  # fmt: skip
                 raise Broken(f"{path} is of another build, PROGRESS says {told}")
             link.send(frames[68:])
@@ -154,8 +145,6 @@ def _mixed_builds(bench: Bench) -> None:
             status = other.status(state)
             if status.motion_possible != 0:
                 raise Broken(f"with {path} of another build STATUS says that motion is possible")
-        finally:
-            other.close()
 
 
 @case("no-task-ends", "no task ends by itself", "R3")

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any, NamedTuple, cast
+from typing import NamedTuple, cast
 
 from rapidgen.axes import frames
 from rapidgen.config.model import Joint
@@ -96,7 +96,12 @@ def _corner(bench: Bench, arriving: _Leg, leaving: _Leg) -> Zone:
         )
         for part, speed in sums.items()
     }
-    return replace(zone, **cast("dict[str, Any]", parts))
+    return replace(
+        zone,
+        angle=parts.get("angle", zone.angle),
+        linear=parts.get("linear", zone.linear),
+        rotary=parts.get("rotary", zone.rotary),
+    )
 
 
 def _part(joint: Joint) -> str:
@@ -112,14 +117,12 @@ def _check(bench: Bench, points: Sequence[Point], what: str) -> None:
     group = bench.motion_group
     group.listeners.append(moves.append)
     link = bench.motion()
-    link.send(bench.download(points))
-    begins(bench, bench.now)
+    begins(bench, link, points)
     longest = 2 * sum(seconds for _, seconds in points[1:]) + 2
     bench.until(lambda: len(moves) == len(points) - 1, longest, f"{what}: each point is a move")
     bench.wait_until_at(points[-1][0], longest)
     group.listeners.remove(moves.append)
-    link.close()
-    bench.run(0.3)
+    link.close(then=0.3)
     legs = _legs(bench, points)
     wanted = [_corner(bench, *two) for two in pairwise(legs)]
     seen = [m.zone for m in moves if isinstance(m, JointMove)]

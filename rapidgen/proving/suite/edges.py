@@ -6,7 +6,7 @@ from itertools import pairwise
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
-from rapidgen.proving.messages import Comm, Reason, Special, TrajectoryState, decode
+from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState, decode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, small_unit
@@ -27,15 +27,14 @@ def _taken(bench: Bench, points: list[Point], why: str) -> None:
     link = bench.motion()
     frames = [point_frame(n, len(points), *p) for n, p in enumerate(points[:-1])]
     link.send(b"".join(frames))
-    link.send(point_frame(len(points) - 1, len(points), *points[-1], Comm.REQUEST))
+    link.send(point_frame(len(points) - 1, len(points), *points[-1], RawComm.REQUEST))
     content = decode(link.expect_reply(5, "the end frame is answered"))
-    if not isinstance(content, messages.Accepted):
+    if not isinstance(content, messages.RawAccepted):
         raise Broken(f"{why} is refused: {content}")
     link.send(STOP)
     link.expect_reply(2, "STOP is answered")
     bench.wait_until_standing(5)
-    link.close()
-    bench.run(1.2)
+    link.close(then=1.2)
 
 
 @case("durations", "the longest duration and those beyond", "R10")
@@ -47,12 +46,12 @@ def _durations(bench: Bench) -> None:
     for seconds in (_LONGEST + 1, 0.0, -0.0, -1e-3):
         points = bench.wave(4)
         points[2] = (points[2][0], seconds)
-        refused(bench, bench.download(points), [Reason.BAD_DURATION], 0, 2)
+        refused(bench, bench.download(points), [RawReason.BAD_DURATION], 0, 2)
     for seconds in (0.0, 1e-3, _LONGEST):
         points = bench.wave(4)
         points[0] = (points[0][0], seconds)
         _taken(bench, points, f"a first duration of {seconds:g} s")
-    for seconds, reason in ((-1.0, Reason.BAD_DURATION), (math.nan, Reason.NOT_FINITE)):
+    for seconds, reason in ((-1.0, RawReason.BAD_DURATION), (math.nan, RawReason.NOT_FINITE)):
         points = bench.wave(4)
         points[0] = (points[0][0], seconds)
         refused(bench, bench.download(points), [reason], 0, 0)
@@ -69,7 +68,7 @@ def _shortest_segment(bench: Bench) -> None:
     for index in (1, 2):
         points = bench.wave(4, size=0.001)
         points[index] = (points[index][0], shortest * 0.99)
-        refused(bench, bench.download(points), [Reason.SEGMENT_TOO_SHORT], 0, index)
+        refused(bench, bench.download(points), [RawReason.SEGMENT_TOO_SHORT], 0, index)
     # The last one has no successor that would have to be planned in time.
     points = bench.wave(4, size=0.001)
     points[3] = (points[3][0], shortest / 2)
@@ -94,10 +93,9 @@ def _fastest(bench: Bench) -> None:
                 link = bench.motion()
                 link.send(point_frame(0, 2, here, 1.0) + point_frame(1, 2, here, 1.0))
                 bench.wait_until_at(here)
-                link.close()
-                bench.run(1.2)
+                link.close(then=1.2)
             else:
-                refused(bench, bench.download(points), [Reason.TOO_FAST], axis + 1, 1)
+                refused(bench, bench.download(points), [RawReason.TOO_FAST], axis + 1, 1)
 
 
 @case("rounding", "limits as rounding leaves them, and farther")
@@ -137,12 +135,11 @@ def _start_tolerance(bench: Bench) -> None:
         link.send(bench.download([(start, 10.0 if axis % 2 else 1e-3), (end, 0.5), (end, 0.5)]))
         bench.wait_until_at(end, 30)
         _slow_to(bench, start, since, policy.approach_speed * joint.speed)
-        link.close()
-        bench.run(1.2)
+        link.close(then=1.2)
         start = changed(bench.position, axis, _inward(bench, axis, 1.03 * near))
         end = changed(start, axis, _inward(bench, axis, 1.03 * near + 0.02 * joint.speed))
         frames = bench.download([(start, 10.0), (end, 0.5), (end, 0.5)])
-        refused(bench, frames, [Reason.START_TOO_FAR], axis + 1, 0)
+        refused(bench, frames, [RawReason.START_TOO_FAR], axis + 1, 0)
 
 
 def _slow_to(bench: Bench, start: Position, since: float, speed: float) -> None:
@@ -196,8 +193,7 @@ def _takes_its_time(bench: Bench) -> None:
         bench.run(1)
         link.send(bench.download([(bench.position, 10.0), (first[0], 2.0), (first[0], 0.5)]))
         bench.wait_until_at(first[0], 30)
-        link.close()
-        bench.run(1.2)
+        link.close(then=1.2)
 
 
 def _stood_at(bench: Bench, place: Position, since: float, seconds: float) -> bool:
@@ -285,34 +281,34 @@ def _rest_is_skipped(bench: Bench) -> None:
     number = bench.progress(state).trajectory
     link.send(frames[4])
     bench.stays(0.5, "a refused trajectory goes on")
-    _blames(bench, state, number, Reason.JOINT_LIMIT)
+    _blames(bench, state, number, RawReason.JOINT_LIMIT)
     # A new start ends the skipping; so does the end of the refused one.
     good = bench.wave(4)
     bench.moves_through(link, good)
     link.send(b"".join(frames))
     bench.stays(0.5, "it was refused")
-    _blames(bench, state, number + 2, Reason.JOINT_LIMIT)
+    _blames(bench, state, number + 2, RawReason.JOINT_LIMIT)
     link.send(raw_point(1, bench.position, 1.0))
     bench.stays(0.5, "it has no start")
-    _blames(bench, state, number + 3, Reason.NO_START)
-    link.send(raw_point(int(Special.END), bench.position, 1.0))
+    _blames(bench, state, number + 3, RawReason.NO_START)
+    link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
     bench.run(0.5)
     bench.moves_through(link, bench.wave(4))
     for wrong in (-2, -5, 2, 1000):
         link.send(raw_point(-1, bench.position, 1.0) + raw_point(wrong, bench.position, 1.0))
         bench.stays(0.4, f"number {wrong} is no next one")
-        link.send(raw_point(int(Special.END), bench.position, 1.0))
+        link.send(raw_point(int(RawSpecial.END), bench.position, 1.0))
         bench.run(0.3)
-        if bench.progress(state).reason != Reason.SEQUENCE_GAP:
+        if bench.progress(state).reason != RawReason.SEQUENCE_GAP:
             raise Broken(f"number {wrong} behind a start is taken")
 
 
-def _blames(bench: Bench, state: RawLink, number: int, reason: Reason) -> None:
+def _blames(bench: Bench, state: RawLink, number: int, reason: RawReason) -> None:
     bench.run(0.3)
     told = bench.progress(state)
     if (told.trajectory, told.state, told.reason) != (
         number,
-        TrajectoryState.REFUSED,
+        RawTrajectoryState.REFUSED,
         reason,
     ):
         raise Broken(f"trajectory {number} had to be refused with {reason.name}, {told}")
@@ -325,28 +321,28 @@ def _replies_of_a_refused_one(bench: Bench) -> None:
     points = [(p, 30.0) for p, _ in bench.wave(6)]
     points[3] = (changed(points[3][0], 1, bench.group.joints[1].upper + 1), 30.0)
     for number, point in enumerate(points):
-        link.send(point_frame(number, 6, *point, Comm.REQUEST))
+        link.send(point_frame(number, 6, *point, RawComm.REQUEST))
         content = decode(link.expect_reply(2, f"point {number} is answered"))
-        if number < 3 and not isinstance(content, messages.Acknowledged):
+        if number < 3 and not isinstance(content, messages.RawAcknowledged):
             raise Broken(f"point {number} is right, the reply is {content}")
-        if number >= 3 and content != messages.Refused(Reason.JOINT_LIMIT, 3, 2):
+        if number >= 3 and content != messages.RawRefused(RawReason.JOINT_LIMIT, 3, 2):
             raise Broken(f"point 3 was wrong, the reply to point {number} is {content}")
     # Behind a refusal at the end nothing is left to be skipped.
     axis, here = 0, bench.position
     far = changed(here, axis, _inward(bench, axis, 0.3))
     link.send(point_frame(0, 2, far, 9.0) + point_frame(1, 2, here, 9.0))
-    link.send(raw_point(1, here, 1.0, Comm.REQUEST))
+    link.send(raw_point(1, here, 1.0, RawComm.REQUEST))
     content = decode(link.expect_reply(2, "a point behind a refused end is answered"))
-    if not isinstance(content, messages.Refused) or content.reason != Reason.NO_START:
+    if not isinstance(content, messages.RawRefused) or content.reason != RawReason.NO_START:
         raise Broken(f"a point behind a refused end is answered by {content}")
-    link.send(raw_point(int(Special.END), here, 1.0))
+    link.send(raw_point(int(RawSpecial.END), here, 1.0))
     bench.run(0.5)
     state = bench.watcher()
     number = bench.progress(state).trajectory
     good = bench.wave(3)
     for index, point in enumerate(good):
-        link.send(point_frame(index, 3, *point, Comm.REQUEST))
+        link.send(point_frame(index, 3, *point, RawComm.REQUEST))
         content = decode(link.expect_reply(3, f"point {index} is answered"))
-    if content != messages.Accepted(number + 1):
+    if content != messages.RawAccepted(number + 1):
         raise Broken(f"trajectory {number + 1} was taken, the reply is {content}")
     bench.wait_until_at(good[-1][0])

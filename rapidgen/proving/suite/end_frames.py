@@ -5,16 +5,16 @@ from itertools import pairwise
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame
-from rapidgen.proving.messages import Reason, Special, TrajectoryState
+from rapidgen.proving.messages import RawReason, RawSpecial, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.points import Table
 from rapidgen.proving.track import SETTLED, Point, Position, changed, distance
 
 case = Theme("taking")
 
-_BEGIN, _END = int(Special.BEGIN), int(Special.END)
-_TAKEN = messages.Acknowledged()
-_NO_START = messages.Refused(Reason.NO_START, 0, 0)
+_BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
+_TAKEN = messages.RawAcknowledged()
+_NO_START = messages.RawRefused(RawReason.NO_START, 0, 0)
 _SLACK = 0.05
 """s that a motion may begin later, or last longer, than it was asked to."""
 _LEAST = 0.1
@@ -51,12 +51,12 @@ def _times(bench: Bench, since: float, place: Position) -> tuple[float, float]:
 
 def _done(bench: Bench, table: Table, count: int, seconds: float) -> None:
     """Broken unless PROGRESS says within that time that all points are executed."""
-    wanted = (table.number, TrajectoryState.DONE, count, count, count, 0, -1, 0)
+    wanted = (table.number, RawTrajectoryState.DONE, count, count, count, 0, -1, 0)
     table.watcher.read()
     more = 2.5 * bench.config.state_period + 2 * bench.setting.motion.settle
     until, told = bench.now + seconds + more, None
     while bench.now < until:
-        told = table.watcher.expect(messages.Progress, 2, "a PROGRESS arrives")
+        told = table.watcher.expect(messages.RawProgress, 2, "a PROGRESS arrives")
         if told == wanted:
             return
     raise Broken(f"{count} points are executed, PROGRESS says {told}")
@@ -108,7 +108,7 @@ def _start(bench: Bench) -> None:
     if min(near) > 0:
         beyond = _inward(bench, tuple(1.03 * n for n in near))
         for axis in range(len(joints)):
-            far = messages.Refused(Reason.START_TOO_FAR, 0, axis + 1)
+            far = messages.RawRefused(RawReason.START_TOO_FAR, 0, axis + 1)
             start = (*there[:axis], *beyond[axis:])
             table.row(_BEGIN, start, 9.0, _TAKEN)
             table.row(_END, there, 9.0, far)
@@ -168,8 +168,8 @@ def _not_now(bench: Bench) -> None:
     """What has stopped or stops the robot meanwhile is the reason; a halt is waited for."""
     table, here = Table(bench), bench.position
 
-    def refused(reason: Reason) -> None:
-        table.row(_END, here, 9.0, messages.Refused(reason, -1, 0))
+    def refused(reason: RawReason) -> None:
+        table.row(_END, here, 9.0, messages.RawRefused(reason, -1, 0))
         table.number += 1
         table.row(1, here, 9.0, _NO_START)
         table.ask()
@@ -181,8 +181,8 @@ def _not_now(bench: Bench) -> None:
             table.row(1, here, 9.0, _TAKEN)
             table.ask()
             table.stop(control)
-            refused(Reason.STOPPED)
-    stops = (("stop", Reason.NOT_EXECUTING), ("e-stop", Reason.EMERGENCY_STOP))
+            refused(RawReason.STOPPED)
+    stops = (("stop", RawReason.NOT_EXECUTING), ("e-stop", RawReason.EMERGENCY_STOP))
     # While commissioning the driver stops with the program, and nobody answers.
     for action, reason in () if bench.config.commissioning else stops:
         table.row(_BEGIN, here, 9.0, _TAKEN)
@@ -210,7 +210,7 @@ def _while_moving(bench: Bench, table: Table) -> None:
     table.ask()
     bench.wait_until_moving()
     bench.run(0.6 * seconds)
-    for number, wanted in ((_BEGIN, _TAKEN), (_END, messages.Accepted(table.number + 1))):
+    for number, wanted in ((_BEGIN, _TAKEN), (_END, messages.RawAccepted(table.number + 1))):
         table.row(number, here, 0.2, wanted)
     since = bench.now
     table.ask()
@@ -242,7 +242,7 @@ def _fed(bench: Bench) -> None:
     bench.wait_until_moving(1)
     for silence in (0.1, 0.1, 1.25):
         bench.run(silence)
-        if not isinstance(table.link.ask(messages.Ping(), 0.05), messages.Acknowledged):
+        if not isinstance(table.link.ask(messages.RawPing(), 0.05), messages.RawAcknowledged):
             raise Broken("PING is not confirmed while a trajectory is fed")
     asked = sum(d for _, d in points[1:])
     bench.wait_until_at(points[-1][0], asked + 5)
@@ -250,7 +250,7 @@ def _fed(bench: Bench) -> None:
     if bench.now - since > 1.4 * asked + 1:
         raise Broken(f"{asked:.2f} s of {len(points)} points took {bench.now - since:.2f} s")
     _done(bench, table, len(points), 0.1)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.executed(points, since)
 
 
 @case("ends-while-fed", "the end of a trajectory that is still fed", "R5", background=True)
@@ -281,7 +281,7 @@ def _ends_while_fed(bench: Bench) -> None:
         bench.controller.perform("start")
         bench.stays(1, f"a long trajectory was ended by {action}")
     goal = points[0][0]
-    for sequence, wanted in ((_BEGIN, _TAKEN), (_END, messages.Accepted(table.number + 1))):
+    for sequence, wanted in ((_BEGIN, _TAKEN), (_END, messages.RawAccepted(table.number + 1))):
         table.row(sequence, goal, 0.3, wanted)
     table.ask()
     bench.wait_until_at(goal, 5)

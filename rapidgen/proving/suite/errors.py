@@ -8,7 +8,7 @@ from rapidgen.machine.log import EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import STATUS, Reason, TrajectoryState, TriState, text_of
+from rapidgen.proving.messages import STATUS, RawReason, RawTrajectoryState, RawTriState, text_of
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.runtime.builtins.clocks import StopWatch
 
@@ -35,16 +35,13 @@ def _serves(bench: Bench) -> None:
     """A trajectory, a STOP in the next one, and another trajectory."""
     link = bench.motion()
     bench.moves_through(link, bench.wave(3, duration=0.2))
-    link.send(bench.download(bench.wave(8)))
-    bench.wait_until_moving()
-    bench.run(0.3)
+    bench.sets_off(link, bench.wave(8), 0.3)
     link.send(STOP)
     link.expect_reply(2, "STOP is answered")
     bench.wait_until_standing(5)
     bench.moves_through(link, bench.wave(3, duration=0.2))
     bench.status(bench.state(), 5)
-    link.close()
-    bench.run(0.3)
+    link.close(then=0.3)
 
 
 @case("instructions-fail", "an instruction that reports an error ends no task", "R3")
@@ -75,8 +72,7 @@ def _instructions_fail(bench: Bench) -> None:
             link = bench.motion()
             state = bench.state()
             if moving:
-                link.send(bench.download(bench.wave(6)))
-                bench.wait_until_moving()
+                bench.sets_off(link, bench.wave(6))
             recovers = fails(bench, module, instruction, error, 2)
             bench.run(0.3)
             link.send(STOP)
@@ -85,8 +81,7 @@ def _instructions_fail(bench: Bench) -> None:
             bench.healthy()
             bench.stays(1, f"it was stopped; {instruction} of {module} has failed")
             link.close()
-            state.close()
-            bench.run(2.5)
+            state.close(then=2.5)
             try:
                 _serves(bench)
             except Broken as error:
@@ -97,21 +92,19 @@ def _instructions_fail(bench: Bench) -> None:
 @case("move-fails", "a move that fails ends its trajectory with its own reason", "R11, R14")
 def _move_fails(bench: Bench) -> None:
     for error, reason in (
-        ("ERR_COLL_STOP", Reason.COLLISION),
-        ("ERR_PATH_STOP", Reason.MOTION_ERROR),
+        ("ERR_COLL_STOP", RawReason.COLLISION),
+        ("ERR_PATH_STOP", RawReason.MOTION_ERROR),
     ):
         watcher, link = bench.watcher(), bench.motion()
         errors = _errors(bench)
         points = bench.wave(10)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(0.9)
+        bench.sets_off(link, points, 0.9)
         fails(bench, "ROS_motion", "MoveAbsJ", error)
         bench.wait_until_standing(5)
         bench.stays(3, f"a move ended with {error}")
         bench.run(0.3)
         told, status = bench.progress(watcher), bench.status(watcher)
-        if (told.state, told.reason) != (TrajectoryState.FAILED, reason):
+        if (told.state, told.reason) != (RawTrajectoryState.FAILED, reason):
             raise Broken(f"a move ended with {error}, PROGRESS says {told}")
         if (status.in_error, status.error_code, status.in_motion) != (1, reason, 0):
             raise Broken(f"a move ended with {error}, STATUS says {status}")
@@ -123,8 +116,7 @@ def _move_fails(bench: Bench) -> None:
         if bench.status(watcher).in_error:
             raise Broken("in_error stays after a good trajectory")
         watcher.close()
-        link.close()
-        bench.run(1.5)
+        link.close(then=1.5)
 
 
 def _errors(bench: Bench) -> list[str]:
@@ -137,23 +129,19 @@ def _path_stays(bench: Bench) -> None:
     for times in (1, 3, 5):
         link = bench.motion()
         points = bench.wave(12)
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(0.5)
+        bench.sets_off(link, points, 0.5)
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", times)
         link.send(STOP)
         link.expect_reply(2, "STOP is answered, whatever becomes of the path")
         bench.wait_until_standing(5)
         bench.stays(6, f"it was stopped; ClearPath has failed {times} times")
         bench.moves_through(link, bench.wave(4))
-        link.close()
-        bench.run(1.5)
+        link.close(then=1.5)
 
 
 @case("port-taken", "a port that is taken is waited for", "R18")
 def _port_taken(bench: Bench) -> None:
-    other = bench.beside(bench.system, setting=bench.setting.early())
-    try:
+    with bench.beside(bench.system, setting=bench.setting.early()) as other:
         network = other.controller.network
         taken = [
             network.bind("127.0.0.1", port)
@@ -167,16 +155,13 @@ def _port_taken(bench: Bench) -> None:
             network.close(endpoint)
         other.run(1.1)
         _serves(other)
-    finally:
-        other.close()
 
 
 @case("counters-wrap", "counters begin anew behind their last value", once=True)
 def _counters_wrap(bench: Bench) -> None:
     """The counters' last values come after years; here they are set before the start."""
     for before in (1, 3, 5):
-        other = bench.beside(bench.system)
-        try:
+        with bench.beside(bench.system) as other:
             set_counters(other, WRAP - before)
             watcher, link = other.watcher(), other.motion()
             first = other.progress(watcher).trajectory
@@ -189,8 +174,6 @@ def _counters_wrap(bench: Bench) -> None:
             if number >= WRAP or (number - first) % WRAP != 8:
                 raise Broken(f"after trajectory {first} come eight others, the last is {number}")
             other.healthy()
-        finally:
-            other.close()
 
 
 def set_counters(bench: Bench, value: int) -> None:
@@ -207,13 +190,11 @@ def set_counters(bench: Bench, value: int) -> None:
 def _serves_stop(bench: Bench) -> None:
     link = bench.motion()
     bench.run(1.2)
-    link.send(bench.download(bench.wave(6)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(6))
     link.send(STOP)
     link.expect_reply(2, "STOP is answered")
     bench.wait_until_standing(5)
-    link.close()
-    bench.run(0.2)
+    link.close(then=0.2)
 
 
 @case("clocks-end", "a clock at the end of its 49 days")
@@ -271,7 +252,7 @@ def _signal_units_fail(bench: Bench) -> None:
     fails(bench, "ROS_stateServer", "DOutput", "ERR_NORUNUNIT", 10**6)
     bench.run(1)
     status = bench.status(state)
-    unknown = TriState.UNKNOWN
+    unknown = RawTriState.UNKNOWN
     if (status.drives_powered, status.e_stopped, status.in_motion) != (unknown, unknown, 0):
         raise Broken(f"no signal can be read, STATUS says {status}")
     if status.in_error:
@@ -281,18 +262,16 @@ def _signal_units_fail(bench: Bench) -> None:
 @case("stopped-unseen", "a program stop that no signal shows", "R15", background=True)
 def _stopped_without_signals(bench: Bench) -> None:
     """The supervisor cannot see that the program was stopped: the robot stays stopped."""
-    other = bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=()))
-    try:
+    with bench.beside(replace(bench.system, signals=(), outputs=(), cross=(), events=())) as other:
         link = other.motion()
-        link.send(other.download(other.wave(10)))
-        other.wait_until_moving()
+        other.sets_off(link, other.wave(10))
         other.controller.perform("stop")
         other.wait_until_standing(5)
         watcher = other.watcher()
         link.send(STOP)
         other.run(3)
         told = other.progress(watcher)
-        if (told.state, told.reason) != (TrajectoryState.STOPPED, Reason.STOPPED):
+        if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
             raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
         if told.point != told.reached or not 0 < told.planned <= told.received:
             raise Broken(f"STOP came while the motion task does not answer, PROGRESS says {told}")
@@ -306,5 +285,3 @@ def _stopped_without_signals(bench: Bench) -> None:
         other.controller.perform("start")
         other.stays(3, "the program was started again, nobody asked for motion")
         other.moves_through(link, other.wave(4))
-    finally:
-        other.close()

@@ -7,7 +7,7 @@ from itertools import pairwise
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP
-from rapidgen.proving.messages import TrajectoryState
+from rapidgen.proving.messages import RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point, distance
 from rapidgen.runtime.values import PersistentCell
@@ -43,9 +43,8 @@ def _loop(bench: Bench) -> None:
     points: list[Point] = [*out, *((p, 0.4) for p, _ in reversed(out[:-1]))]
     points += [(p, 0.4) for p, _ in out[1:3]]
     since = bench.now
-    link.send(bench.download(points))
-    bench.wait_until_moving()
-    while bench.progress(watcher).state == TrajectoryState.MOVING:
+    bench.sets_off(link, points)
+    while bench.progress(watcher).state == RawTrajectoryState.MOVING:
         if bench.now - since > 20:
             raise Broken("a loop does not end")
     if bench.now - since < sum(d for _, d in points[1:]) - 0.5:
@@ -126,8 +125,7 @@ def _stale_data(bench: Bench) -> None:
     """Whatever PERS hold at the start, of a lock, a ring or a counter: nothing moves by itself."""
     chance = random.Random(bench.setting.seed)
     for _ in range(6):
-        other = bench.beside(bench.system)
-        try:
+        with bench.beside(bench.system) as other:
             cells = other.controller.shared.cells.values()
             for cell in cells:
                 _fill(cell, other, chance)
@@ -137,15 +135,12 @@ def _stale_data(bench: Bench) -> None:
                 raise Broken("the robot moved at the start, by what its data happened to hold")
             link = other.motion()
             other.moves_through(link, other.wave(4))
-            link.send(other.download(other.wave(8)))
-            other.wait_until_moving()
+            other.sets_off(link, other.wave(8))
             link.send(STOP)
             link.expect_reply(2, "STOP is answered")
             other.wait_until_standing(5)
             other.moves_through(link, other.wave(3))
             other.healthy()
-        finally:
-            other.close()
 
 
 def _fill(cell: PersistentCell, bench: Bench, chance: random.Random) -> None:

@@ -4,7 +4,7 @@ import random
 
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import raw_point
-from rapidgen.proving.messages import POINT_BYTES, Comm, ReplyCode
+from rapidgen.proving.messages import POINT_BYTES, RawComm, RawReplyCode
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("framing")
@@ -20,15 +20,14 @@ def _word(value: int) -> bytes:
 def _dropped_and_served(bench: Bench, junk: bytes) -> None:
     link = bench.motion()
     link.send(junk)
-    bench.until(lambda: link.lost, 5, "a client that breaks framing is dropped")
+    link.wait_until_lost(5, "a client that breaks framing is dropped")
     _good_client(bench)
 
 
 def _good_client(bench: Bench) -> None:
     link = bench.motion()
     bench.moves_through(link, bench.wave(3, duration=0.2))
-    link.close()
-    bench.run(0.1)
+    link.close(then=0.1)
 
 
 @case("wrong-lengths", "a length out of bounds drops the client, the next one is served", "R2, R3")
@@ -70,7 +69,7 @@ def _unknown_request(bench: Bench) -> None:
     link = bench.motion()
     link.send(_word(12) + _word(20) + _word(2) + _word(0))
     frame = link.expect_reply(2, "a request of an unknown type is answered")
-    if (frame.comm, frame.reply) != (Comm.REPLY, ReplyCode.FAILURE):
+    if (frame.comm, frame.reply) != (RawComm.REPLY, RawReplyCode.FAILURE):
         raise Broken(f"a request of an unknown type is answered by {frame}")
 
 
@@ -88,8 +87,7 @@ def _half_header_and_end(bench: Bench) -> None:
         link = bench.motion()
         link.send(raw_point(-1, bench.position, 1.0)[:size])
         bench.run(0.05)
-        link.close()
-        bench.run(0.1)
+        link.close(then=0.1)
         _good_client(bench)
 
 
@@ -102,8 +100,7 @@ def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
         link = bench.motion()
         link.send(data)
         bench.stays(0.3, f"malformed: {data.hex()}")
-        link.close(abort=chance.random() < 0.3)
-        bench.run(0.1)
+        link.close(abort=chance.random() < 0.3, then=0.1)
         _good_client(bench)
         bench.forget()
 

@@ -1,7 +1,6 @@
 """What the paired client is told on the state port: HELLO and PROGRESS."""
 
 import struct
-from functools import partial
 from itertools import pairwise
 
 from rapidgen import __version__
@@ -11,20 +10,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    MAX_JOINTS,
-    PING,
-    POINT_BYTES,
-    PROGRESS,
-    PROTOCOL_VERSION,
-    Comm,
-    Feature,
-    Reason,
-    TrajectoryState,
-    batch_points,
-    decode,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawFeature, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point
 
@@ -36,17 +22,16 @@ def _float32(value: float) -> float:
 
 
 def _padded(values: list[float]) -> tuple[float, ...]:
-    return tuple(_float32(v) for v in (*values, *[0.0] * (MAX_JOINTS - len(values))))
+    return tuple(_float32(v) for v in (*values, *[0.0] * (messages.MAX_JOINTS - len(values))))
 
 
 @case("hello", "HELLO tells limits and capacities as they were configured")
 def _hello_tells_all(bench: Bench) -> None:
     link = bench.state()
-    link.send(encode(HELLO, Comm.REQUEST))
-    told = link.expect(messages.HelloReply, 2, "HELLO is answered")
+    told = bench.says_hello(link)
     joints, policy = bench.group.joints, bench.config.trajectory
     wanted: dict[str, object] = {
-        "protocol": PROTOCOL_VERSION,
+        "protocol": messages.PROTOCOL_VERSION,
         "driver": tuple(int(part) for part in __version__.split(".")[:3]),
         "build_id": bench.system.build_id,
         "mapping": Group.of(bench.config, bench.group).mapping,
@@ -64,16 +49,16 @@ def _hello_tells_all(bench: Bench) -> None:
         "control_port": bench.group.ports.control,
         "ring": policy.ring - 1,
         "preload": _float32(policy.preload),
-        "batch": batch_points(len(joints)),
+        "batch": messages.batch_points(len(joints)),
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
     for name, value in wanted.items():
         if not _same(getattr(told, name), value):
             raise Broken(f"HELLO tells {name} {getattr(told, name)}, the configuration {value}")
-    if Feature.PROGRESS not in Feature(told.features):
+    if RawFeature.PROGRESS not in RawFeature(told.features):
         raise Broken("HELLO does not promise PROGRESS")
     progress = bench.progress(link)
-    if progress.state not in (TrajectoryState.NONE, TrajectoryState.DONE):
+    if progress.state not in (RawTrajectoryState.NONE, RawTrajectoryState.DONE):
         raise Broken(f"a driver that was never asked for anything tells {progress}")
 
 
@@ -89,40 +74,40 @@ def _same(told: object, wanted: object) -> bool:
 @case("hello-versions", "a HELLO of another version is refused, PROGRESS only where asked for")
 def _other_versions(bench: Bench) -> None:
     link = bench.state()
-    older = HELLO._replace(protocol=PROTOCOL_VERSION - 1)
-    link.send(encode(older, Comm.REQUEST))
-    told = link.expect(messages.HelloRefusal, 2, "an older HELLO is answered")
-    if told.protocol != PROTOCOL_VERSION:
+    older = HELLO._replace(protocol=messages.PROTOCOL_VERSION - 1)
+    link.send(messages.encode(older, RawComm.REQUEST))
+    told = link.expect(messages.RawHelloRefusal, 2, "an older HELLO is answered")
+    if told.protocol != messages.PROTOCOL_VERSION:
         raise Broken(f"an older HELLO is answered by version {told.protocol}")
     bench.run(1)
-    if any(f.number == PROGRESS for f in link.read()):
+    if any(f.number == messages.PROGRESS for f in link.read()):
         raise Broken("PROGRESS comes although HELLO was refused")
-    link.send(encode(HELLO._replace(subscribe=2), Comm.REQUEST))
-    link.expect(messages.HelloReply, 2, "the next HELLO on the same link is answered")
+    link.send(messages.encode(HELLO._replace(subscribe=2), RawComm.REQUEST))
+    link.expect(messages.RawHelloReply, 2, "the next HELLO on the same link is answered")
     bench.run(1)
-    if any(f.number == PROGRESS for f in link.read()):
+    if any(f.number == messages.PROGRESS for f in link.read()):
         raise Broken("PROGRESS comes although it was not asked for")
 
 
 @case("hello-in-pieces", "a HELLO in pieces is answered", "R2")
 def _hello_in_pieces(bench: Bench) -> None:
     link = bench.state()
-    data = encode(HELLO, Comm.REQUEST)
+    data = messages.encode(HELLO, RawComm.REQUEST)
     for size in (1, 3, len(data) - 5):
         link.send(data[:size])
         data = data[size:]
         bench.run(0.4)
     link.send(data)
-    link.expect(messages.HelloReply, 2, "a HELLO in pieces is answered")
+    link.expect(messages.RawHelloReply, 2, "a HELLO in pieces is answered")
 
 
 @case("state-port-junk", "what is no HELLO breaks that link and no other")
 def _state_port_takes_nothing_else(bench: Bench) -> None:
-    good = encode(HELLO, Comm.REQUEST)
+    good = messages.encode(HELLO, RawComm.REQUEST)
     words = struct.unpack(f"<{len(good) // 4}i", good)
     wrong = {
         "another length": (words[0] - 1, *words[1:]),
-        "another type": (words[0], PING, *words[2:]),
+        "another type": (words[0], messages.PING, *words[2:]),
         "a topic": (*words[:2], 1, *words[3:]),
         "a reply": (*words[:2], 3, *words[3:]),
     }
@@ -134,13 +119,9 @@ def _state_port_takes_nothing_else(bench: Bench) -> None:
         link = bench.state()
         bench.status(link)
         link.send(data)
-        bench.until(partial(_is_lost, link), 3, f"HELLO as {name} breaks the link")
+        link.wait_until_lost(3, f"HELLO as {name} breaks the link")
         bench.status(bench.state(), 5)
         bench.run(0.5)
-
-
-def _is_lost(link: RawLink) -> bool:
-    return link.lost
 
 
 def _straight(bench: Bench, count: int, duration: float = 0.3) -> list[Point]:
@@ -164,7 +145,7 @@ def _passed(bench: Bench, points: list[Point]) -> float:
     return 1 + share * (len(points) - 1)
 
 
-def _newest(bench: Bench, link: RawLink) -> messages.Progress:
+def _newest(bench: Bench, link: RawLink) -> messages.RawProgress:
     bench.run(2 * bench.config.state_period)
     return bench.progress(link)
 
@@ -175,16 +156,14 @@ def _progress_tells_the_way(bench: Bench) -> None:
     before = bench.progress(link).trajectory
     for number in range(1, 3):
         points = _straight(bench, 12)
-        motion.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(bench.config.state_period)
-        told: list[messages.Progress] = []
-        while not told or told[-1].state != TrajectoryState.DONE:
+        bench.sets_off(motion, points, bench.config.state_period)
+        told: list[messages.RawProgress] = []
+        while not told or told[-1].state != RawTrajectoryState.DONE:
             told.append(bench.progress(link))
             _is_consistent(told[-1], before + number, len(points))
             passed = _passed(bench, points)
             # A point counts when its successor was given to the planner: late, never early.
-            if told[-1].state == TrajectoryState.MOVING and not (
+            if told[-1].state == RawTrajectoryState.MOVING and not (
                 passed - 4 <= told[-1].reached <= passed + 0.5
             ):
                 raise Broken(f"the robot has passed {passed:.1f} points, {told[-1]}")
@@ -193,18 +172,19 @@ def _progress_tells_the_way(bench: Bench) -> None:
         counts = [(t.received, t.planned, t.reached) for t in told]
         if any(a > b for one, two in pairwise(counts) for a, b in zip(one, two, strict=True)):
             raise Broken(f"counts of PROGRESS go back: {counts}")
-        if told[-1] != (before + number, TrajectoryState.DONE, 12, 12, 12, 0, -1, 0):
+        if told[-1] != (before + number, RawTrajectoryState.DONE, 12, 12, 12, 0, -1, 0):
             raise Broken(f"a trajectory of 12 points is done, PROGRESS says {told[-1]}")
         seen = {t.state for t in told}
-        if TrajectoryState.MOVING not in seen:
+        if RawTrajectoryState.MOVING not in seen:
             raise Broken("no PROGRESS says that the robot is moving")
         bench.run(0.5)
 
 
-def _is_consistent(told: messages.Progress, number: int, count: int) -> None:
+def _is_consistent(told: messages.RawProgress, number: int, count: int) -> None:
     fine = (
         told.trajectory == number
-        and told.state in (TrajectoryState.RECEIVING, TrajectoryState.MOVING, TrajectoryState.DONE)
+        and told.state
+        in (RawTrajectoryState.RECEIVING, RawTrajectoryState.MOVING, RawTrajectoryState.DONE)
         and 0 <= told.reached <= told.planned <= told.received <= count
         and (told.reason, told.point, told.joint) == (0, -1, 0)
     )
@@ -216,16 +196,16 @@ def _is_consistent(told: messages.Progress, number: int, count: int) -> None:
 def _progress_of_a_download(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
     frames = bench.download(bench.wave(6))
-    size = POINT_BYTES
+    size = messages.POINT_BYTES
     for sent in range(1, 5):
         motion.send(frames[(sent - 1) * size : sent * size])
         told = _newest(bench, link)
-        if told[1:] != (TrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
+        if told[1:] != (RawTrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
             raise Broken(f"{sent} points were sent, PROGRESS says {told}")
     motion.send(STOP)
     motion.expect_reply(1, "STOP is answered")
     told = _newest(bench, link)
-    if (told.state, told.reason) != (TrajectoryState.STOPPED, Reason.STOPPED):
+    if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
         raise Broken(f"a download was stopped, PROGRESS says {told}")
     if bench.status(link).in_error:
         raise Broken("a download that was stopped is an error in STATUS")
@@ -239,7 +219,7 @@ def _progress_of_a_refusal(bench: Bench) -> None:
     points[3] = ((points[3][0][0], high, *points[3][0][2:]), 30.0)
     motion.send(bench.download(points))
     told = _newest(bench, link)
-    if told[1:] != (TrajectoryState.REFUSED, 3, 0, 0, Reason.JOINT_LIMIT, 3, 2):
+    if told[1:] != (RawTrajectoryState.REFUSED, 3, 0, 0, RawReason.JOINT_LIMIT, 3, 2):
         raise Broken(f"point 3 was refused for joint 2, PROGRESS says {told}")
     status = bench.status(link)
     if (status.in_error, status.error_code) != (1, 204):
@@ -247,7 +227,7 @@ def _progress_of_a_refusal(bench: Bench) -> None:
     motion.send(STOP)
     motion.expect_reply(1, "STOP is answered")
     told, status = _newest(bench, link), bench.status(link)
-    if (told.state, status.in_error, status.error_code) != (TrajectoryState.STOPPED, 0, 0):
+    if (told.state, status.in_error, status.error_code) != (RawTrajectoryState.STOPPED, 0, 0):
         raise Broken(f"STOP ends the report of a refusal, but {told}, {status}")
 
 
@@ -259,20 +239,18 @@ def _progress_of_a_refusal(bench: Bench) -> None:
 )
 def _progress_of_an_early_end(bench: Bench) -> None:
     """Each event that ends a trajectory is told by its own reason, and where it ended."""
-    stopped = (Reason.MOTORS_OFF, Reason.PROGRAM_STOPPED)
+    stopped = (RawReason.MOTORS_OFF, RawReason.PROGRAM_STOPPED)
     for action, state, reasons in (
-        ("STOP", TrajectoryState.STOPPED, (Reason.STOPPED,)),
+        ("STOP", RawTrajectoryState.STOPPED, (RawReason.STOPPED,)),
         # One stop comes with the next: whichever is seen first.
-        ("e-stop", TrajectoryState.FAILED, (Reason.EMERGENCY_STOP, *stopped)),
-        ("motors-off", TrajectoryState.FAILED, stopped),
-        ("stop", TrajectoryState.FAILED, (Reason.PROGRAM_STOPPED,)),
-        ("leaves", TrajectoryState.FAILED, (Reason.CLIENT_LOST,)),
+        ("e-stop", RawTrajectoryState.FAILED, (RawReason.EMERGENCY_STOP, *stopped)),
+        ("motors-off", RawTrajectoryState.FAILED, stopped),
+        ("stop", RawTrajectoryState.FAILED, (RawReason.PROGRAM_STOPPED,)),
+        ("leaves", RawTrajectoryState.FAILED, (RawReason.CLIENT_LOST,)),
     ):
         link, motion = bench.watcher(), bench.motion()
         points = _straight(bench, 16)
-        motion.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(1.5)
+        bench.sets_off(motion, points, 1.5)
         if action == "STOP":
             motion.send(STOP)
         elif action == "leaves":
@@ -286,7 +264,7 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         if told.point != told.reached or not passed - 4 <= told.reached <= passed + 0.5:
             raise Broken(f"{action} after {passed:.1f} points, PROGRESS says {told}")
         status = bench.status(link)
-        failed = state is TrajectoryState.FAILED
+        failed = state is RawTrajectoryState.FAILED
         if (status.in_error, status.error_code) != ((1, told.reason) if failed else (0, 0)):
             raise Broken(f"a trajectory was ended by {action}, STATUS says {status}")
         if status.in_motion:
@@ -294,20 +272,17 @@ def _progress_of_an_early_end(bench: Bench) -> None:
         bench.start_again()
         bench.run(1)
         link.close()
-        motion.close()
-        bench.run(1.5)
+        motion.close(then=1.5)
 
 
 @case("progress-superseded", "PROGRESS is of the newest trajectory")
 def _progress_of_a_successor(bench: Bench) -> None:
     link, motion = bench.watcher(), bench.motion()
-    motion.send(bench.download(bench.wave(30)))
-    bench.wait_until_moving()
-    bench.run(0.5)
+    bench.sets_off(motion, bench.wave(30), 0.5)
     number = bench.progress(link).trajectory
     motion.send(bench.download(bench.wave(4))[:68])
     told = _newest(bench, link)
-    if told[:3] != (number + 1, TrajectoryState.RECEIVING, 1):
+    if told[:3] != (number + 1, RawTrajectoryState.RECEIVING, 1):
         raise Broken(f"a new trajectory has begun, PROGRESS says {told}")
     bench.wait_until_standing(2)
     link.read()
@@ -315,9 +290,9 @@ def _progress_of_a_successor(bench: Bench) -> None:
     states = {
         content.state
         for frame in link.read()
-        if isinstance(content := decode(frame), messages.Progress)
+        if isinstance(content := messages.decode(frame), messages.RawProgress)
     }
-    if states != {TrajectoryState.RECEIVING}:
+    if states != {RawTrajectoryState.RECEIVING}:
         raise Broken(f"half a trajectory was received, PROGRESS says {states}")
 
 
@@ -330,7 +305,7 @@ def _progress_in_between(bench: Bench) -> None:
     points[2] = (far, 30.0)
     motion.send(bench.download(points))
     told = _newest(bench, link)
-    refusal = (TrajectoryState.REFUSED, 2, 0, 0, Reason.JOINT_LIMIT, 2, 1)
+    refusal = (RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
     if told[1:] != refusal:
         raise Broken(f"point 2 was refused for joint 1, PROGRESS says {told}")
     # A trajectory begins: nothing is known of it but its number.
@@ -339,13 +314,13 @@ def _progress_in_between(bench: Bench) -> None:
     names = {key.rstrip("_0123456789"): f"ROS_common:{key}" for key in declared}
     task[names["ros_trajectory"]] = told.trajectory + 1
     between = _newest(bench, link)
-    if between != (told.trajectory + 1, TrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
+    if between != (told.trajectory + 1, RawTrajectoryState.RECEIVING, 0, 0, 0, 0, -1, 0):
         raise Broken(f"a trajectory begins after {told}, PROGRESS says {between}")
     task[names["ros_trajectory"]] = told.trajectory
     # A STOP takes back the refusal: its code is written before its state.
-    task[names["ros_refusal"]] = Reason.STOPPED
+    task[names["ros_refusal"]] = RawReason.STOPPED
     between = _newest(bench, link)
-    if between[1:] != (TrajectoryState.STOPPED, 2, 0, 0, Reason.STOPPED, -1, 0):
+    if between[1:] != (RawTrajectoryState.STOPPED, 2, 0, 0, RawReason.STOPPED, -1, 0):
         raise Broken(f"a STOP takes back a refusal, PROGRESS says {between}")
     status = bench.status(link)
     if (status.in_error, status.error_code) != (0, 0):
@@ -357,16 +332,16 @@ def _progress_in_between(bench: Bench) -> None:
 def _other_hellos(bench: Bench) -> None:
     """Of a newer client, with wishes that nobody knows, and one that cannot be read."""
     link, later = bench.state(), 1 << 20
-    newer = HELLO._replace(protocol=PROTOCOL_VERSION + 1, subscribe=later | 1)
-    link.send(encode(newer, Comm.REQUEST))
-    link.expect(messages.HelloReply, 2, "a newer HELLO is answered")
+    newer = HELLO._replace(protocol=messages.PROTOCOL_VERSION + 1, subscribe=later | 1)
+    link.send(messages.encode(newer, RawComm.REQUEST))
+    link.expect(messages.RawHelloReply, 2, "a newer HELLO is answered")
     bench.progress(link)
     fails(bench, "ROS_stateServer", "UnpackRawBytes", "ERR_OUTOFBND")
-    link.send(encode(HELLO, Comm.REQUEST))
-    bench.until(lambda: link.lost, 1, "a HELLO that cannot be read breaks the link")
-    good = encode(HELLO, Comm.REQUEST)
+    link.send(messages.encode(HELLO, RawComm.REQUEST))
+    link.wait_until_lost(1, "a HELLO that cannot be read breaks the link")
+    good = messages.encode(HELLO, RawComm.REQUEST)
     for data in (good + b"\0", good[:8] + b"\3" + good[9:], b"\x21" + good[1:]):
         link = bench.watcher()
         link.send(data)
-        bench.until(partial(_is_lost, link), 1, "what is no HELLO breaks the link")
+        link.wait_until_lost(1, "what is no HELLO breaks the link")
     bench.progress(bench.watcher())

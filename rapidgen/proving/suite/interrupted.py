@@ -1,18 +1,15 @@
 """Stops at the worst moments, and a driver that lacks parts of what it usually has."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
-from typing import Any
 
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.instructions import at_call, fails
+from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason, TrajectoryState
+from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.errors import set_counters
 from rapidgen.proving.suite.motion_task import begins, datum, patience, unit_of
@@ -24,11 +21,11 @@ case = Theme("interrupted")
 _TRAJ = JOINT_TRAJ_PT
 
 
-def _ended(bench: Bench, watcher: RawLink, reason: Reason, what: str) -> messages.Progress:
+def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
     """PROGRESS; Broken unless the newest trajectory has ended early for that reason."""
     told = bench.progress(watcher)
-    stopped = reason is Reason.STOPPED
-    state = TrajectoryState.STOPPED if stopped else TrajectoryState.FAILED
+    stopped = reason is RawReason.STOPPED
+    state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.FAILED
     if (told.state, told.reason) != (state, reason):
         raise Broken(f"{what}: {reason.name} is wanted, PROGRESS says {told}")
     return told
@@ -37,9 +34,8 @@ def _ended(bench: Bench, watcher: RawLink, reason: Reason, what: str) -> message
 def _works(bench: Bench, link: RawLink) -> None:
     """A trajectory begins soon, and comes to its end in time."""
     unit = unit_of(bench)
-    points, sent = bench.wave(2, duration=unit), bench.now
-    link.send(bench.download(points))
-    begins(bench, sent)
+    points = bench.wave(2, duration=unit)
+    begins(bench, link, points)
     bench.wait_until_at(points[1][0], unit + 0.3)
     bench.run(0.1)
 
@@ -57,7 +53,7 @@ def _before_a_move(bench: Bench) -> None:
         bench.run(pause)
         bench.controller.perform("start")
         bench.stays(patience(bench), f"the program was stopped before move {number}, and started")
-        told = _ended(bench, watcher, Reason.PROGRAM_STOPPED, "the program was stopped")
+        told = _ended(bench, watcher, RawReason.PROGRAM_STOPPED, "the program was stopped")
         if (told.planned, told.reached) != (number + 1, max(1, number - 1)):
             raise Broken(f"the program was stopped before move {number}, PROGRESS says {told}")
         _works(bench, link)
@@ -68,25 +64,22 @@ def _first_reason(bench: Bench) -> None:
     """Of two that come together the first one counts, and the trajectory ends once."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     last = bench.last_event
-    link.send(bench.download(bench.wave(5, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(5, duration=unit))
     bench.run(unit)
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.controller.perform("stop")
     bench.run(patience(bench))
-    _ended(bench, watcher, Reason.STOPPED, "STOP, then a stop of the program")
+    _ended(bench, watcher, RawReason.STOPPED, "STOP, then a stop of the program")
     bench.controller.perform("start")
     bench.run(patience(bench))
     # A move that fails just when the supervisor has asked for a halt.
     under_way = _fails_with_a_halt(bench, "ERR_COLL_STOP")
     link.send(bench.download(bench.wave(5, duration=unit)))
     bench.until(lambda: bool(under_way), 2 * unit, "the second move begins")
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.wait_until_standing(2)
     bench.run(patience(bench))
-    _ended(bench, watcher, Reason.STOPPED, "STOP, then a move that fails")
+    _ended(bench, watcher, RawReason.STOPPED, "STOP, then a move that fails")
     _works(bench, link)
     said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
     if said:
@@ -100,24 +93,23 @@ def _fails_with_a_halt(bench: Bench, error: str) -> list[float]:
     """
     view = bench.controller.task(bench.task("ROS_motion"))
     asked, done = datum(bench, "ros_abort"), datum(bench, "ros_abort_done")
-    program, left = view.rapid.program, 2
     under_way: list[float] = []
-    routine = program.find_routine(None, "moveabsj")
-    assert routine is not None
-    as_before = program.space[routine.code]
+    left = 2
 
-    def fails(*arguments: Any) -> Any:  # noqa: ANN401 - whatever the instruction takes
-        nonlocal left
-        left -= 1
-        if left:
-            return as_before(*arguments)
-        program.space[routine.code] = as_before
-        under_way.append(bench.now)
-        while view[asked] == view[done]:
-            view.rapid.sleep(0.001)
-        raise RapidError(error)
+    def wrap(as_before: Instruction) -> Instruction:
+        def failing(*arguments: object) -> object:
+            nonlocal left
+            left -= 1
+            if left != 0:
+                return as_before(*arguments)
+            under_way.append(bench.now)
+            while view[asked] == view[done]:
+                view.rapid.sleep(0.001)
+            raise RapidError(error)
 
-    program.space[routine.code] = fails
+        return failing
+
+    wrapped(bench.rapid_task("ROS_motion"), "MoveAbsJ", wrap)
     return under_way
 
 
@@ -128,13 +120,11 @@ def _late_point(bench: Bench) -> None:
     task = bench.controller.task(bench.task("ROS_motion"))
     ring, head = datum(bench, "ros_ring"), datum(bench, "ros_head")
     last = bench.last_event
-    link.send(bench.download(bench.wave(5, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(5, duration=unit))
     bench.run(1.15 * unit)
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.run(patience(bench))
-    told = _ended(bench, watcher, Reason.STOPPED, "STOP")
+    told = _ended(bench, watcher, RawReason.STOPPED, "STOP")
     points = list(task[ring].values())
     place = int(task[head]) % len(points)
     points[place].session, points[place].index = told.trajectory, told.planned + 1
@@ -146,14 +136,9 @@ def _late_point(bench: Bench) -> None:
         raise Broken("a point of a stopped trajectory came late, and is told as an error")
 
 
-@contextmanager
-def _beside(bench: Bench, system: System, *, early: bool = False) -> Iterator[Bench]:
+def _beside(bench: Bench, system: System, *, early: bool = False) -> Bench:
     """Another controller; `early`: none of its tasks has run yet."""
-    other = bench.beside(system, setting=bench.setting.early() if early else None)
-    try:
-        yield other
-    finally:
-        other.close()
+    return bench.beside(system, setting=bench.setting.early() if early else None)
 
 
 def _bare(system: System, *events: str) -> System:
@@ -165,8 +150,7 @@ def _bare(system: System, *events: str) -> System:
 def _moves(bench: Bench, link: RawLink) -> None:
     """A trajectory is on its way from its point 1 to 2."""
     unit = unit_of(bench)
-    link.send(bench.download(bench.wave(6, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(6, duration=unit))
     bench.run(1.6 * unit)
 
 
@@ -176,9 +160,9 @@ def _unseen(bench: Bench) -> None:
     with _beside(bench, _bare(bench.system)) as other:
         watcher, link = other.watcher(), other.motion()
         for action, reason, restarts in (
-            ("manual", Reason.MODE_CHANGED, False),
-            ("stop", Reason.STOPPED, False),
-            ("stop", Reason.PROGRAM_STOPPED, True),
+            ("manual", RawReason.MODE_CHANGED, False),
+            ("stop", RawReason.STOPPED, False),
+            ("stop", RawReason.PROGRAM_STOPPED, True),
         ):
             _moves(other, link)
             last = other.last_event
@@ -187,7 +171,7 @@ def _unseen(bench: Bench) -> None:
             halted = other.now
             if restarts:
                 other.controller.perform("pp-to-main")
-            elif reason is Reason.STOPPED:
+            elif reason is RawReason.STOPPED:
                 other.run(3)
                 link.send(STOP)
                 halted = other.now
@@ -220,10 +204,10 @@ def _start_alone(bench: Bench) -> None:
             other.wait_until_standing(1)
             other.run(patience(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
-                _ended(other, watcher, Reason.PROGRAM_STOPPED, action)
+                _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
             other.start_again()
             other.stays(patience(other), f"{action}, then Start")
-            _ended(other, watcher, Reason.PROGRAM_STOPPED, f"{action}, then Start")
+            _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
             if action in ("stop", "e-stop"):
                 _works(other, link)
 
@@ -246,15 +230,17 @@ def _without_routines(bench: Bench) -> None:
                 raise Broken(f"the last trajectory was {number}, {other.progress(watcher)}")
         _refills(other, link)
         for action, reason in (
-            ("stop", Reason.PROGRAM_STOPPED),
-            ("e-stop", Reason.EMERGENCY_STOP),
-            ("motors-off", Reason.MOTORS_OFF),
+            ("stop", RawReason.PROGRAM_STOPPED),
+            ("e-stop", RawReason.EMERGENCY_STOP),
+            ("motors-off", RawReason.MOTORS_OFF),
         ):
             _moves(other, link)
             if control is not None:
                 _pause(other, control, 1)
             other.controller.perform(action)
-            if control is not None and control.ask(messages.Pause(0)) != messages.NotDone(reason):
+            if control is not None and control.ask(messages.RawPause(0)) != messages.RawNotDone(
+                reason
+            ):
                 raise Broken(f"a pause ends right behind {action}")
             other.wait_until_standing(1)
             other.run(patience(other))
@@ -269,16 +255,16 @@ def _without_routines(bench: Bench) -> None:
         other.start_again()
         other.stays(2, "a power failure without event routines, then Start")
         if control is not None:
-            told = control.expect(messages.Stopped, 1, "STOPPED arrives")
-            if told.reason != Reason.POWER_FAILURE:
+            told = control.expect(messages.RawStopped, 1, "STOPPED arrives")
+            if told.reason != RawReason.POWER_FAILURE:
                 raise Broken(f"a power failure has ended a trajectory, STOPPED says {told}")
         _works(other, other.motion())
 
 
 def _pause(bench: Bench, control: RawLink, paused: int) -> None:
-    told = control.ask(messages.Pause(paused))
+    told = control.ask(messages.RawPause(paused))
     bench.run(0.1)
-    if told != messages.Acknowledged() or bench.standing != bool(paused):
+    if told != messages.RawAcknowledged() or bench.standing != bool(paused):
         raise Broken(f"PAUSE {paused} is answered by {told}, the robot stands: {bench.standing}")
 
 
@@ -288,8 +274,7 @@ def _pauses_at_its_end(
     """A trajectory that is paused on its way, and in the stay at its end."""
     unit = unit_of(bench)
     way = bench.wave(2, duration=unit)
-    link.send(bench.download([*way, (way[1][0], 2 * unit)]))
-    begins(bench, bench.now)
+    begins(bench, link, [*way, (way[1][0], 2 * unit)])
     if control is not None:
         for paused in (1, 0):
             _pause(bench, control, paused)
@@ -301,7 +286,7 @@ def _pauses_at_its_end(
             raise Broken("a trajectory is paused, STATUS says that another one may come")
     bench.run(2.5 * unit)
     told, status = bench.progress(watcher), bench.status(watcher)
-    if (told.state, status.motion_possible) != (TrajectoryState.DONE, 1):
+    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
         raise Broken(f"a trajectory that was paused in its last stay is over: {told}, {status}")
 
 
@@ -311,13 +296,10 @@ def _refills(bench: Bench, link: RawLink) -> None:
     if count > bench.config.trajectory.capacity:
         return
     seconds = max(0.1, 1.05 * bench.config.trajectory.min_segment)
-    link.send(bench.download(bench.wave(count, duration=seconds, size=0.01)))
-    bench.wait_until_moving()
-    bench.run(20 * seconds)
+    bench.sets_off(link, bench.wave(count, duration=seconds, size=0.01), 20 * seconds)
     if bench.standing:
         raise Broken("a trajectory longer than the ring stops on its way")
-    link.send(STOP)
-    link.reply(_TRAJ)
+    link.stop()
     bench.wait_until_standing(1)
     bench.run(patience(bench))
 
@@ -341,5 +323,5 @@ def _stale_build(bench: Bench) -> None:
         link.send(other.download(other.wave(3)))
         other.stays(1, "modules of the motion task are of different builds")
         told = other.progress(watcher)
-        if (told.state, told.reason) != (TrajectoryState.REFUSED, Reason.BUILD_MISMATCH):
+        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
             raise Broken(f"modules of the motion task are of different builds, {told}")

@@ -4,7 +4,7 @@ from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame
-from rapidgen.proving.messages import Reason, TriState
+from rapidgen.proving.messages import RawReason, RawTriState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.streams import way
@@ -28,7 +28,7 @@ class _Blame:
         self._bench = bench
         self._stream = Streamer(bench)
 
-    def __call__(self, points: list[Point], reason: Reason, point: int, axis: int) -> None:
+    def __call__(self, points: list[Point], reason: RawReason, point: int, axis: int) -> None:
         stream = self._stream
         stream.number += 1
         stream.sent = 0
@@ -49,7 +49,7 @@ class _Blame:
         for axis, joint in enumerate(self._bench.group.joints):
             for value in (joint.lower - _BEYOND, joint.upper + _BEYOND):
                 points = [(here, 1.0), (changed(here, axis, value), 30.0), (here, 30.0)]
-                self(points, Reason.JOINT_LIMIT, 1, axis)
+                self(points, RawReason.JOINT_LIMIT, 1, axis)
 
     def close(self) -> None:
         """Leave."""
@@ -68,12 +68,12 @@ def _joints_of_a_stream(bench: Bench) -> None:
             near = policy.start_tolerance_linear
         if near > 0:
             start = changed(here, axis, _step(joint, here[axis], 1.1 * near))
-            blame([(start, 1.0), (here, 5.0)], Reason.START_TOO_FAR, 0, axis)
+            blame([(start, 1.0), (here, 5.0)], RawReason.START_TOO_FAR, 0, axis)
         fast = 1.05 * seconds * joint.speed
         room = max(joint.upper - here[axis], here[axis] - joint.lower)
         if policy.too_fast == "refuse" and bench.group.tcp_speed_limit >= 5 and room > fast:
             target = changed(here, axis, _step(joint, here[axis], fast))
-            blame([(here, 1.0), (target, seconds), (here, 9.0)], Reason.TOO_FAST, 1, axis)
+            blame([(here, 1.0), (target, seconds), (here, 9.0)], RawReason.TOO_FAST, 1, axis)
     blame.close()
     bench.run(1.2)
     # The first point's duration is not the client's business, nor how far the start is off.
@@ -98,8 +98,7 @@ def _away_from_zero(bench: Bench) -> None:
     stream, since = Streamer(bench, link), bench.now
     points = way(bench, 12)
     stream.all(points)
-    bench.wait_until_at(points[-1][0], 20)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
+    bench.arrives(points, since, 20)
 
 
 @case("controller-error", "an error of the controller is in STATUS")
@@ -127,7 +126,7 @@ def _controller_error(bench: Bench) -> None:
 @case("one-signal-missing", "each signal missing alone", "R15", background=True)
 def _one_signal_missing(bench: Bench) -> None:
     """A signal that is not there at a start is unknown; all the others are as they were."""
-    signals, off, on = bench.controller.io.signals, TriState.FALSE, TriState.TRUE
+    signals, off, on = bench.controller.io.signals, RawTriState.FALSE, RawTriState.TRUE
     bench.run(0.2)
     for missing in STATUS_SIGNALS:
         name = signal_name(bench.config, bench.group, missing).lower()
@@ -188,8 +187,8 @@ def _shown(
 ) -> None:
     status = bench.status(state)
     wanted = (
-        TriState.UNKNOWN if missing == "motors_on" else powered,
-        TriState.UNKNOWN if missing == "emergency_stop" else e_stopped,
+        RawTriState.UNKNOWN if missing == "motors_on" else powered,
+        RawTriState.UNKNOWN if missing == "emergency_stop" else e_stopped,
         possible,
     )
     if (status.drives_powered, status.e_stopped, status.motion_possible) != wanted:

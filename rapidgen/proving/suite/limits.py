@@ -10,7 +10,7 @@ from rapidgen.machine.system_parameters import arm_name
 from rapidgen.proving import messages
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import RawLink, raw_point
-from rapidgen.proving.messages import Comm, Reason, decode
+from rapidgen.proving.messages import RawComm, RawReason, decode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Position
 
@@ -80,10 +80,10 @@ def _nonsense(joint: Joint, lowest: float, highest: float) -> list[_Told]:
     ]
 
 
-def _hello(link: RawLink) -> messages.HelloReply:
+def _hello(link: RawLink) -> messages.RawHelloReply:
     told = link.ask(HELLO)
     link.close()
-    if not isinstance(told, messages.HelloReply):
+    if not isinstance(told, messages.RawHelloReply):
         raise Broken(f"HELLO is answered by {told}")
     return told
 
@@ -128,7 +128,7 @@ class _Cell:
         _are(found[0].texts[1], "Configuration", joint, joint.lower, joint.upper)
         _are(found[0].texts[2], "Controller", joint, told.lower or 0.0, told.upper or 0.0)
 
-    def in_force(self) -> messages.HelloReply:
+    def in_force(self) -> messages.RawHelloReply:
         """What HELLO says, which must be the same on both ports."""
         bench = self._bench
         told = _hello(bench.state())
@@ -139,9 +139,9 @@ class _Cell:
         return told
 
 
-def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.Content:
+def _answer(link: RawLink, others: Position, axis: int, value: float) -> messages.RawContent:
     """The reply to a point with that value. Its trajectory gets no end, so nothing moves."""
-    link.send(raw_point(-1, (*others[:axis], value, *others[axis + 1 :]), 1.0, Comm.REQUEST))
+    link.send(raw_point(-1, (*others[:axis], value, *others[axis + 1 :]), 1.0, RawComm.REQUEST))
     return decode(link.expect_reply(2, "a point is answered"))
 
 
@@ -184,8 +184,8 @@ def _counts(bench: Bench, cell: _Cell, told: Sequence[_Told]) -> None:
             raise Broken(f"joint {axis + 1} may move in {limits}, HELLO says {seen}")
         for limit, inside in ((limits[0], _NEAR), (limits[1], -_NEAR)):
             for value, wanted in (
-                (limit + inside, messages.Acknowledged()),
-                (limit - inside, messages.Refused(Reason.JOINT_LIMIT, 0, axis + 1)),
+                (limit + inside, messages.RawAcknowledged()),
+                (limit - inside, messages.RawRefused(RawReason.JOINT_LIMIT, 0, axis + 1)),
             ):
                 answer = _answer(link, here, axis, value)
                 if answer != wanted:
@@ -212,6 +212,6 @@ def _limits_without_sense(bench: Bench) -> None:
         ends = (joint.lower - _ROUNDING, joint.upper + _ROUNDING, odd.lower or 0, odd.upper or 0)
         for value in (bench.position[axis], *ends):
             answer = _answer(link, bench.position, axis, value)
-            if answer != messages.Refused(Reason.JOINT_LIMIT, 0, axis + 1):
+            if answer != messages.RawRefused(RawReason.JOINT_LIMIT, 0, axis + 1):
                 raise Broken(f"nothing is left of joint {axis + 1}, it is at {value}: {answer}")
         bench.stays(0.5, "a joint has no range")

@@ -1,11 +1,9 @@
 """Connections that come, go, hang and take each other's place."""
 
-from functools import partial
-
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
-from rapidgen.proving.messages import PING, Comm, Reason, decode, encode
+from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.track import SETTLED, Point, distance
@@ -28,12 +26,11 @@ def _leaves_in_a_download(bench: Bench) -> None:
 def _has_no_start(bench: Bench) -> None:
     """Nothing of what one client has sent counts for the next."""
     link = bench.motion()
-    link.send(raw_point(5, bench.position, 1.0, Comm.REQUEST))
+    link.send(raw_point(5, bench.position, 1.0, RawComm.REQUEST))
     told = decode(link.expect_reply(2, "a point without a start is answered"))
-    if not isinstance(told, messages.Refused) or told.reason != Reason.NO_START:
+    if not isinstance(told, messages.RawRefused) or told.reason != RawReason.NO_START:
         raise Broken(f"a point without a start is answered by {told}")
-    link.close()
-    bench.run(0.2)
+    link.close(then=0.2)
 
 
 @case("leaves-moving", "the robot does not go on for a client that has left")
@@ -41,9 +38,7 @@ def _leaves_while_moving(bench: Bench) -> None:
     for abort in (False, True):
         points = bench.wave(20)
         link = bench.motion()
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(0.5)
+        bench.sets_off(link, points, 0.5)
         link.close(abort=abort)
         bench.wait_until_standing(5)
         if distance(bench.position, points[-1][0]) < 1e-4:
@@ -55,8 +50,7 @@ def _leaves_while_moving(bench: Bench) -> None:
 def _moves(bench: Bench) -> None:
     link = bench.motion()
     bench.moves_through(link, bench.wave(3, duration=0.2))
-    link.close()
-    bench.run(0.2)
+    link.close(then=0.2)
 
 
 @case("idle-client", "an idle client is never timed out")
@@ -91,8 +85,7 @@ def _state_client_comes_back(bench: Bench) -> None:
     for abort in (False, True, False):
         link = bench.state()
         bench.status(link)
-        link.close(abort=abort)
-        bench.run(0.5)
+        link.close(abort=abort, then=0.5)
     link = bench.state()
     bench.status(link, 5)
 
@@ -102,19 +95,18 @@ def _many_come_and_go(bench: Bench) -> None:
     for _ in range(40):
         link = bench.motion()
         bench.run(0.03)
-        link.close()
-        bench.run(0.03)
+        link.close(then=0.03)
     _moves(bench)
 
 
 def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = False) -> None:
     """PING and its reply; `slowly`: in single bytes."""
-    data = encode(messages.Ping(), Comm.REQUEST)
+    data = encode(messages.RawPing(), RawComm.REQUEST)
     for byte in data[:-1] if slowly else b"":
         link.send(bytes([byte]))
         bench.run(0.012)
     link.send(data[-1:] if slowly else data)
-    if not isinstance(link.reply(PING, seconds), messages.Acknowledged):
+    if not isinstance(link.reply(PING, seconds), messages.RawAcknowledged):
         raise Broken("PING is not confirmed")
 
 
@@ -144,7 +136,7 @@ def _silent(bench: Bench, old: RawLink, what: str, points: list[Point]) -> RawLi
     bench.run(0.8)
     if what in ("fed", "download", "stream") and bench.standing:
         raise Broken(f"{what}: the robot does not move, though its client is there")
-    bench.until(partial(_is_lost, old), 3, f"a silent client gives way: {what}")
+    old.wait_until_lost(3, f"a silent client gives way: {what}")
     if not 0.9 < bench.now - last < 1.4:
         raise Broken(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
     bench.wait_until_standing(3)
@@ -181,10 +173,6 @@ def _silent_while_moving(bench: Bench) -> None:
         bench.wait_until_at(place, 5)
 
 
-def _is_lost(link: RawLink) -> bool:
-    return link.lost
-
-
 @case("server-breaks", "a server socket that breaks is opened again")
 def _server_breaks(bench: Bench) -> None:
     """A server socket that breaks is opened again."""
@@ -208,5 +196,4 @@ def _server_breaks(bench: Bench) -> None:
                 _pings(bench, link, 0.3)
             else:
                 _pings(bench, bench.control(), 0.3)
-            link.close()
-            bench.run(0.2)
+            link.close(then=0.2)

@@ -9,16 +9,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    SPEED,
-    Comm,
-    Mode,
-    Reason,
-    TrajectoryState,
-    decode,
-    encode,
-    text_of,
-)
+from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
@@ -40,7 +31,7 @@ class _Step:
     until: float
     planned: int
     reached: int
-    state: TrajectoryState = TrajectoryState.MOVING
+    state: RawTrajectoryState = RawTrajectoryState.MOVING
 
 
 def unit_of(bench: Bench) -> float:
@@ -55,7 +46,7 @@ def _scaled(unit: float, *steps: _Step) -> list[_Step]:
 def _in_order(
     bench: Bench,
     begun: float,
-    told: Sequence[tuple[float, TrajectoryState | int, int, int]],
+    told: Sequence[tuple[float, RawTrajectoryState | int, int, int]],
     steps: Sequence[_Step],
 ) -> None:
     """Broken unless what was told, and when, is each step in its turn and in its time."""
@@ -78,15 +69,17 @@ def _in_order(
         raise Broken(f"it is never told that {missing}")
 
 
-def watched(link: RawLink, since: float) -> list[tuple[float, messages.Progress, messages.Status]]:
+def watched(
+    link: RawLink, since: float
+) -> list[tuple[float, messages.RawProgress, messages.RawStatus]]:
     """PROGRESS from `since` on, each with its time and the STATUS that came with it."""
-    found: list[tuple[float, messages.Progress, messages.Status]] = []
-    status: messages.Status | None = None
+    found: list[tuple[float, messages.RawProgress, messages.RawStatus]] = []
+    status: messages.RawStatus | None = None
     for when, frame in link.frames:
-        content = decode(frame) if when >= since else None
-        if isinstance(content, messages.Status):
+        content = messages.decode(frame) if when >= since else None
+        if isinstance(content, messages.RawStatus):
             status = content
-        elif isinstance(content, messages.Progress) and status is not None:
+        elif isinstance(content, messages.RawProgress) and status is not None:
             found.append((when, content, status))
     return found
 
@@ -101,21 +94,28 @@ def _goes_by(
     for when, progress, status in told:
         if (progress.trajectory, progress.received, *progress[5:]) != (trajectory, count, 0, -1, 0):
             raise Broken(f"at {when:.3f} s trajectory {trajectory} is told as {progress}")
-        moving = [int(progress.state == TrajectoryState.MOVING)]
+        moving = [int(progress.state == RawTrajectoryState.MOVING)]
         over = over if over or moving[0] else when
         if when <= over + lag:
             # The first STATUS behind the end may tell of the motion before it.
             moving.append(1)
-        if status not in [messages.Status(1, 0, 0, 0, m, Mode.AUTO, 1) for m in moving]:
+        if status not in [messages.RawStatus(1, 0, 0, 0, m, RawMode.AUTO, 1) for m in moving]:
             raise Broken(f"at {when:.3f} s PROGRESS says {progress}, but STATUS {status}")
 
 
-def begins(bench: Bench, sent: float) -> float:
+def begins_soon(bench: Bench, sent: float) -> float:
     """When the motion begins that was asked for at `sent`: soon."""
     bench.wait_until_moving(2)
     if bench.now - sent > SOON + 2 * bench.setting.motion.settle:
         raise Broken(f"the robot begins to move {bench.now - sent:.3f} s behind the end frame")
     return bench.now
+
+
+def begins(bench: Bench, link: RawLink, points: Sequence[Point]) -> float:
+    """Send a trajectory; when its motion begins: soon."""
+    sent = bench.now
+    link.send(bench.download(points))
+    return begins_soon(bench, sent)
 
 
 class _Meter:
@@ -143,7 +143,7 @@ class _Meter:
 def _step_by_step(bench: Bench) -> None:
     """Zones, stop points and stays: what is planned, what is reached, and when it is over."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
-    number, done = bench.progress(watcher).trajectory, TrajectoryState.DONE
+    number, done = bench.progress(watcher).trajectory, RawTrajectoryState.DONE
     meter = _Meter(bench)
     for last in (True, False):
         way = bench.wave(6, duration=unit)
@@ -159,7 +159,7 @@ def _step_by_step(bench: Bench) -> None:
         meter.end("while points are awaited")
         sent = bench.now
         link.send(frames[68:])
-        begun = begins(bench, sent)
+        begun = begins_soon(bench, sent)
         number += 1
         bench.run(8 * unit)
         meter.end("while the robot moves")
@@ -177,9 +177,8 @@ def _step_by_step(bench: Bench) -> None:
         bench.run(0.53)
         meter.end("when nothing is under way")
         # One point, sent twice, from wherever the robot stands.
-        target, sent = bench.wave(2, duration=2 * unit)[1][0], bench.now
-        link.send(bench.download([(target, 2 * unit)] * 2))
-        begun = begins(bench, sent)
+        target = bench.wave(2, duration=2 * unit)[1][0]
+        begun = begins(bench, link, [(target, 2 * unit)] * 2)
         number += 1
         bench.run(3 * unit)
         steps = _scaled(unit, _Step(0, 2, 1, 0), _Step(2, _EVER, 2, 2, done))
@@ -191,9 +190,9 @@ def _stream_by_step(bench: Bench) -> None:
     """A stream that starves twice, and one that is cut."""
     watcher, unit = bench.watcher(), unit_of(bench)
     stream, meter = Streamer(bench), _Meter(bench)
-    starved, done = TrajectoryState.STARVED, TrajectoryState.DONE
+    starved, done = RawTrajectoryState.STARVED, RawTrajectoryState.DONE
     points = bench.wave(4, duration=unit)
-    told: list[tuple[float, TrajectoryState | int, int, int]] = []
+    told: list[tuple[float, RawTrajectoryState | int, int, int]] = []
 
     def ask(seconds: float) -> None:
         until = bench.now + seconds
@@ -204,7 +203,7 @@ def _stream_by_step(bench: Bench) -> None:
             bench.run(0.03)
 
     stream.put(points[:3], BEGIN | FLUSH)
-    begun = begins(bench, bench.now)
+    begun = begins_soon(bench, bench.now)
     ask(2.5 * unit)
     meter.begin()
     bench.run(0.5)
@@ -235,15 +234,15 @@ def _stream_by_step(bench: Bench) -> None:
     stream.number, stream.sent = 2, 0
     points = bench.wave(3, duration=unit)
     stream.put(points[:2], BEGIN | FLUSH)
-    begun = begins(bench, bench.now)
+    begun = begins_soon(bench, bench.now)
     bench.run(0.5 * unit)
     beyond = (bench.group.joints[0].upper + 1, *points[2][0][1:])
     stream.put([(beyond, 30.0)])
-    stream.refused(Reason.JOINT_LIMIT, "joint 1 is outside its limits")
+    stream.refused(RawReason.JOINT_LIMIT, "joint 1 is outside its limits")
     bench.wait_until_at(points[1][0], 5)
     bench.run(2 * (bench.config.state_period + bench.setting.motion.settle))
     progress, status = bench.progress(watcher), bench.status(watcher)
-    failed = (number, TrajectoryState.FAILED, 2, 2, 2, Reason.JOINT_LIMIT, 2, 1)
+    failed = (number, RawTrajectoryState.FAILED, 2, 2, 2, RawReason.JOINT_LIMIT, 2, 1)
     if progress != failed or (status.in_error, status.error_code, status.in_motion) != (1, 104, 0):
         raise Broken(f"a stream was cut behind two points, but {progress} and {status}")
 
@@ -268,14 +267,12 @@ def _speed_by_step(bench: Bench) -> None:
         if percent == 50 and slower == 1.0:
             continue
         points = bench.wave(3, duration=unit)
-        sent = bench.now
-        link.send(bench.download(points))
-        begun = begins(bench, sent)
+        begun = begins(bench, link, points)
         if percent:
             for _ in range(2):
                 asked = bench.now
-                told = control.ask(messages.Speed(percent))
-                if told != messages.Acknowledged() or bench.now - asked > SOON:
+                told = control.ask(messages.RawSpeed(percent))
+                if told != messages.RawAcknowledged() or bench.now - asked > SOON:
                     raise Broken(f"SPEED is answered by {told} after {bench.now - asked:.3f} s")
         takes(slower if percent == 50 else 1.0)
         bench.run(0.3)
@@ -287,25 +284,23 @@ def _speed_at_the_start(bench: Bench) -> None:
     if not bench.group.ports.control or not bench.setting.motion.refresh_timed:
         return
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
-    speed = messages.Speed(50)
+    speed = messages.RawSpeed(50)
     task = bench.rapid_task("ROS_motion")
 
     def ask() -> None:
-        control.at_once(encode(speed, Comm.REQUEST))
+        control.at_once(messages.encode(speed, RawComm.REQUEST))
         # Long enough for the control server and an interrupt.
         task.sleep(0.05)
 
-    link.send(bench.download(bench.wave(2, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(2, duration=unit))
     control.ask(speed)
     bench.wait_until_standing(3 * unit)
     at_call(bench, "ROS_motion", "SpeedRefresh", 1, ask)
     points = bench.wave(3, duration=unit)
-    link.send(bench.download(points))
-    bench.wait_until_moving()
+    bench.sets_off(link, points)
     begun = bench.now
-    told = control.reply(SPEED, SOON)
-    if told != messages.Acknowledged():
+    told = control.reply(messages.SPEED, SOON)
+    if told != messages.RawAcknowledged():
         raise Broken(f"SPEED at the beginning of a trajectory is answered by {told}")
     bench.wait_until_at(points[2][0], 10 * unit)
     if bench.now - begun < 3.6 * unit:
@@ -336,11 +331,11 @@ def patience(bench: Bench) -> float:
     return needed + (2 if hangs(bench) else 0)
 
 
-def _over_soon(bench: Bench, watcher: RawLink, since: float, what: str) -> messages.Progress:
+def _over_soon(bench: Bench, watcher: RawLink, since: float, what: str) -> messages.RawProgress:
     """Broken unless PROGRESS and STATUS say soon that a trajectory was stopped."""
     bench.until(
         lambda: any(
-            p.state == TrajectoryState.STOPPED and s.motion_possible == 1
+            p.state == RawTrajectoryState.STOPPED and s.motion_possible == 1
             for _, p, s in watched(watcher, since)
         ),
         patience(bench),
@@ -357,8 +352,7 @@ def _halts(bench: Bench) -> None:
     for _ in range(7):
         link.send(STOP)
         link.expect_reply(SOON, "STOP at a standstill is answered")
-    link.send(bench.download(bench.wave(4, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(4, duration=unit))
     bench.run(1.15 * unit)
     since = bench.now
     link.send(STOP)
@@ -367,8 +361,7 @@ def _halts(bench: Bench) -> None:
     if (told.planned, told.reached) != (3, 1):
         raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
     way = bench.wave(3, duration=unit)
-    link.send(bench.download([*way[:2], (way[1][0], 5.0), way[2]]))
-    begins(bench, bench.now)
+    begins(bench, link, [*way[:2], (way[1][0], 5.0), way[2]])
     bench.wait_until_at(way[1][0], 5)
     bench.run(0.5)
     since = bench.now
@@ -380,8 +373,7 @@ def _halts(bench: Bench) -> None:
     if not hangs(bench) and _cycles(bench) != cycles:
         raise Broken("main of the motion task began anew although it answers")
     for _ in range(2):
-        link.send(bench.download(bench.wave(5, duration=unit)))
-        begins(bench, bench.now)
+        begins(bench, link, bench.wave(5, duration=unit))
         bench.run(1.15 * unit)
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 6)
         link.send(STOP)
@@ -407,14 +399,14 @@ def _gives_up(bench: Bench) -> None:
     number = bench.progress(watcher).trajectory
     task = bench.controller.task(bench.task("ROS_motion"))
     for error, reason in (
-        ("ERR_COLL_STOP", Reason.COLLISION),
-        ("ERR_PATH_STOP", Reason.MOTION_ERROR),
-        ("", Reason.INTERNAL),
+        ("ERR_COLL_STOP", RawReason.COLLISION),
+        ("ERR_PATH_STOP", RawReason.MOTION_ERROR),
+        ("", RawReason.INTERNAL),
     ):
         points, last = bench.wave(6, duration=unit), bench.last_event
         link.send(bench.download(points))
         number += 1
-        begun = begins(bench, bench.now)
+        begun = begins_soon(bench, bench.now)
         if error:
             fails(bench, "ROS_motion", "MoveAbsJ", error, after=1)
         else:
@@ -425,20 +417,20 @@ def _gives_up(bench: Bench) -> None:
             raise Broken(f"{reason.name} on the way to point 2, and the robot went on to it")
         bench.stays(1, "its trajectory has failed")
         planned = 4 if error else 3
-        wanted = (number, TrajectoryState.FAILED, 6, planned, 2, reason, 2, 0)
+        wanted = (number, RawTrajectoryState.FAILED, 6, planned, 2, reason, 2, 0)
         progress, status = bench.progress(watcher), bench.status(watcher)
-        if progress != wanted or status != (1, 0, reason, 1, 0, Mode.AUTO, 1):
+        if progress != wanted or status != (1, 0, reason, 1, 0, RawMode.AUTO, 1):
             raise Broken(f"{reason.name}, wanted {wanted}: {progress}, {status}")
         # What has failed is over.
         points = bench.wave(2, duration=unit)
         link.send(bench.download(points))
         number += 1
-        begins(bench, bench.now)
+        begins_soon(bench, bench.now)
         bench.wait_until_at(points[1][0], 2 * unit)
         bench.wait_until_standing(1)
         said = [e for e in bench.controller.log.since(last) if e.type is EventType.ERROR]
         if len(said) != 1 or said[0].texts[:2] != (
-            text_of(reason),
+            messages.text_of(reason),
             f"At point {planned - 1}.",
         ):
             raise Broken(f"{reason.name}, the event log says {[str(e) for e in said]}")

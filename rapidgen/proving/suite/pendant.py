@@ -3,7 +3,7 @@
 from rapidgen.machine.log import Event, EventType
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
-from rapidgen.proving.messages import Reason, text_of
+from rapidgen.proving.messages import RawReason, text_of
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("telling")
@@ -29,7 +29,7 @@ class _Pendant:
         self._last = self._bench.last_event
         return lines, events
 
-    def says(self, reason: Reason, point: int, joint: int, *, after: str) -> None:
+    def says(self, reason: RawReason, point: int, joint: int, *, after: str) -> None:
         """One line and one warning with the reason's text, and the place where there is one."""
         lines, events = self.take()
         text = text_of(reason)
@@ -59,19 +59,18 @@ def _refusals_are_said(bench: Bench) -> None:
     for index, joint in ((2, 0), (3, last)):
         _send_wrong(bench, link, index, joint=joint)
         bench.run(1.5)
-        pendant.says(Reason.JOINT_LIMIT, index, joint + 1, after=f"joint {joint + 1} is too far")
+        pendant.says(RawReason.JOINT_LIMIT, index, joint + 1, after=f"joint {joint + 1} is too far")
     points = bench.wave(5)
     frames = [point_frame(n, 5, *point) for n, point in enumerate(points)]
     link.send(b"".join((*frames[:2], *frames[3:])))
     bench.run(1.5)
-    pendant.says(Reason.SEQUENCE_GAP, 2, 0, after="point 2 is missing")
+    pendant.says(RawReason.SEQUENCE_GAP, 2, 0, after="point 2 is missing")
     link.send(frames[3])
     bench.run(1.5)
-    pendant.says(Reason.NO_START, 0, 0, after="a point came alone")
+    pendant.says(RawReason.NO_START, 0, 0, after="a point came alone")
     link.send(frames[0] + frames[1])
-    link.close()
-    bench.run(1.5)
-    pendant.says(Reason.INCOMPLETE, 2, 0, after="the client left after two points")
+    link.close(then=1.5)
+    pendant.says(RawReason.INCOMPLETE, 2, 0, after="the client left after two points")
 
 
 @case("framing-said", "broken framing is told")
@@ -80,15 +79,15 @@ def _framing_is_said(bench: Bench) -> None:
     link = bench.motion()
     link.send(b"\xff" * 4)
     bench.run(1.5)
-    pendant.says(Reason.FRAMING, -1, 0, after="a length out of bounds")
+    pendant.says(RawReason.FRAMING, -1, 0, after="a length out of bounds")
     link = bench.motion()
     link.send(raw_point(-1, bench.position, 1.0) + b"\xff" * 4)
     bench.run(1.5)
-    pendant.says(Reason.FRAMING, 1, 0, after="a length out of bounds behind a point")
+    pendant.says(RawReason.FRAMING, 1, 0, after="a length out of bounds behind a point")
     link = bench.motion()
     link.send(b"\x0c\0\0\0\x14\0\0\0\x01\0\0\0\0\0\0\0")
     bench.run(1.5)
-    pendant.says(Reason.UNKNOWN_MESSAGE, -1, 0, after="a message of another type")
+    pendant.says(RawReason.UNKNOWN_MESSAGE, -1, 0, after="a message of another type")
 
 
 @case("rationed", "many refusals are few lines", "R19")
@@ -119,16 +118,14 @@ def _peace_is_quiet(bench: Bench) -> None:
     for _ in range(3):
         link, state = bench.motion(), bench.state()
         bench.moves_through(link, bench.wave(4))
-        link.send(bench.download(bench.wave(8)))
-        bench.wait_until_moving()
+        bench.sets_off(link, bench.wave(8))
         link.send(STOP)
         bench.wait_until_standing(5)
         bench.run(0.5)
         # It is at its end a while before it has settled there.
         bench.run(2 * bench.setting.motion.settle)
         link.close()
-        state.close(abort=True)
-        bench.run(1.2)
+        state.close(abort=True, then=1.2)
     lines, events = pendant.take()
     if lines or events:
         raise Broken(

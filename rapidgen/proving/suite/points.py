@@ -6,25 +6,16 @@ from collections.abc import Sequence
 from rapidgen.config.model import Joint
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, raw_point
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    MAX_JOINTS,
-    Comm,
-    Reason,
-    Special,
-    TrajectoryState,
-    decode,
-    text_of,
-)
+from rapidgen.proving.link import RawLink, raw_point
+from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.motion_task import datum
 from rapidgen.proving.track import Position, changed, small_unit
 
 case = Theme("taking")
 
-_BEGIN, _END = int(Special.BEGIN), int(Special.END)
-_TAKEN = messages.Acknowledged()
+_BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
+_TAKEN = messages.RawAcknowledged()
 _LONGEST = 3600.0
 _SLOW = 60.0
 """s for a segment that no axis is too slow for."""
@@ -39,40 +30,38 @@ class Table:
         self.watcher = bench.watcher()
         self.number = bench.progress(self.watcher).trajectory
         """Of the newest trajectory, as far as the rows say."""
-        self._rows: list[tuple[bytes, messages.Content, str]] = []
+        self._rows: list[tuple[bytes, messages.RawContent, str]] = []
 
     def row(
-        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.Content
+        self, sequence: int, joints: Sequence[float], seconds: float, wanted: messages.RawContent
     ) -> None:
         """One more point. A trajectory begins with -1."""
         if sequence == _BEGIN:
             self.number += 1
-        frame = raw_point(sequence, joints, seconds, Comm.REQUEST)
+        frame = raw_point(sequence, joints, seconds, RawComm.REQUEST)
         shown = ", ".join(f"{value:.9g}" for value in joints)
         self._rows.append((frame, wanted, f"point {sequence} ({shown}) in {seconds:.9g} s"))
 
     def accepted(self, joints: Sequence[float], seconds: float) -> None:
         """An end frame with which the trajectory is handed over."""
-        self.row(_END, joints, seconds, messages.Accepted(self.number))
+        self.row(_END, joints, seconds, messages.RawAccepted(self.number))
 
     def ask(self) -> None:
         """Send the rows. Broken when a reply is another one."""
         self.link.send(b"".join(frame for frame, _, _ in self._rows))
         for _, wanted, what in self._rows:
-            told = decode(self.link.expect_reply(5, f"{what} is answered"))
+            told = messages.decode(self.link.expect_reply(5, f"{what} is answered"))
             if type(told) is not type(wanted) or told != wanted:
                 raise Broken(f"{what}: wanted {wanted}, the reply is {told}")
         self._rows.clear()
 
     def stop(self, link: RawLink | None = None) -> None:
         """STOP, here or over another connection, and its reply."""
-        chosen = link if link is not None else self.link
-        chosen.send(STOP)
-        told = chosen.reply(JOINT_TRAJ_PT)
-        if not isinstance(told, messages.Acknowledged):
+        told = (link or self.link).stop()
+        if not isinstance(told, messages.RawAcknowledged):
             raise Broken(f"STOP is answered by {told}")
 
-    def shows(self, state: TrajectoryState, received: int, told: messages.Refused) -> None:
+    def shows(self, state: RawTrajectoryState, received: int, told: messages.RawRefused) -> None:
         """Broken unless PROGRESS says so of the newest trajectory."""
         self.bench.run(2 * self.bench.config.state_period)
         seen = self.bench.progress(self.watcher)
@@ -88,7 +77,7 @@ class Table:
             )
 
 
-_NOTHING = messages.Refused(0, -1, 0)
+_NOTHING = messages.RawRefused(0, -1, 0)
 """As PROGRESS tells it of a trajectory that nothing is wrong with."""
 
 
@@ -110,14 +99,14 @@ def _each_value(bench: Bench) -> None:
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
         for value, reason in (
-            (joint.lower - 0.0012 * unit, Reason.JOINT_LIMIT),
-            (joint.upper + 0.0012 * unit, Reason.JOINT_LIMIT),
-            (1e6, Reason.JOINT_LIMIT),
-            (math.nan, Reason.NOT_FINITE),
-            (math.inf, Reason.NOT_FINITE),
-            (-math.inf, Reason.NOT_FINITE),
+            (joint.lower - 0.0012 * unit, RawReason.JOINT_LIMIT),
+            (joint.upper + 0.0012 * unit, RawReason.JOINT_LIMIT),
+            (1e6, RawReason.JOINT_LIMIT),
+            (math.nan, RawReason.NOT_FINITE),
+            (math.inf, RawReason.NOT_FINITE),
+            (-math.inf, RawReason.NOT_FINITE),
         ):
-            wrong = messages.Refused(reason, 0, axis + 1)
+            wrong = messages.RawRefused(reason, 0, axis + 1)
             table.row(_BEGIN, changed(here, axis, value), _SLOW, wrong)
             table.row(1, here, _SLOW, wrong)
         table.row(_BEGIN, changed(here, axis, joint.lower), _SLOW, _TAKEN)
@@ -131,7 +120,7 @@ def _each_value(bench: Bench) -> None:
             if ends is None:
                 continue
             places = [changed(here, axis, value) for value in ends]
-            wrong = messages.Refused(Reason.TOO_FAST, 2, axis + 1)
+            wrong = messages.RawRefused(RawReason.TOO_FAST, 2, axis + 1)
             for one, other in (places, places[::-1]):
                 table.row(_BEGIN, one, seconds, _TAKEN)
                 table.row(1, one, seconds, _TAKEN)
@@ -140,18 +129,18 @@ def _each_value(bench: Bench) -> None:
                     table.row(3, one, seconds, _TAKEN)
         table.ask()
     missing = len(here)
-    for axis in range(missing, MAX_JOINTS):
+    for axis in range(missing, messages.MAX_JOINTS):
         zeros = (*here, *[0.0] * (axis - missing))
         for value in (0.5, 1e-45, math.nan):
-            wrong = messages.Refused(Reason.BAD_PADDING, 1, axis + 1)
+            wrong = messages.RawRefused(RawReason.BAD_PADDING, 1, axis + 1)
             table.row(_BEGIN, here, _SLOW, _TAKEN)
             table.row(1, (*zeros, value), _SLOW, wrong)
         table.row(_BEGIN, (*zeros, -0.0), _SLOW, _TAKEN)
     # The first fault counts.
     first, last = bench.group.joints[0], bench.group.joints[-1]
     both = (first.upper + 1, *here[1:-1], last.upper + 1)
-    table.row(_BEGIN, both, _SLOW, messages.Refused(Reason.JOINT_LIMIT, 0, 1))
-    table.row(_BEGIN, both, math.nan, messages.Refused(Reason.NOT_FINITE, 0, 0))
+    table.row(_BEGIN, both, _SLOW, messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1))
+    table.row(_BEGIN, both, math.nan, messages.RawRefused(RawReason.NOT_FINITE, 0, 0))
     table.row(_BEGIN, here, _SLOW, _TAKEN)
     table.ask()
     bench.stays(0.1, "no trajectory was sent whole")
@@ -181,32 +170,32 @@ def _each_duration(bench: Bench) -> None:
     """Of the first point, of one in between, and of the last one."""
     table, here = Table(bench), bench.position
     policy = bench.config.trajectory
-    wrong: tuple[tuple[float, Reason], ...] = (
-        (-1e-3, Reason.BAD_DURATION),
-        (_LONGEST + 0.5, Reason.BAD_DURATION),
-        (1e9, Reason.BAD_DURATION),
-        (-1e9, Reason.BAD_DURATION),
-        (math.nan, Reason.NOT_FINITE),
-        (math.inf, Reason.NOT_FINITE),
-        (-math.inf, Reason.NOT_FINITE),
-        (2e9, Reason.NOT_FINITE),
+    wrong: tuple[tuple[float, RawReason], ...] = (
+        (-1e-3, RawReason.BAD_DURATION),
+        (_LONGEST + 0.5, RawReason.BAD_DURATION),
+        (1e9, RawReason.BAD_DURATION),
+        (-1e9, RawReason.BAD_DURATION),
+        (math.nan, RawReason.NOT_FINITE),
+        (math.inf, RawReason.NOT_FINITE),
+        (-math.inf, RawReason.NOT_FINITE),
+        (2e9, RawReason.NOT_FINITE),
     )
     for seconds, reason in wrong:
-        table.row(_BEGIN, here, seconds, messages.Refused(reason, 0, 0))
+        table.row(_BEGIN, here, seconds, messages.RawRefused(reason, 0, 0))
         table.row(_BEGIN, here, 0.0, _TAKEN)
-        table.row(1, here, seconds, messages.Refused(reason, 1, 0))
+        table.row(1, here, seconds, messages.RawRefused(reason, 1, 0))
     for seconds in (0.0, -0.0, 1e-3, 0.9, 1.0, _LONGEST):
         table.row(_BEGIN, here, seconds, _TAKEN)
     for seconds in (0.0, -0.0):
         table.row(1, here, 1.0, _TAKEN)
-        table.row(2, here, seconds, messages.Refused(Reason.BAD_DURATION, 2, 0))
+        table.row(2, here, seconds, messages.RawRefused(RawReason.BAD_DURATION, 2, 0))
         table.row(_BEGIN, here, 1.0, _TAKEN)
     for number, seconds in enumerate((_LONGEST, 1.0, max(0.9, policy.min_segment)), 1):
         table.row(number, here, seconds, _TAKEN)
     table.row(4, here, policy.min_segment, _TAKEN)
     shorter = 0.999 * policy.min_segment
     if policy.min_segment > 0.005:
-        short = messages.Refused(Reason.SEGMENT_TOO_SHORT, 5, 0)
+        short = messages.RawRefused(RawReason.SEGMENT_TOO_SHORT, 5, 0)
         table.row(5, here, shorter, short if policy.too_fast == "refuse" else _TAKEN)
         # The last one has no successor that would have to be planned in time.
         table.row(_BEGIN, here, shorter, _TAKEN)
@@ -222,12 +211,12 @@ def _each_number(bench: Bench) -> None:
     """Numbers of points in order and out of it, STOP in between, and what follows a refusal."""
     table, here = Table(bench), bench.position
 
-    def row(sequence: int, wanted: messages.Content, joints: Position = here) -> None:
+    def row(sequence: int, wanted: messages.RawContent, joints: Position = here) -> None:
         table.row(sequence, joints, _SLOW, wanted)
 
-    alone = messages.Refused(Reason.NO_START, 0, 0)
+    alone = messages.RawRefused(RawReason.NO_START, 0, 0)
     far = changed(here, 0, bench.group.joints[0].upper + 1)
-    beyond = messages.Refused(Reason.JOINT_LIMIT, 0, 1)
+    beyond = messages.RawRefused(RawReason.JOINT_LIMIT, 0, 1)
 
     def without_a_start(sequence: int) -> None:
         table.number += 1
@@ -240,7 +229,7 @@ def _each_number(bench: Bench) -> None:
     without_a_start(_END)
     without_a_start(1)
     for taken in (1, 2, 3):
-        gap = messages.Refused(Reason.SEQUENCE_GAP, taken, 0)
+        gap = messages.RawRefused(RawReason.SEQUENCE_GAP, taken, 0)
         for wrong in (taken - 1, taken + 1, -2, -5):
             row(_BEGIN, _TAKEN)
             for sequence in range(1, taken):
@@ -249,7 +238,7 @@ def _each_number(bench: Bench) -> None:
                 row(sequence, gap)
     without_a_start(1)
     row(_BEGIN, _TAKEN)
-    row(_END, messages.Refused(Reason.JOINT_LIMIT, 1, 1), far)
+    row(_END, messages.RawRefused(RawReason.JOINT_LIMIT, 1, 1), far)
     without_a_start(2)
     row(_BEGIN, beyond, far)
     row(_END, beyond)
@@ -260,22 +249,22 @@ def _each_number(bench: Bench) -> None:
     row(_BEGIN, _TAKEN)
     row(1, _TAKEN)
     table.ask()
-    table.shows(TrajectoryState.RECEIVING, 2, _NOTHING)
+    table.shows(RawTrajectoryState.RECEIVING, 2, _NOTHING)
     table.stop()
-    table.shows(TrajectoryState.STOPPED, 2, messages.Refused(Reason.STOPPED, -1, 0))
+    table.shows(RawTrajectoryState.STOPPED, 2, messages.RawRefused(RawReason.STOPPED, -1, 0))
     without_a_start(2)
     row(_BEGIN, beyond, far)
     table.ask()
-    table.shows(TrajectoryState.REFUSED, 0, beyond)
+    table.shows(RawTrajectoryState.REFUSED, 0, beyond)
     table.stop()
     without_a_start(1)
     row(_BEGIN, _TAKEN)
-    row(1, messages.Refused(Reason.JOINT_LIMIT, 1, 1), far)
+    row(1, messages.RawRefused(RawReason.JOINT_LIMIT, 1, 1), far)
     table.ask()
-    table.shows(TrajectoryState.REFUSED, 1, messages.Refused(Reason.JOINT_LIMIT, 1, 1))
+    table.shows(RawTrajectoryState.REFUSED, 1, messages.RawRefused(RawReason.JOINT_LIMIT, 1, 1))
     row(_BEGIN, _TAKEN)
     table.ask()
-    table.shows(TrajectoryState.RECEIVING, 1, _NOTHING)
+    table.shows(RawTrajectoryState.RECEIVING, 1, _NOTHING)
     _full(bench, table)
     _of_other_builds(bench, table)
     for sequence in (_BEGIN, 1):
@@ -307,12 +296,12 @@ def _full(bench: Bench, table: Table) -> None:
         bench.controller.task(bench.task("ROS_motionServer"))["ROS_acceptance:ROS_count"] = (
             capacity - 1
         )
-        full = messages.Refused(Reason.CAPACITY, capacity, 0)
+        full = messages.RawRefused(RawReason.CAPACITY, capacity, 0)
         table.row(capacity - 1, here, _SLOW, _TAKEN)
         table.row(last, here, _SLOW, full)
         if last == _END:
             table.number += 1
-            full = messages.Refused(Reason.NO_START, 0, 0)
+            full = messages.RawRefused(RawReason.NO_START, 0, 0)
         table.row(1, here, _SLOW, full)
         table.ask()
 
@@ -321,12 +310,12 @@ def _of_other_builds(bench: Bench, table: Table) -> None:
     """While any task shows another build each beginning is refused, whatever is wrong with it."""
     task = bench.controller.task(bench.task("ROS_motionServer"))
     name = datum(bench, "ros_shown_state")
-    mixed = messages.Refused(Reason.BUILD_MISMATCH, -1, 0)
+    mixed = messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0)
     own, task[name] = task[name], "000000000000"
     for sequence in (_BEGIN, 1, 1, _END, _BEGIN):
         table.row(sequence, bench.position, math.nan, mixed)
     table.ask()
-    table.shows(TrajectoryState.REFUSED, 0, mixed)
+    table.shows(RawTrajectoryState.REFUSED, 0, mixed)
     task[name] = own
 
 
@@ -343,20 +332,20 @@ def _one_more(bench: Bench) -> None:
         (1, 0, "2 more like it."),
     ):
         before = bench.last_event
-        sequence, reason, place = int(Special.END), Reason.NO_START, ""
+        sequence, reason, place = int(RawSpecial.END), RawReason.NO_START, ""
         joint, wanted = 0, bench.position
         if axis is not None:
-            sequence, reason, joint = _BEGIN, Reason.JOINT_LIMIT, axis + 1
+            sequence, reason, joint = _BEGIN, RawReason.JOINT_LIMIT, axis + 1
             place = f"Joint {joint}."
             wanted = changed(wanted, axis, joints[axis].upper + 1)
         # Nothing is left to be skipped.
         table.stop()
         for _ in range(at_once):
-            table.row(sequence, wanted, _SLOW, messages.Refused(reason, 0, joint))
+            table.row(sequence, wanted, _SLOW, messages.RawRefused(reason, 0, joint))
         table.ask()
         bench.run(1.05)
         said = [" ".join(e.texts).split() for e in bench.controller.log.since(before)]
-        text = text_of(reason)
+        text = messages.text_of(reason)
         if said != [f"{text} Point 0. {place} {more}".split()]:
             raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
         if lines != [f"ROS refused: {text}"]:

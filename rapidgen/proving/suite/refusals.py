@@ -6,16 +6,7 @@ from collections.abc import Sequence
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame, raw_point
-from rapidgen.proving.messages import (
-    MAX_JOINTS,
-    POINT_BYTES,
-    Comm,
-    Reason,
-    TrajectoryState,
-    decode,
-    split_error_code,
-    text_of,
-)
+from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import Point
 
@@ -23,7 +14,11 @@ case = Theme("refused")
 
 
 def refused(
-    bench: Bench, frames: bytes, reasons: Sequence[Reason], joint: int = 0, point: int | None = None
+    bench: Bench,
+    frames: bytes,
+    reasons: Sequence[RawReason],
+    joint: int = 0,
+    point: int | None = None,
 ) -> None:
     """Broken unless nothing moves, and STATUS and PROGRESS give one of the reasons.
 
@@ -31,18 +26,18 @@ def refused(
     """
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
-    bench.stays(3, f"it had to be refused: {text_of(reasons[0])}")
+    bench.stays(3, f"it had to be refused: {messages.text_of(reasons[0])}")
     status, told = bench.status(state), bench.progress(state)
-    reason, wrong = split_error_code(status.error_code)
+    reason, wrong = messages.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):
         names = " or ".join(r.name for r in reasons)
         raise Broken(
             f"wanted in_error with {names}{f' of joint {joint}' if joint else ''}, STATUS says "
             f"in_error {status.in_error}, error_code {status.error_code}"
         )
-    if (told.state, told.reason, told.joint) != (TrajectoryState.REFUSED, reason, wrong):
+    if (told.state, told.reason, told.joint) != (RawTrajectoryState.REFUSED, reason, wrong):
         raise Broken(f"STATUS says error_code {status.error_code}, PROGRESS {told}")
-    if point == 0 and reason != Reason.START_TOO_FAR and told.received:
+    if point == 0 and reason != RawReason.START_TOO_FAR and told.received:
         raise Broken(f"the first point had to be refused, PROGRESS says {told}")
     if point is not None and told.point != point:
         raise Broken(f"point {point} had to be blamed, PROGRESS says {told}")
@@ -52,8 +47,7 @@ def refused(
     if bench.status(state).in_error != 0:
         raise Broken("in_error stays after a good trajectory")
     state.close()
-    link.close()
-    bench.run(0.5)
+    link.close(then=0.5)
 
 
 def _changed(points: Sequence[Point], index: int, joints: Sequence[float]) -> list[Point]:
@@ -66,7 +60,7 @@ def _changed(points: Sequence[Point], index: int, joints: Sequence[float]) -> li
 def _too_many(bench: Bench) -> None:
     capacity = bench.config.trajectory.capacity
     frames = bench.download(bench.wave(capacity + 1, duration=0.2, size=0.01))
-    refused(bench, frames, [Reason.CAPACITY], point=capacity)
+    refused(bench, frames, [RawReason.CAPACITY], point=capacity)
 
 
 @case("hole", "a missing point: nothing moves", "C4")
@@ -78,14 +72,16 @@ def _hole(bench: Bench) -> None:
         )
         # Without point N-2 the end frame comes one early: nobody can see that one.
         if missing < len(points) - 2:
-            refused(bench, frames, [Reason.SEQUENCE_GAP], point=missing)
+            refused(bench, frames, [RawReason.SEQUENCE_GAP], point=missing)
 
 
 @case("twice", "a point that comes twice: nothing moves")
 def _twice(bench: Bench) -> None:
     points = bench.wave(6)
     frames = [point_frame(n, len(points), *point) for n, point in enumerate(points)]
-    refused(bench, b"".join([*frames[:3], frames[2], *frames[3:]]), [Reason.SEQUENCE_GAP], point=3)
+    refused(
+        bench, b"".join([*frames[:3], frames[2], *frames[3:]]), [RawReason.SEQUENCE_GAP], point=3
+    )
 
 
 @case("not-finite", "NaN and infinity in any joint")
@@ -97,7 +93,7 @@ def _not_finite(bench: Bench) -> None:
             refused(
                 bench,
                 bench.download(_changed(points, 2, joints)),
-                [Reason.NOT_FINITE],
+                [RawReason.NOT_FINITE],
                 axis + 1,
                 point=2,
             )
@@ -108,7 +104,7 @@ def _duration_not_finite(bench: Bench) -> None:
     for value in (math.nan, math.inf, -1.0):
         points = bench.wave(4)
         points[2] = (points[2][0], value)
-        refused(bench, bench.download(points), [Reason.NOT_FINITE, Reason.BAD_DURATION])
+        refused(bench, bench.download(points), [RawReason.NOT_FINITE, RawReason.BAD_DURATION])
 
 
 @case("outside-limits", "a joint outside its limits", "R11")
@@ -118,7 +114,7 @@ def _outside_limits(bench: Bench) -> None:
             points = bench.wave(4, duration=5.0)
             joints = [*points[2][0][:axis], value, *points[2][0][axis + 1 :]]
             longer = [(p, 60.0) for p, _ in _changed(points, 2, joints)]
-            refused(bench, bench.download(longer), [Reason.JOINT_LIMIT], axis + 1, 2)
+            refused(bench, bench.download(longer), [RawReason.JOINT_LIMIT], axis + 1, 2)
 
 
 @case("start-too-far", "a first point too far from the robot", "R8")
@@ -134,7 +130,7 @@ def _start_too_far(bench: Bench) -> None:
         away = here[axis] + (1.5 * near if here[axis] + 2 * near < joint.upper else -1.5 * near)
         start = (*here[:axis], away, *here[axis + 1 :])
         points = [(start, 10.0), *bench.wave(4)[1:]]
-        refused(bench, bench.download(points), [Reason.START_TOO_FAR], axis + 1, 0)
+        refused(bench, bench.download(points), [RawReason.START_TOO_FAR], axis + 1, 0)
 
 
 @case("too-fast", "a duration that an axis cannot meet", "R10")
@@ -151,7 +147,9 @@ def _too_fast(bench: Bench) -> None:
             continue
         target = (*here[:axis], here[axis] + step, *here[axis + 1 :])
         points = [(here, 10.0), (target, seconds), (target, 1.0)]
-        refused(bench, bench.download(points), [Reason.TOO_FAST, Reason.TCP_TOO_FAST], axis + 1, 1)
+        refused(
+            bench, bench.download(points), [RawReason.TOO_FAST, RawReason.TCP_TOO_FAST], axis + 1, 1
+        )
 
 
 @case("segment-too-short", "a segment that the planner cannot follow", "R9")
@@ -161,26 +159,26 @@ def _segment_too_short(bench: Bench) -> None:
         return
     points = bench.wave(5, size=0.001)
     points[2] = (points[2][0], shortest / 2)
-    refused(bench, bench.download(points), [Reason.SEGMENT_TOO_SHORT], point=2)
+    refused(bench, bench.download(points), [RawReason.SEGMENT_TOO_SHORT], point=2)
 
 
 @case("padding", "values for joints that the robot does not have")
 def _padding(bench: Bench) -> None:
     count = len(bench.position)
-    for extra in range(count, MAX_JOINTS):
+    for extra in range(count, messages.MAX_JOINTS):
         points = bench.wave(3)
         padded = [
             raw_point(s, [*p, *[0.0] * (extra - count), 0.5], d)
             for s, (p, d) in zip((-1, 1, -3), points, strict=True)
         ]
-        refused(bench, b"".join(padded), [Reason.BAD_PADDING], extra + 1, 0)
+        refused(bench, b"".join(padded), [RawReason.BAD_PADDING], extra + 1, 0)
 
 
 @case("no-end", "without an end frame nothing moves")
 def _no_end(bench: Bench) -> None:
     points = bench.wave(5)
     link = bench.motion()
-    link.send(bench.download(points)[: -(POINT_BYTES - 4) - 4])
+    link.send(bench.download(points)[: -(messages.POINT_BYTES - 4) - 4])
     bench.stays(5, "its end frame has not come")
 
 
@@ -192,10 +190,10 @@ def _requests_are_told_why(bench: Bench) -> None:
     points = [(p, 30.0) for p, _ in _changed(points, 2, joints)]
     replies = []
     for number, (target, duration) in enumerate(points):
-        link.send(point_frame(number, len(points), target, duration, Comm.REQUEST))
+        link.send(point_frame(number, len(points), target, duration, RawComm.REQUEST))
         replies.append(link.expect_reply(2, f"point {number} is answered"))
-    content = decode(replies[-1])
-    if not isinstance(content, messages.Refused) or content.reason != Reason.JOINT_LIMIT:
+    content = messages.decode(replies[-1])
+    if not isinstance(content, messages.RawRefused) or content.reason != RawReason.JOINT_LIMIT:
         raise Broken(f"the reply to the end frame is {content}")
     if (content.point, content.joint) != (2, 1):
         raise Broken(f"the reply blames point {content.point}, joint {content.joint}")

@@ -88,5 +88,4 @@ def _served(bench: Bench) -> None:
     bench.run(1.5)
     link = bench.motion()
     bench.moves_through(link, bench.wave(3))
-    link.close()
-    bench.run(0.5)
+    link.close(then=0.5)

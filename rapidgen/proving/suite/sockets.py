@@ -6,16 +6,16 @@ from itertools import product
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, PING, Comm, encode
+from rapidgen.proving.messages import JOINT_TRAJ_PT, PING, RawComm, encode
 from rapidgen.proving.model import Broken, Theme
 
 case = Theme("framing")
 
-_PING = encode(messages.Ping(), Comm.REQUEST)
+_PING = encode(messages.RawPing(), RawComm.REQUEST)
 
 
 def _pings(link: RawLink, what: str) -> None:
-    if not isinstance(link.reply(PING, 0.3), messages.Acknowledged):
+    if not isinstance(link.reply(PING, 0.3), messages.RawAcknowledged):
         raise Broken(f"{what}: PING is not confirmed")
 
 
@@ -26,30 +26,29 @@ def _whole_headers(bench: Bench) -> None:
     for length, number in product(lengths, (PING, JOINT_TRAJ_PT, 1399)):
         for before in (b"", _PING):
             link = bench.motion()
-            head = struct.pack("<4i", length, number, Comm.REQUEST, 0)
+            head = struct.pack("<4i", length, number, RawComm.REQUEST, 0)
             link.send(before + head)
             what = f"a message of type {number} and {length} bytes"
             if before:
                 _pings(link, f"in front of {what}")
-            bench.until(lambda: link.lost, 0.2, f"{what} breaks the link")  # noqa: B023
+            link.wait_until_lost(0.2, f"{what} breaks the link")
             if link.read():
                 raise Broken(f"{what} is answered")
         link = bench.motion()
         link.send(head[:4])
-        bench.until(lambda: link.lost, 0.2, f"{length} as a length breaks the link")  # noqa: B023
+        link.wait_until_lost(0.2, f"{length} as a length breaks the link")
     # What one client began is nothing to the next one.
     link = bench.motion()
     link.send(_PING[:10])
     bench.run(0.05)
-    link.close()
-    bench.run(0.05)
+    link.close(then=0.05)
     link = bench.motion()
     for piece in (_PING[:10], _PING[10:] + _PING + _PING[:4], _PING[4:]):
         link.send(piece)
         bench.run(0.02)
     for _ in range(3):
         _pings(link, "PING in pieces, and another one behind it")
-    longest = struct.pack("<4i", 1020, 1399, Comm.TOPIC, 0) + bytes(1008)
+    longest = struct.pack("<4i", 1020, 1399, RawComm.TOPIC, 0) + bytes(1008)
     for size in (16, 500, 1024):
         for at in range(0, len(longest), size):
             link.send(longest[at : at + size])

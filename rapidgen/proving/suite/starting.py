@@ -2,7 +2,7 @@
 
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import raw_point
-from rapidgen.proving.messages import POINT_BYTES, Reason, TrajectoryState
+from rapidgen.proving.messages import POINT_BYTES, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
 
@@ -16,8 +16,9 @@ def _one_other(bench: Bench) -> None:
     build = bench.system.build_id.encode()
     # A module that several tasks load.
     path, data = next((m.path, m.data) for t in tasks for m in t.modules if m.name == "ROS_limits")
-    other = bench.beside(with_module(bench.system, path, data.replace(build, b"0123456789ab")))
-    try:
+    with bench.beside(
+        with_module(bench.system, path, data.replace(build, b"0123456789ab"))
+    ) as other:
         watcher, link = other.watcher(), other.motion()
         other.run(0.3)
         events = [" ".join(e.texts) for e in other.controller.log if "different builds" in str(e)]
@@ -27,12 +28,10 @@ def _one_other(bench: Bench) -> None:
         link.send(raw_point(-1, other.position, 1.0))
         other.run(0.3)
         told = other.progress(watcher)
-        if (told.state, told.reason) != (TrajectoryState.REFUSED, Reason.BUILD_MISMATCH):
+        if (told.state, told.reason) != (RawTrajectoryState.REFUSED, RawReason.BUILD_MISMATCH):
             raise Broken(f"{path} is of another build, PROGRESS says {told}")
         if other.status(watcher).motion_possible:
             raise Broken("modules of several builds: STATUS says that motion is possible")
-    finally:
-        other.close()
 
 
 @case("power-returns", "a power failure while a trajectory is received")
@@ -54,8 +53,8 @@ def _power_returns(bench: Bench) -> None:
         watcher, link = bench.watcher(), bench.motion()
         told, status = bench.progress(watcher), bench.status(watcher)
         if told.trajectory != number or told.state in (
-            TrajectoryState.RECEIVING,
-            TrajectoryState.MOVING,
+            RawTrajectoryState.RECEIVING,
+            RawTrajectoryState.MOVING,
         ):
             raise Broken(f"trajectory {number} was there when the power failed: {told}")
         if status.motion_possible != 1 or status.in_motion:
@@ -64,5 +63,4 @@ def _power_returns(bench: Bench) -> None:
         bench.stays(0.5, "half of it came before the power failed")
         bench.moves_through(link, bench.wave(2))
         link.close()
-        watcher.close()
-        bench.run(0.1)
+        watcher.close(then=0.1)

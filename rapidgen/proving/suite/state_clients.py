@@ -10,19 +10,10 @@ from rapidgen.machine.log import EventType
 from rapidgen.machine.network.interface import BUFFER, NetworkFault
 from rapidgen.machine.network.memory import MemoryEndpoint
 from rapidgen.proving import messages
-from rapidgen.proving.bench import HELLO, Bench
+from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
-from rapidgen.proving.messages import (
-    JOINT_POSITION,
-    PING,
-    STATE_BYTES,
-    Comm,
-    Feature,
-    Reason,
-    decode,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawFeature, RawReason
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.suite.state_port import PLAIN, on_turn, rounds, subscribe
@@ -54,10 +45,9 @@ def _several_watch(bench: Bench) -> None:
         on_turn(bench, rounds(links[0], came - 1), f"client {number + 1} came")
     for leaves, abort in ((1, False), (0, True)):
         served = [link for link in links if not link.lost]
-        subscribe(bench, Feature.PROGRESS | Feature.FEEDBACK, served[leaves])
+        subscribe(bench, RawFeature.PROGRESS | RawFeature.FEEDBACK, served[leaves])
         since = bench.now
-        served[leaves].close(abort=abort)
-        bench.run(1)
+        served[leaves].close(abort=abort, then=1)
         links.append(bench.state())
         bench.run(1)
         served = [link for link in links if not link.lost]
@@ -83,7 +73,7 @@ def _fill(bench: Bench, link: RawLink, room: int = 0) -> None:
     while left:
         size = left if left <= 1024 else min(1024, left - 16)
         # A reply, as nobody has asked for: it is in no round.
-        frame = struct.pack("<4i", size - 4, PING, Comm.REPLY, 0)
+        frame = struct.pack("<4i", size - 4, messages.PING, RawComm.REPLY, 0)
         while len(pipe.waiting) + size > BUFFER:
             bench.run(0.001)
         try:
@@ -124,7 +114,7 @@ def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
         raise Broken("what could not be sent in time comes in a burst")
     on_turn(bench, found[1:], "behind a client that did not read")
     link.read_on()
-    bench.until(lambda: link.lost, 5, "a client that does not read is dropped")
+    link.wait_until_lost(5, "a client that does not read is dropped")
 
 
 @case("does-not-read", "a state client that does not read holds nobody up for long", "R13")
@@ -146,17 +136,16 @@ def _does_not_read(bench: Bench) -> None:
             raise Broken("a client that was slow for 0.15 s is dropped")
         on_turn(bench, rounds(slow, since), "a client that was slow")
     # It has room for all rounds until the next event, and for no event behind them.
-    slow.close()
-    bench.run(0.5)
-    silent = subscribe(bench, Feature.EVENTS)
+    slow.close(then=0.5)
+    silent = subscribe(bench, RawFeature.EVENTS)
     silent.stop_reading()
-    subscribe(bench, Feature.EVENTS, reader)
+    subscribe(bench, RawFeature.EVENTS, reader)
     since = bench.now
     _write(bench, 1, "First")
     bench.until(lambda: bool(_events_of(reader, since)), 1, "an event is told")
     bench.run(0.01)
     times = max(1, round(0.1 / bench.config.state_period))
-    size = STATE_BYTES
+    size = messages.STATE_BYTES
     _fill(bench, silent, room=times * size + 50)
     _write(bench, 2, "Second")
     _is_dropped(bench, silent, reader)
@@ -166,7 +155,7 @@ def _does_not_read(bench: Bench) -> None:
 def _fails_to_send(bench: Bench, reader: RawLink) -> None:
     """Nothing is known of what a send that failed has sent: its client is dropped."""
     recovers = fails(bench, "ROS_stateServer", "SocketSend", "ERR_SOCK_CLOSED", _CLIENTS)
-    bench.until(lambda: reader.lost, 0.3, "a client is dropped when a send to it fails")
+    reader.wait_until_lost(0.3, "a client is dropped when a send to it fails")
     recovers()
     bench.status(bench.state(), 1)
 
@@ -178,23 +167,22 @@ def _breaks_in_a_send(bench: Bench) -> None:
     bench.run(1)
     _fill(bench, silent)
     _until_held(bench)
-    silent.close(abort=True)
-    bench.run(0.2)
+    silent.close(abort=True, then=0.2)
     since = bench.now
     bench.run(2)
     on_turn(bench, rounds(reader, since), "another client was reset")
     _fails_to_send(bench, reader)
 
 
-def _feedback_of(link: RawLink) -> list[tuple[float, messages.JointFeedback]]:
-    found = [(when, decode(frame)) for when, frame in link.frames]
-    return [(when, told) for when, told in found if isinstance(told, messages.JointFeedback)]
+def _feedback_of(link: RawLink) -> list[tuple[float, messages.RawJointFeedback]]:
+    found = [(when, messages.decode(frame)) for when, frame in link.frames]
+    return [(when, told) for when, told in found if isinstance(told, messages.RawJointFeedback)]
 
 
 @case("feedback", "JOINT_FEEDBACK: time, positions and velocities")
 def _feedback(bench: Bench) -> None:
-    first = subscribe(bench, Feature.FEEDBACK)
-    link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
+    first = subscribe(bench, RawFeature.FEEDBACK)
+    link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
     motion = bench.motion()
     points: list[Point] = bench.wave(8)
     motion.send(bench.download(points))
@@ -205,15 +193,15 @@ def _feedback(bench: Bench) -> None:
         if len(told) < 20:
             raise Broken(f"{len(told)} JOINT_FEEDBACK came")
         _is_motion(bench, told[2:])
-    joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
-    seen = {j.joints for j in joints if isinstance(j, messages.JointPosition)}
+    joints = [messages.decode(f) for _, f in link.frames if f.number == messages.JOINT_POSITION]
+    seen = {j.joints for j in joints if isinstance(j, messages.RawJointPosition)}
     if any(told.positions not in seen for _, told in _feedback_of(link)):
         raise Broken("JOINT_FEEDBACK tells other joints than JOINT")
     if _feedback_of(bench.state()):
         raise Broken("JOINT_FEEDBACK comes to a client that did not ask for it")
 
 
-def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.JointFeedback]]) -> None:
+def _is_motion(bench: Bench, told: Sequence[tuple[float, messages.RawJointFeedback]]) -> None:
     """Positions, times and velocities belong together."""
     count = len(bench.position)
     moved = False
@@ -243,9 +231,9 @@ def _write(bench: Bench, number: int, title: str, kind: EventType = EventType.WA
     bench.controller.log.write(10_000 * (number % 9 + 1) + number, kind, title, task=task)
 
 
-def _events_of(link: RawLink, since: float) -> list[tuple[float, messages.Event]]:
-    found = [(when, decode(frame)) for when, frame in link.frames if when >= since]
-    return [(when, told) for when, told in found if isinstance(told, messages.Event)]
+def _events_of(link: RawLink, since: float) -> list[tuple[float, messages.RawEvent]]:
+    found = [(when, messages.decode(frame)) for when, frame in link.frames if when >= since]
+    return [(when, told) for when, told in found if isinstance(told, messages.RawEvent)]
 
 
 def _are_told(link: RawLink, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
@@ -280,8 +268,8 @@ def _burst(
 
 @case("events", "EVENT tells the controller's events to those who ask")
 def _events(bench: Bench) -> None:
-    links = [subscribe(bench, Feature.EVENTS), bench.state()]
-    links.append(subscribe(bench, Feature.EVENTS | Feature.PROGRESS))
+    links = [subscribe(bench, RawFeature.EVENTS), bench.state()]
+    links.append(subscribe(bench, RawFeature.EVENTS | RawFeature.PROGRESS))
     server = bench.controller.task(bench.task("ROS_stateServer"))
     for name in ("events_put", "events_taken"):
         # The last values of counters come after years.
@@ -295,8 +283,8 @@ def _events(bench: Bench) -> None:
             raise Broken("EVENT comes to a client that did not ask for it")
     # Nobody wants those that still wait, nor the number of the others.
     since, wanted = _burst(bench, links[0], 20)
-    subscribe(bench, Feature.PROGRESS, links[2])
-    subscribe(bench, Feature.PROGRESS, links[0])
+    subscribe(bench, RawFeature.PROGRESS, links[2])
+    subscribe(bench, RawFeature.PROGRESS, links[0])
     bench.run(0.3)
     seen, begun = len(_events_of(links[0], since)), since
     for number in range(100):
@@ -304,15 +292,14 @@ def _events(bench: Bench) -> None:
     bench.run(0.5)
     bench.healthy()
     since = bench.now
-    subscribe(bench, Feature.EVENTS, links[2])
+    subscribe(bench, RawFeature.EVENTS, links[2])
     bench.run(0.5)
     if seen > 8 or len(_events_of(links[0], begun)) > seen or _events_of(links[2], since):
         raise Broken("events from before HELLO are told")
     since, wanted = _burst(bench, links[2], 2)
     bench.run(0.5)
     _are_told(links[2], since, wanted)
-    links[2].close()
-    bench.run(0.5)
+    links[2].close(then=0.5)
     for number in range(100):
         _write(bench, number, "Who listened has left")
     bench.run(0.5)
@@ -331,11 +318,9 @@ def _limits_of_the_controller(bench: Bench) -> None:
         replace(g, joints=(narrow, *g.joints[1:])) if g.name == group.name else g
         for g in bench.config.groups
     )
-    other = bench.beside(bench.system, robots)
-    try:
+    with bench.beside(bench.system, robots) as other:
         link = other.state()
-        link.send(encode(HELLO, Comm.REQUEST))
-        told = link.expect(messages.HelloReply, 2, "HELLO is answered")
+        told = other.says_hello(link)
         if abs(told.lower[0] - narrow.lower) + abs(told.upper[0] - narrow.upper) > 1e-4:
             raise Broken(
                 f"joint 1 may move from {narrow.lower:.4f} to {narrow.upper:.4f}, HELLO says "
@@ -347,7 +332,7 @@ def _limits_of_the_controller(bench: Bench) -> None:
         for value in (narrow.lower - 0.05 * half, narrow.upper + 0.05 * half):
             points = [(p, 60.0) for p, _ in other.wave(4)]
             points[2] = ((value, *points[2][0][1:]), 60.0)
-            refused(other, other.download(points), [Reason.JOINT_LIMIT], 1, 2)
+            refused(other, other.download(points), [RawReason.JOINT_LIMIT], 1, 2)
         for value in (narrow.lower, narrow.upper):
             here = other.position
             target = (value, *here[1:])
@@ -355,7 +340,4 @@ def _limits_of_the_controller(bench: Bench) -> None:
             motion = other.motion()
             motion.send(other.download([(here, 10.0), (target, seconds), (target, 0.5)]))
             other.wait_until_at(target, 20 + 4 * seconds)
-            motion.close()
-            other.run(1.5)
-    finally:
-        other.close()
+            motion.close(then=1.5)

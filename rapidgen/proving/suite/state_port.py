@@ -6,23 +6,10 @@ from typing import NamedTuple, TypeVar
 
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.proving import messages
-from rapidgen.proving.bench import HELLO, Bench
+from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import (
-    JOINT_FEEDBACK,
-    JOINT_POSITION,
-    PROGRESS,
-    STATUS,
-    Comm,
-    Feature,
-    Frame,
-    Mode,
-    Reason,
-    TrajectoryState,
-    decode,
-    encode,
-)
+from rapidgen.proving.messages import RawComm, RawFeature, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.track import distance, small_unit
 from rapidgen.runtime.builtins.clocks import StopWatch
@@ -30,14 +17,14 @@ from rapidgen.runtime.builtins.clocks import StopWatch
 case = Theme("reading")
 
 C = TypeVar("C")
-_NONE = Feature(0)
+_NONE = RawFeature(0)
 
 
 class Round(NamedTuple):
     """What one client is told at one time."""
 
     time: float
-    frames: list[Frame]
+    frames: list[messages.RawFrame]
 
     @property
     def numbers(self) -> list[int]:
@@ -47,7 +34,7 @@ class Round(NamedTuple):
 
 def content(one: Round, kind: type[C]) -> C:
     """The first message of a kind in a round."""
-    found = next((c for frame in one.frames if isinstance(c := decode(frame), kind)), None)
+    found = next((c for frame in one.frames if isinstance(c := messages.decode(frame), kind)), None)
     if found is None:
         raise Broken(f"at {one.time:.3f} s a client is told {one.numbers}: no {kind.__name__}")
     return found
@@ -57,20 +44,19 @@ def rounds(link: RawLink, since: float) -> list[Round]:
     """What a client was told since a time, by rounds. Each begins with JOINT; replies are none."""
     found: list[Round] = []
     for when, frame in link.frames:
-        if when < since or frame.comm == Comm.REPLY:
+        if when < since or frame.comm == RawComm.REPLY:
             continue
-        if frame.number == JOINT_POSITION or not found:
+        if frame.number == messages.JOINT_POSITION or not found:
             found.append(Round(when, []))
         found[-1].frames.append(frame)
     return found
 
 
-def subscribe(bench: Bench, features: Feature, link: RawLink | None = None) -> RawLink:
+def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -> RawLink:
     """A client, new or not, that says HELLO to just these features."""
     client = link if link is not None else bench.state()
     client.read()
-    client.send(encode(HELLO._replace(subscribe=int(features)), Comm.REQUEST))
-    client.expect(messages.HelloReply, 2, "HELLO is answered")
+    bench.says_hello(client, int(features))
     return client
 
 
@@ -95,16 +81,16 @@ def _pause(bench: Bench, link: RawLink) -> float:
     return bench.now
 
 
-PLAIN = [JOINT_POSITION, STATUS]
+PLAIN = [messages.JOINT_POSITION, messages.STATUS]
 """Messages of a round for those who asked for nothing."""
 _FOLLOW = {
-    Feature.PROGRESS: PROGRESS,
-    Feature.FEEDBACK: JOINT_FEEDBACK,
+    RawFeature.PROGRESS: messages.PROGRESS,
+    RawFeature.FEEDBACK: messages.JOINT_FEEDBACK,
 }
 
 
 def _all_alike(
-    bench: Bench, clients: Sequence[tuple[RawLink, Feature]], since: float
+    bench: Bench, clients: Sequence[tuple[RawLink, RawFeature]], since: float
 ) -> list[Round]:
     """The rounds of the first client; Broken unless each gets what it asked for, and the same."""
     told = [rounds(link, since) for link, _ in clients]
@@ -115,7 +101,7 @@ def _all_alike(
             if one.numbers != wanted:
                 raise Broken(f"who asked for {features!r} is told messages {one.numbers}")
     for moment in zip(*told, strict=True):
-        seen: dict[int, Frame] = {}
+        seen: dict[int, messages.RawFrame] = {}
         for one in moment:
             for frame in one.frames:
                 if seen.setdefault(frame.number, frame) != frame:
@@ -130,22 +116,22 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
     motion = bench.setting.motion
     late = (motion.settle + motion.servo_lag) / bench.config.state_period
     for one in told:
-        joints, status = content(one, messages.JointPosition), content(one, messages.Status)
-        progress = content(one, messages.Progress)
+        joints, status = content(one, messages.RawJointPosition), content(one, messages.RawStatus)
+        progress = content(one, messages.RawProgress)
         count, here = len(before), bench.track_at(one.time)
         if distance(joints.joints[:count], here) > 0.03 or any(joints.joints[count:]):
             raise Broken(f"at {one.time:.3f} s the robot is at {here}, {joints}")
         seen.add(progress.state)
-        wrong = progress.state in (TrajectoryState.REFUSED, TrajectoryState.FAILED)
+        wrong = progress.state in (RawTrajectoryState.REFUSED, RawTrajectoryState.FAILED)
         code = progress.reason + 100 * progress.joint if wrong else 0
         if (status.in_error, status.error_code) != (int(wrong), code):
             raise Broken(f"{progress} is told with {status}")
-        moving = progress.state == TrajectoryState.MOVING
+        moving = progress.state == RawTrajectoryState.MOVING
         stood = stood + 1 if here == before else 0
         if status.in_motion != moving and (moving or stood > late):
             raise Broken(f"{progress} is told with {status}")
         plain = (status.drives_powered, status.e_stopped, status.mode, status.motion_possible)
-        if plain != (1, 0, Mode.AUTO, 1):
+        if plain != (1, 0, RawMode.AUTO, 1):
             raise Broken(f"all is well, STATUS says {status}")
         before = here
     return seen
@@ -154,7 +140,7 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
 @case("each-round", "what each of three clients is told in each round")
 def _each_round(bench: Bench) -> None:
     """Three clients with wishes that change: a trajectory, one that is refused, a STOP."""
-    some, everything = Feature.PROGRESS, Feature.PROGRESS | Feature.FEEDBACK
+    some, everything = RawFeature.PROGRESS, RawFeature.PROGRESS | RawFeature.FEEDBACK
     links = [subscribe(bench, everything), subscribe(bench, _NONE), subscribe(bench, some)]
     motion, joints, period = bench.motion(), bench.group.joints, bench.config.state_period
     for wishes in ((everything, _NONE, some), (some, _NONE, some)):
@@ -177,14 +163,14 @@ def _each_round(bench: Bench) -> None:
         states = _is_true(bench, told)
         if not states >= {2, 3, 4, 6}:
             raise Broken(f"a trajectory, a refusal and a STOP: PROGRESS tells states {states}")
-        progress = [content(one, messages.Progress) for one in told]
+        progress = [content(one, messages.RawProgress) for one in told]
         numbers = list(dict.fromkeys(p.trajectory for p in progress))
         if numbers[-2:] != [number + 1, number + 2] or not number <= numbers[0]:
             raise Broken(f"two trajectories came after {number}, PROGRESS tells of {numbers}")
-        done = (TrajectoryState.DONE, len(points), len(points), len(points), 0, -1, 0)
+        done = (RawTrajectoryState.DONE, len(points), len(points), len(points), 0, -1, 0)
         if done not in [p[1:] for p in progress]:
             raise Broken(f"{len(points)} points were executed, no PROGRESS says so: {progress}")
-        refusal = (TrajectoryState.REFUSED, 1, 0, 0, Reason.JOINT_LIMIT, 1, len(joints))
+        refusal = (RawTrajectoryState.REFUSED, 1, 0, 0, RawReason.JOINT_LIMIT, 1, len(joints))
         if refusal not in [p[1:] for p in progress]:
             raise Broken(f"joint {len(joints)} of point 1 is wrong, no PROGRESS says so")
 
@@ -194,13 +180,13 @@ _WRAP = 1000
 
 
 def _stamps(told: Sequence[Round]) -> list[float]:
-    return [content(one, messages.JointFeedback).time for one in told]
+    return [content(one, messages.RawJointFeedback).time for one in told]
 
 
 def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
     """Broken unless stamps of JOINT_FEEDBACK tell the time of the rounds, and velocities theirs."""
     period, count = bench.config.state_period, len(bench.position)
-    for before, now in pairwise(content(one, messages.JointFeedback) for one in told):
+    for before, now in pairwise(content(one, messages.RawJointFeedback) for one in told):
         if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
             raise Broken(f"{what}: {now}")
         seconds = (now.time - before.time) % _WRAP
@@ -226,7 +212,7 @@ def _of(value: object) -> list[StopWatch]:
 @case("over-the-ends", "schedule and stamps over the ends of the clock")
 def _over_the_ends(bench: Bench) -> None:
     """The schedule and the stamps of feedback, over both ends of the clock, in motion."""
-    link = subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS)
+    link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
     motion, period = bench.motion(), bench.config.state_period
     server = bench.controller.task(bench.task("ROS_stateServer"))
     for what, left in (
@@ -285,12 +271,10 @@ def _not_over_yet(bench: Bench) -> None:
     """A halted trajectory whose path is not cleared yet: the robot stands, and takes no other."""
     link, motion, period = bench.watcher(), bench.motion(), bench.config.state_period
     for ending, state, reason in (
-        ("STOP", TrajectoryState.STOPPED, Reason.STOPPED),
-        ("leaves", TrajectoryState.FAILED, Reason.CLIENT_LOST),
+        ("STOP", RawTrajectoryState.STOPPED, RawReason.STOPPED),
+        ("leaves", RawTrajectoryState.FAILED, RawReason.CLIENT_LOST),
     ):
-        motion.send(bench.download(bench.wave(8)))
-        bench.wait_until_moving()
-        bench.run(0.6)
+        bench.sets_off(motion, bench.wave(8), 0.6)
         fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 3)
         if ending == "STOP":
             motion.send(STOP)
@@ -300,7 +284,7 @@ def _not_over_yet(bench: Bench) -> None:
         since = _pause(bench, link)
         bench.run(3 * period)
         for one in rounds(link, since):
-            status, told = content(one, messages.Status), content(one, messages.Progress)
+            status, told = content(one, messages.RawStatus), content(one, messages.RawProgress)
             if (told.state, told.reason, told.point) != (state, reason, told.reached):
                 raise Broken(f"{ending} came, its path is not cleared yet, PROGRESS says {told}")
             if (status.in_motion, status.motion_possible) != (0, 0):
@@ -325,7 +309,7 @@ def _first_of_all(bench: Bench) -> None:
         bench.run(4 * period)
         found = rounds(link, came)
         on_turn(bench, found, f"visit {visit + 1}")
-        first = content(found[0], messages.Status)
+        first = content(found[0], messages.RawStatus)
         if first.in_motion:
             raise Broken(f"the robot has moved while nobody looked, the first STATUS is {first}")
         if first.in_error != visit % 2:
@@ -334,11 +318,11 @@ def _first_of_all(bench: Bench) -> None:
             bench.controller.signals[name] = value
             since = _pause(bench, link)
             bench.run(2 * period)
-            status = content(rounds(link, since)[-1], messages.Status)
+            status = content(rounds(link, since)[-1], messages.RawStatus)
             wanted = tuple(bench.controller.signals[n] for n in (standing, stop))
             if (1 - status.in_motion, status.e_stopped) != wanted:
                 raise Broken(f"signals {standing}, {stop} are {wanted}, STATUS says {status}")
-        subscribe(bench, Feature.FEEDBACK | Feature.PROGRESS, link)
+        subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS, link)
         _pause(bench, link)
         _advance(bench, 0.3)
         since = _pause(bench, link)
@@ -346,8 +330,7 @@ def _first_of_all(bench: Bench) -> None:
         stamp = _stamps(rounds(link, since))[-1]
         if abs(stamp - (bench.now - found[0].time) - 0.3) > period:
             raise Broken(f"the first client has come {bench.now - came:.2f} s ago, told is {stamp}")
-        link.close(abort=visit == 1)
-        bench.run(2 * period + 0.1)
+        link.close(abort=visit == 1, then=2 * period + 0.1)
         bench.moves_through(motion, bench.wave(3, duration=0.2))
         bench.run(2 * bench.setting.motion.settle)
     _moved_by_others(bench, bench.state())
@@ -365,7 +348,7 @@ def _moved_by_others(bench: Bench, link: RawLink) -> None:
             step = size * unit * (1 if joint.upper - here[axis] > here[axis] - joint.lower else -1)
             group.jump((*here[:axis], here[axis] + step, *here[axis + 1 :]))
             bench.run(3 * period)
-            told = [content(one, messages.Status) for one in rounds(link, since)]
+            told = [content(one, messages.RawStatus) for one in rounds(link, since)]
             seen = sum(status.in_motion == 1 for status in told)
             if seen != times:
                 raise Broken(f"joint {axis + 1} was moved by {size} deg (mm), {seen} STATUS say so")

@@ -7,7 +7,7 @@ from dataclasses import fields, replace
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, POINTS, Reason, TrajectoryState, decode
+from rapidgen.proving.messages import JOINT_TRAJ_PT, POINTS, RawReason, RawTrajectoryState, decode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.control import done
@@ -22,14 +22,11 @@ case = Theme("faults")
 @contextmanager
 def _stepped(bench: Bench) -> Iterator[Bench]:
     """Another controller, which can be stopped at a statement."""
-    other = bench.beside(bench.system, setting=replace(bench.setting, coverage=True))
-    try:
+    with bench.beside(bench.system, setting=replace(bench.setting, coverage=True)) as other:
         yield other
         other.run(1.5)
         other.moves_through(other.motion(), other.wave(4))
         other.healthy()
-    finally:
-        other.close()
 
 
 def _lines(bench: Bench, module: str, *routines: str) -> list[int]:
@@ -98,7 +95,7 @@ def _stopped_at_every_statement(bench: Bench) -> None:
             points = other.wave(5, duration=0.25)
             link.send(other.download(points))
             _is_over(other, came)
-            other.followed([other.track_at(since), *(p for p, _ in points)], since=since)
+            other.executed(points, since)
             for action in ("pp-to-main",) if number % 2 else ():
                 other.controller.perform(action)
                 other.run(0.05)
@@ -142,7 +139,7 @@ def _stream_stopped_at_every_statement(bench: Bench) -> None:
             other.run(1)
             stream.put(points[3:], END)
             _is_over(other, came)
-            other.followed([other.track_at(since), *(p for p, _ in points)], since=since)
+            other.executed(points, since)
             if not by_wire:
                 other.start_again()
             elif came[0] != came[-1]:
@@ -154,7 +151,7 @@ def _stream_stopped_at_every_statement(bench: Bench) -> None:
 def _is_answered(link: RawLink) -> bool:
     """Whether a STOP was, with a plain success."""
     return any(
-        frame.number == JOINT_TRAJ_PT and decode(frame) == messages.Acknowledged()
+        frame.number == JOINT_TRAJ_PT and decode(frame) == messages.RawAcknowledged()
         for _, frame in link.frames
     )
 
@@ -194,8 +191,7 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
                     link.send(STOP)
                     other.wait_until_standing(2)
                 came.append(other.now)
-                link.close()
-                other.run(0.1)
+                link.close(then=0.1)
 
 
 @case(
@@ -211,15 +207,13 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
         control, link = other.control(), other.motion()
         other.run(0.5)
         for line in _lines(other, "ROS_supervisor", "go_on"):
-            link.send(other.download(other.wave(12)))
-            other.wait_until_moving()
-            other.run(0.3)
-            control.ask(messages.Pause(1))
+            other.sets_off(link, other.wave(12), 0.3)
+            control.ask(messages.RawPause(1))
             other.wait_until_standing(2)
             came = _once_at(
                 other, "ROS_supervisor", ("ROS_supervisor", line), 1, lambda: link.at_once(STOP)
             )
-            control.ask(messages.Pause(0))
+            control.ask(messages.RawPause(0))
             if not came:
                 came.append(other.now)
                 link.send(STOP)
@@ -268,7 +262,7 @@ def _held_at(
     bench.run(2 * bench.config.state_period)
     watcher.read()
     before = bench.progress(watcher)
-    if before[1:] != (TrajectoryState.DONE, 3, 3, 3, 0, -1, 0):
+    if before[1:] != (RawTrajectoryState.DONE, 3, 3, 3, 0, -1, 0):
         raise Broken(f"three points are executed, PROGRESS says {before}")
     there = bench.position
     beyond = [] if far is None else [((far, *here[1:]), 0.5)]
@@ -295,23 +289,23 @@ def _held_at(
         content
         for one in rounds(watcher, now)
         for frame in one.frames
-        if isinstance(content := decode(frame), messages.Progress)
+        if isinstance(content := decode(frame), messages.RawProgress)
     ]
     where = f"{module} was held at {home}:{line}"
     _fits(told, before, number, where, refused=far is not None)
 
 
 def _fits(
-    told: Sequence[messages.Progress],
-    before: messages.Progress,
+    told: Sequence[messages.RawProgress],
+    before: messages.RawProgress,
     number: int,
     where: str,
     *,
     refused: bool,
 ) -> None:
-    last = (number, TrajectoryState.DONE, 2, 2, 2, 0, -1, 0)
+    last = (number, RawTrajectoryState.DONE, 2, 2, 2, 0, -1, 0)
     if refused:
-        last = (number, TrajectoryState.REFUSED, 2, 0, 0, Reason.JOINT_LIMIT, 2, 1)
+        last = (number, RawTrajectoryState.REFUSED, 2, 0, 0, RawReason.JOINT_LIMIT, 2, 1)
     if not told or told[-1] != last:
         raise Broken(f"{where}: wanted {last}, PROGRESS says {told[-1:]}")
     for one in told:
@@ -319,10 +313,10 @@ def _fits(
             continue
         good = (
             one.trajectory == number
-            and one.state in (TrajectoryState.RECEIVING, TrajectoryState.MOVING)
+            and one.state in (RawTrajectoryState.RECEIVING, RawTrajectoryState.MOVING)
             and one.reached <= one.planned <= one.received <= 3
-            and (one.state != TrajectoryState.RECEIVING or one.planned == 0)
+            and (one.state != RawTrajectoryState.RECEIVING or one.planned == 0)
             and one[5:] == (0, -1, 0)
         )
-        if not good or (refused and one.state != TrajectoryState.RECEIVING):
+        if not good or (refused and one.state != RawTrajectoryState.RECEIVING):
             raise Broken(f"{where}: PROGRESS says {one}")

@@ -16,9 +16,7 @@ def _stops_on_the_path(bench: Bench) -> None:
     for delay in (0.02, 0.3, 0.55, 1.1):
         points = bench.wave(10)
         since = bench.now
-        link.send(bench.download(points))
-        bench.wait_until_moving()
-        bench.run(delay)
+        bench.sets_off(link, points, delay)
         link.send(STOP)
         asked = bench.now
         link.expect_reply(1, "STOP is answered while the robot moves")
@@ -33,9 +31,7 @@ def _stops_on_the_path(bench: Bench) -> None:
 def _moves_again_after_stop(bench: Bench) -> None:
     link = bench.motion()
     for _ in range(4):
-        link.send(bench.download(bench.wave(10)))
-        bench.wait_until_moving()
-        bench.run(0.4)
+        bench.sets_off(link, bench.wave(10), 0.4)
         link.send(STOP)
         link.expect_reply(1, "STOP is answered")
         if bench.setting.motion.servo_lag:
@@ -74,8 +70,7 @@ def _stop_in_a_download(bench: Bench) -> None:
 @case("stop-thrice", "several STOPs at once are all answered")
 def _twice_stopped(bench: Bench) -> None:
     link = bench.motion()
-    link.send(bench.download(bench.wave(10)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(10))
     link.send(STOP + STOP + STOP)
     for _ in range(3):
         link.expect_reply(2, "each of three STOPs is answered")
@@ -87,9 +82,7 @@ def _twice_stopped(bench: Bench) -> None:
 def _new_trajectory_while_moving(bench: Bench) -> None:
     link = bench.motion()
     first = bench.wave(10)
-    link.send(bench.download(first))
-    bench.wait_until_moving()
-    bench.run(0.6)
+    bench.sets_off(link, first, 0.6)
     # It begins where the old one began: too far away by now, or just in reach. Either way the
     # old one is over and nothing of it is executed any more.
     second = bench.wave(4)
@@ -121,9 +114,7 @@ def _short_way_to_stop(bench: Bench) -> None:
     """Nothing of an old ring is executed when a long trajectory was stopped early."""
     link = bench.motion()
     count = min(bench.config.trajectory.capacity, 400)
-    link.send(bench.download(bench.wave(count, duration=0.2, size=0.01)))
-    bench.wait_until_moving()
-    bench.run(0.2)
+    bench.sets_off(link, bench.wave(count, duration=0.2, size=0.01), 0.2)
     link.send(STOP)
     link.expect_reply(3, "STOP behind a long trajectory is answered")
     bench.wait_until_standing(5)
@@ -135,8 +126,7 @@ def _short_way_to_stop(bench: Bench) -> None:
 @case("stop-in-status", "STATUS after a STOP")
 def _state_tells_of_the_stop(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
-    link.send(bench.download(bench.wave(10)))
-    bench.wait_until_moving()
+    bench.sets_off(link, bench.wave(10))
     link.send(STOP)
     link.expect_reply(1, "STOP is answered")
     bench.wait_until_standing(5)
@@ -146,5 +136,5 @@ def _state_tells_of_the_stop(bench: Bench) -> None:
     if (status.in_error, status.in_motion, status.motion_possible) != (0, 0, 1):
         raise Broken(f"after a STOP STATUS says {status}")
     joints = [decode(f) for f in state.read() if f.number == JOINT_POSITION]
-    if any(not isinstance(j, messages.JointPosition) for j in joints):
+    if any(not isinstance(j, messages.RawJointPosition) for j in joints):
         raise Broken("JOINT cannot be read")

@@ -6,18 +6,13 @@ from rapidgen.generate.context import WRAP
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.link import STOP, point_frame, raw_point
+from rapidgen.proving.link import point_frame, raw_point
 from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    Comm,
-    Reason,
-    Special,
-    StreamFlag,
-    TrajectoryState,
-    batch_points,
-    decode,
-    point_pairs,
-    text_of,
+    RawComm,
+    RawReason,
+    RawSpecial,
+    RawStreamFlag,
+    RawTrajectoryState,
 )
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
@@ -27,7 +22,7 @@ from rapidgen.proving.track import Point, changed, small_unit
 
 case = Theme("streaming")
 
-_NONE = StreamFlag(0)
+_NONE = RawStreamFlag(0)
 _SLOW = 30.0
 """s for a segment that no axis is too slow for; the wire has no more than 33 s."""
 _HEAD = 4
@@ -45,13 +40,13 @@ class _Streams:
         self.stream = Streamer(bench, self.link, number=0)
         self.trajectory = bench.progress(self.watcher).trajectory
 
-    def begin(self, points: Sequence[Point] = (), flags: StreamFlag = _NONE) -> None:
+    def begin(self, points: Sequence[Point] = (), flags: RawStreamFlag = _NONE) -> None:
         """A new stream, which begins with these points."""
         self.stream = Streamer(self._bench, self.link, number=self.stream.number + 1)
         self.trajectory += 1
         self.stream.put(points, BEGIN | flags)
 
-    def taken(self, count: int, what: str) -> messages.PointsAccepted:
+    def taken(self, count: int, what: str) -> messages.RawPointsAccepted:
         """The last reply; Broken unless all is well with so many points."""
         told = self.stream.accepted(what)
         if told[:3] != (self.stream.number, self.trajectory, count):
@@ -59,36 +54,35 @@ class _Streams:
         return told
 
     def refused(
-        self, reason: Reason, taken: int, what: str, *, point: int | None = None, joint: int = 0
+        self, reason: RawReason, taken: int, what: str, *, point: int | None = None, joint: int = 0
     ) -> None:
         """Broken unless the last reply is that refusal; it blames the first point not taken."""
         at = taken if point is None else point
-        wanted = messages.PointsRefused(
+        wanted = messages.RawPointsRefused(
             self.stream.number, self.trajectory, taken, reason, at, joint
         )
         if self.stream.last != wanted:
             raise Broken(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
 
-    def strange(self, number: int, reason: Reason, what: str) -> None:
+    def strange(self, number: int, reason: RawReason, what: str) -> None:
         """Broken unless the last reply refuses a batch that is of no stream."""
-        wanted = messages.PointsRefused(number, 0, 0, reason, -1, 0)
+        wanted = messages.RawPointsRefused(number, 0, 0, reason, -1, 0)
         if self.stream.last != wanted:
             raise Broken(f"{what}: wanted {wanted}, the reply is {self.stream.last}")
 
     def alone(self, sequence: int, what: str) -> None:
         """A point that comes alone, which is refused for that."""
         self.trajectory += 1
-        self.link.send(raw_point(sequence, self._bench.position, 1.0, Comm.REQUEST))
-        told = decode(self.link.expect_reply(2, "a point alone is answered"))
-        if told != messages.Refused(Reason.NO_START, 0, 0):
+        self.link.send(raw_point(sequence, self._bench.position, 1.0, RawComm.REQUEST))
+        told = messages.decode(self.link.expect_reply(2, "a point alone is answered"))
+        if told != messages.RawRefused(RawReason.NO_START, 0, 0):
             raise Broken(f"{what}: a point alone is answered by {told}")
 
     def stop(self) -> None:
         """STOP, and its reply."""
-        self.link.send(STOP)
-        self.link.reply(JOINT_TRAJ_PT)
+        self.link.stop()
 
-    def shows(self, state: TrajectoryState, counts: tuple[int, ...], reason: int) -> None:
+    def shows(self, state: RawTrajectoryState, counts: tuple[int, ...], reason: int) -> None:
         """Broken unless PROGRESS says so; `counts`: received, and planned and reached if given."""
         self._bench.run(2 * self._bench.config.state_period + 2 * self._bench.setting.motion.settle)
         told = self._bench.progress(self.watcher)
@@ -114,17 +108,19 @@ def _each_value(bench: Bench) -> None:
             side = 1 if joint.upper - here[axis] >= here[axis] - joint.lower else -1
             start = changed(here, axis, here[axis] + 1.03 * side * near)
             streams.begin([(start, 1.0), (here, 1.0)])
-            streams.refused(Reason.START_TOO_FAR, 0, f"a start at {start}", joint=axis + 1)
+            streams.refused(RawReason.START_TOO_FAR, 0, f"a start at {start}", joint=axis + 1)
         for value in (joint.lower - 0.0015 * unit, joint.upper + 0.0015 * unit):
             streams.begin([(changed(here, axis, value), 1.0), (here, _SLOW)])
-            streams.refused(Reason.JOINT_LIMIT, 0, f"{value} of joint {axis + 1}", joint=axis + 1)
+            streams.refused(
+                RawReason.JOINT_LIMIT, 0, f"{value} of joint {axis + 1}", joint=axis + 1
+            )
     for seconds in (0.0, -1e-6, -2.0):
         streams.begin([(here, 1.0), (here, 1.0), (here, seconds)])
-        streams.refused(Reason.BAD_DURATION, 2, f"a duration of {seconds} s")
+        streams.refused(RawReason.BAD_DURATION, 2, f"a duration of {seconds} s")
         # What the first one's is, nobody asks; but it is no less than nothing.
         streams.begin([(here, seconds), (here, 1.0)])
         if seconds < 0:
-            streams.refused(Reason.BAD_DURATION, 0, f"a first duration of {seconds} s")
+            streams.refused(RawReason.BAD_DURATION, 0, f"a first duration of {seconds} s")
         else:
             streams.taken(2, "a first duration of 0 s")
     if policy.too_fast != "refuse":
@@ -133,9 +129,11 @@ def _each_value(bench: Bench) -> None:
     if short > 0.005:
         for flags in (_NONE, END):
             streams.begin([(here, 1.0), (here, short), (here, 1.0)], flags)
-            streams.refused(Reason.SEGMENT_TOO_SHORT, 1, "a short segment in between")
+            streams.refused(RawReason.SEGMENT_TOO_SHORT, 1, "a short segment in between")
         streams.begin([(here, 1.0), (here, policy.min_segment), (here, short)])
-        streams.refused(Reason.SEGMENT_TOO_SHORT, 2, "a short segment that is not said to be last")
+        streams.refused(
+            RawReason.SEGMENT_TOO_SHORT, 2, "a short segment that is not said to be last"
+        )
         streams.begin([(here, 1.0), (here, policy.min_segment), (here, short)], END)
         streams.taken(3, "a short last segment")
     if bench.group.tcp_speed_limit >= 5:
@@ -157,7 +155,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
             else:
                 streams.begin([(here, 1.0), (other, _SLOW), (one, seconds)])
                 what = f"joint {axis + 1} from {other} to {one} in {seconds} s"
-                streams.refused(Reason.TOO_FAST, 2, what, joint=axis + 1)
+                streams.refused(RawReason.TOO_FAST, 2, what, joint=axis + 1)
     streams.begin(allowed)
     streams.taken(len(allowed), "each joint at its speed")
     streams.stop()
@@ -165,10 +163,10 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
     bench.stays(0.1, "the last stream was stopped")
 
 
-def _said(bench: Bench, reason: Reason) -> None:
+def _said(bench: Bench, reason: RawReason) -> None:
     """Broken unless the event log has a refusal for that reason."""
     bench.run(0.05)
-    text = text_of(reason)
+    text = messages.text_of(reason)
     if not any(text in " ".join(event.texts) for event in bench.controller.log):
         raise Broken(f"the event log does not say: {text}")
 
@@ -178,28 +176,26 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     stream, points = streams.stream, way(bench, 4)
     for after in (_HEAD, _HEAD + 1):
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
-        stream.link.send(stream.frame(points, _NONE))
-        stream.reply()
+        stream.say(stream.frame(points, _NONE))
         recovers()
-        streams.strange(0, Reason.CHECKSUM, "a head that cannot be read")
-    _said(bench, Reason.CHECKSUM)
+        streams.strange(0, RawReason.CHECKSUM, "a head that cannot be read")
+    _said(bench, RawReason.CHECKSUM)
     head = stream.frame(points, _NONE)
-    stream.link.send(head[:16] + b"\xff" * 8 + head[24:])
-    stream.reply()
-    if not isinstance(stream.last, messages.PointsRefused) or stream.last.stream:
+    stream.say(head[:16] + b"\xff" * 8 + head[24:])
+    if not isinstance(stream.last, messages.RawPointsRefused) or stream.last.stream:
         raise Broken(f"a damaged head is answered by {stream.last}")
     # Nor does a beginning that cannot be read end anything.
-    last = _HEAD + 2 + 2 * point_pairs(len(bench.position))
+    last = _HEAD + 2 + 2 * messages.point_pairs(len(bench.position))
     for after in (_HEAD + 2, _HEAD + 3, last):
         other = Streamer(bench, stream.link, number=9)
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         other.put(points[:2], BEGIN)
         recovers()
         streams.stream = other
-        streams.strange(9, Reason.CHECKSUM, "a beginning that cannot be read")
+        streams.strange(9, RawReason.CHECKSUM, "a beginning that cannot be read")
     streams.stream = other = Streamer(bench, stream.link, number=8)
     other.put(points[:2])
-    streams.strange(8, Reason.NO_START, "a batch of another stream")
+    streams.strange(8, RawReason.NO_START, "a batch of another stream")
     streams.stream = stream
 
 
@@ -207,7 +203,7 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
 def _odd_batches(bench: Bench) -> None:
     """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
     streams = _Streams(bench)
-    pairs = point_pairs(len(bench.position))
+    pairs = messages.point_pairs(len(bench.position))
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
@@ -230,16 +226,15 @@ def _odd_batches(bench: Bench) -> None:
         recovers = fails(
             bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=unreadable or 999
         )
-        stream.link.send(bytes(data))
-        stream.reply()
+        stream.say(bytes(data))
         recovers()
-        streams.refused(Reason.CHECKSUM, 12, what)
+        streams.refused(RawReason.CHECKSUM, 12, what)
         stream.put(points[12:])
-        streams.refused(Reason.CHECKSUM, 12, f"a batch behind {what}")
+        streams.refused(RawReason.CHECKSUM, 12, f"a batch behind {what}")
         bench.wait_until_at(points[11][0], 10)
-        bench.followed([bench.track_at(since), *(p for p, _ in points[:12])], since=since)
+        bench.executed(points[:12], since)
         if number in (0, 3):
-            streams.shows(TrajectoryState.FAILED, (12, 12, 12), Reason.CHECKSUM)
+            streams.shows(RawTrajectoryState.FAILED, (12, 12, 12), RawReason.CHECKSUM)
     # What comes next is none the worse for it.
     for which in ("stream", "download", "stream"):
         points = bench.wave(4, duration=0.2)
@@ -250,7 +245,7 @@ def _odd_batches(bench: Bench) -> None:
             streams.link.send(bench.download(points))
             streams.trajectory += 1
         bench.wait_until_at(points[-1][0], 5)
-        streams.shows(TrajectoryState.DONE, (4, 4, 4), 0)
+        streams.shows(RawTrajectoryState.DONE, (4, 4, 4), 0)
 
 
 @case("early-ends", "streams that end before they move", "R5")
@@ -261,22 +256,22 @@ def _early_ends(bench: Bench) -> None:
     streams.begin([(here, 1.0)], END)
     streams.taken(1, "a single point")
     bench.run(0.3)
-    streams.shows(TrajectoryState.DONE, (1, 1, 1), 0)
+    streams.shows(RawTrajectoryState.DONE, (1, 1, 1), 0)
     streams.stream.put(())
-    if streams.taken(1, "a question behind the end").state != TrajectoryState.DONE:
+    if streams.taken(1, "a question behind the end").state != RawTrajectoryState.DONE:
         raise Broken(f"a stream is done, the reply is {streams.stream.last}")
     streams.stream.put([(here, 1.0)])
-    streams.refused(Reason.SEQUENCE_GAP, 1, "a single point behind the end")
+    streams.refused(RawReason.SEQUENCE_GAP, 1, "a single point behind the end")
     streams.begin((), END)
-    streams.refused(Reason.SEQUENCE_GAP, 0, "an end without a point")
+    streams.refused(RawReason.SEQUENCE_GAP, 0, "an end without a point")
     streams.begin([(here, 1.0), (here, 1.0), (far, _SLOW)])
-    streams.refused(Reason.JOINT_LIMIT, 2, "a third point that is too far", joint=1)
+    streams.refused(RawReason.JOINT_LIMIT, 2, "a third point that is too far", joint=1)
     # Nothing of the refusal before is told of the next stream.
     streams.begin()
     before = streams.trajectory
     streams.link.send(raw_point(-1, here, 1.0))
     streams.stream.put([(here, 1.0)])
-    streams.refused(Reason.SUPERSEDED, 0, "a point behind a download", point=-1)
+    streams.refused(RawReason.SUPERSEDED, 0, "a point behind a download", point=-1)
     streams.trajectory = before + 1
     # What was being received before a stream begins is forgotten, and what was skipped, too.
     streams.begin()
@@ -287,14 +282,14 @@ def _early_ends(bench: Bench) -> None:
         streams.begin()
         streams.alone(2, "a download was refused, then a stream began")
         # A point alone is skipped to its end.
-        streams.link.send(raw_point(int(Special.END), here, 1.0))
+        streams.link.send(raw_point(int(RawSpecial.END), here, 1.0))
     streams.begin()
     streams.stop()
     short = bytearray(streams.stream.frame([(here, 1.0)] * 2, _NONE))
     short[28] = 1
     streams.link.send(bytes(short))
     streams.stream.reply()
-    streams.refused(Reason.STOPPED, 0, "a batch of a wrong size behind STOP", point=-1)
+    streams.refused(RawReason.STOPPED, 0, "a batch of a wrong size behind STOP", point=-1)
     if not bench.config.commissioning:
         streams.begin()
         bench.controller.perform("stop")
@@ -303,7 +298,7 @@ def _early_ends(bench: Bench) -> None:
             streams.taken(0, "no points while stopped")
             streams.begin()
         streams.stream.put([(here, 1.0)])
-        streams.refused(Reason.NOT_EXECUTING, 0, "a single point while stopped", point=-1)
+        streams.refused(RawReason.NOT_EXECUTING, 0, "a single point while stopped", point=-1)
         bench.controller.perform("start")
         bench.run(0.3)
     _left(bench)
@@ -318,8 +313,8 @@ def _left(bench: Bench) -> None:
         if stopped:
             streams.stop()
         streams.link.close()
-        state = TrajectoryState.STOPPED if stopped else TrajectoryState.REFUSED
-        streams.shows(state, (0,), Reason.STOPPED if stopped else Reason.INCOMPLETE)
+        state = RawTrajectoryState.STOPPED if stopped else RawTrajectoryState.REFUSED
+        streams.shows(state, (0,), RawReason.STOPPED if stopped else RawReason.INCOMPLETE)
         streams.watcher.close()
     streams = _Streams(bench)
     streams.begin()
@@ -327,10 +322,9 @@ def _left(bench: Bench) -> None:
     data[28] = 1
     streams.link.send(bytes(data))
     streams.stream.reply()
-    streams.refused(Reason.FRAMING, 0, "two points that say they are one")
+    streams.refused(RawReason.FRAMING, 0, "two points that say they are one")
     streams.link.close()
-    streams.watcher.close()
-    bench.run(0.3)
+    streams.watcher.close(then=0.3)
 
 
 @case("room", "as many points as there is room for, and one more", "R1")
@@ -338,7 +332,7 @@ def _room(bench: Bench) -> None:
     """Just as many points as the reply says that there is room for, over the counters' end."""
     streams, ring = _Streams(bench), bench.config.trajectory.ring
     _count_from(bench, WRAP - 7)
-    here, most = bench.position, batch_points(len(bench.position))
+    here, most = bench.position, messages.batch_points(len(bench.position))
     there = bench.wave(2, size=0.01)[1][0]
     goal: list[Point] = [(there if n % 2 else here, 9.0) for n in range(ring + 20)]
     streams.begin(goal[:3], FLUSH)
@@ -352,14 +346,14 @@ def _room(bench: Bench) -> None:
             raise Broken(f"{sent} of {ring - 1} points sent, {planned} planned, room {room}")
         stream.put(goal[sent : sent + min(room, most)])
         sent += min(room, most)
-    streams.shows(TrajectoryState.MOVING, (sent,), 0)
+    streams.shows(RawTrajectoryState.MOVING, (sent,), 0)
     stream.put(goal[sent : sent + 1])
-    streams.refused(Reason.OVERRUN, sent, "one point more than there is room for")
-    _said(bench, Reason.OVERRUN)
+    streams.refused(RawReason.OVERRUN, sent, "one point more than there is room for")
+    _said(bench, RawReason.OVERRUN)
     streams.stop()
     bench.wait_until_standing(2)
     stream.put(goal[sent : sent + 1])
-    streams.refused(Reason.OVERRUN, sent, "a point behind a stream that was cut")
+    streams.refused(RawReason.OVERRUN, sent, "a point behind a stream that was cut")
     # What is there in the ring is found behind the end of the counters, too.
     streams.begin()
     while streams.taken(0, "a stream behind one that was stopped").room < ring - 1:
@@ -368,9 +362,8 @@ def _room(bench: Bench) -> None:
     points, since = way(bench, 12), bench.now
     streams.stream.put(points, END)
     streams.taken(12, "a stream behind one that was stopped")
-    bench.wait_until_at(points[-1][0], 5)
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
-    streams.shows(TrajectoryState.DONE, (12, 12, 12), 0)
+    bench.arrives(points, since, 5)
+    streams.shows(RawTrajectoryState.DONE, (12, 12, 12), 0)
 
 
 def _count_from(bench: Bench, value: int) -> None:
@@ -393,7 +386,7 @@ def _move_fails(bench: Bench) -> None:
     bench.run(0.5)
     bench.wait_until_standing(3)
     streams.stream.put(points[10:14])
-    told = streams.stream.refused(Reason.COLLISION, "a batch behind a collision")
+    told = streams.stream.refused(RawReason.COLLISION, "a batch behind a collision")
     if told.trajectory != streams.trajectory or told.accepted != 10 or not 0 <= told.point < 10:
         raise Broken(f"a batch behind a collision is answered by {told}")
     streams.link.send(point_frame(0, 2, points[0][0], 0.3) + point_frame(1, 2, points[0][0], 0.3))

@@ -1,18 +1,16 @@
 """Trajectories without end: batches, credits, starvation, and what cuts a stream."""
 
-from collections.abc import Sequence
-
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink
-from rapidgen.proving.messages import JOINT_TRAJ_PT, Reason, StreamFlag, TrajectoryState
+from rapidgen.proving.link import RawLink
+from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
 
 case = Theme("streaming")
 
-_NONE = StreamFlag(0)
+_NONE = RawStreamFlag(0)
 
 
 def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
@@ -21,13 +19,9 @@ def way(bench: Bench, count: int, duration: float = 0.15) -> list[Point]:
     return [(p, duration) for p, _ in bench.wave(count, duration=duration, size=0.03)]
 
 
-def _progress(bench: Bench, link: RawLink) -> messages.Progress:
+def _progress(bench: Bench, link: RawLink) -> messages.RawProgress:
     bench.run(2 * bench.config.state_period)
     return bench.progress(link)
-
-
-def _executed(bench: Bench, points: Sequence[Point], since: float) -> None:
-    bench.followed([bench.track_at(since), *(p for p, _ in points)], since=since)
 
 
 @case("stream", "a stream longer than the ring is executed whole, in time", "R1", once=True)
@@ -42,13 +36,12 @@ def _whole_stream(bench: Bench) -> None:
         stream.number += 1
         stream.sent, stream.points, stream.room = 0, [], bench.config.trajectory.ring - 1
         stream.all(points, size=size)
-        bench.wait_until_at(points[-1][0], 30 + asked)
-        _executed(bench, points, since)
+        bench.arrives(points, since, 30 + asked)
         if bench.now - since > 1.3 * asked + 3:
             raise Broken(f"{asked:.1f} s of a stream took {bench.now - since:.1f} s")
         told = _progress(bench, watcher)
         count = len(points)
-        if told[1:] != (TrajectoryState.DONE, count, count, count, 0, -1, 0):
+        if told[1:] != (RawTrajectoryState.DONE, count, count, count, 0, -1, 0):
             raise Broken(f"a stream of {count} points is done, PROGRESS says {told}")
         points = [*reversed(points)]
 
@@ -75,8 +68,7 @@ def _preload(bench: Bench) -> None:
         bench.wait_until_moving(2)
         stream.put((), END)
         bench.wait_until_at(stream.points[-1][0], 20)
-        stream.link.close()
-        bench.run(1.5)
+        stream.link.close(then=1.5)
 
 
 @case("starves", "starvation is a stop on the path; more points go on", "R9")
@@ -90,7 +82,7 @@ def _starves(bench: Bench) -> None:
     bench.wait_until_at(points[14][0], 20)
     bench.stays(2, "the stream has starved")
     told = _progress(bench, watcher)
-    if (told.state, told.reached, told.reason) != (TrajectoryState.STARVED, 15, 0):
+    if (told.state, told.reached, told.reason) != (RawTrajectoryState.STARVED, 15, 0):
         raise Broken(f"a stream has starved behind 15 points, PROGRESS says {told}")
     status = bench.status(watcher)
     if (status.in_motion, status.in_error) != (0, 0):
@@ -102,14 +94,13 @@ def _starves(bench: Bench) -> None:
     bench.wait_until_at(points[29][0], 20)
     bench.run(1)
     stream.put(points[30:], END)
-    bench.wait_until_at(points[-1][0], 20)
-    _executed(bench, points, since)
+    bench.arrives(points, since, 20)
     told = _progress(bench, watcher)
-    if (told.state, told.reached) != (TrajectoryState.DONE, 45):
+    if (told.state, told.reached) != (RawTrajectoryState.DONE, 45):
         raise Broken(f"a stream that starved twice is done, PROGRESS says {told}")
 
 
-def _cut(bench: Bench, data: bytes, reason: Reason, what: str, taken: int = 0) -> None:
+def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0) -> None:
     """A wrong batch in a moving stream: what was accepted is executed, nothing behind it."""
     watcher, since = bench.watcher(), bench.now
     points = way(bench, 30)
@@ -117,8 +108,7 @@ def _cut(bench: Bench, data: bytes, reason: Reason, what: str, taken: int = 0) -
     stream.put(points[:20], BEGIN)
     stream.accepted("the first points")
     bench.wait_until_moving()
-    stream.link.send(data)
-    stream.reply()
+    stream.say(data)
     told = stream.refused(reason, what)
     if told.accepted != 20 + taken:
         raise Broken(f"{what}: {20 + taken} points are right, the reply is {told}")
@@ -126,12 +116,12 @@ def _cut(bench: Bench, data: bytes, reason: Reason, what: str, taken: int = 0) -
     stream.put(points[20:24])
     stream.refused(reason, f"a batch behind {what}")
     bench.wait_until_standing(20)
-    _executed(bench, points[: 20 + taken], since)
+    bench.executed(points[: 20 + taken], since)
     if not taken and distance(bench.position, points[19][0]) > 1e-3:
         raise Broken(f"{what}: the points before it are not executed")
     bench.stays(2, what)
     progress, status = _progress(bench, watcher), bench.status(watcher)
-    if (progress.state, progress.reason) != (TrajectoryState.FAILED, reason):
+    if (progress.state, progress.reason) != (RawTrajectoryState.FAILED, reason):
         raise Broken(f"{what}: PROGRESS says {progress}")
     if status.in_error != 1 or status.error_code % 100 != reason:
         raise Broken(f"{what}: STATUS says {status}")
@@ -139,15 +129,13 @@ def _cut(bench: Bench, data: bytes, reason: Reason, what: str, taken: int = 0) -
     fresh.all(way(bench, 12))
     bench.wait_until_at(fresh.points[-1][0], 20)
     watcher.close()
-    stream.link.close()
-    bench.run(1.5)
+    stream.link.close(then=1.5)
 
 
 def _maker(bench: Bench) -> Streamer:
     """Makes frames of stream 3 and sends none of them."""
     maker = Streamer(bench, number=3)
-    maker.link.close()
-    bench.run(1.2)
+    maker.link.close(then=1.2)
     maker.sent = 20
     return maker
 
@@ -157,35 +145,35 @@ def _wrong_checksum(bench: Bench) -> None:
     for place in (-1, -8, 40, 24, 60):
         data = bytearray(_maker(bench).frame(way(bench, 3), _NONE))
         data[place] ^= 1
-        _cut(bench, bytes(data), Reason.CHECKSUM, f"a bit of byte {place} of a batch turned")
+        _cut(bench, bytes(data), RawReason.CHECKSUM, f"a bit of byte {place} of a batch turned")
 
 
 @case("stream-hole", "a missing or repeated batch cuts the stream", "C4")
 def _hole(bench: Bench) -> None:
     for first in (19, 21, 0, 30):
         data = _maker(bench).frame(way(bench, 3), _NONE, first=first)
-        _cut(bench, data, Reason.SEQUENCE_GAP, f"a batch that begins at {first} instead of 20")
+        _cut(bench, data, RawReason.SEQUENCE_GAP, f"a batch that begins at {first} instead of 20")
 
 
 @case("stream-size", "a batch whose length does not fit cuts the stream", "R2")
 def _wrong_size(bench: Bench) -> None:
     data = bytearray(_maker(bench).frame(way(bench, 4), _NONE))
     data[28:32] = (3).to_bytes(4, "little")
-    _cut(bench, bytes(data), Reason.FRAMING, "a batch of four points that says three")
+    _cut(bench, bytes(data), RawReason.FRAMING, "a batch of four points that says three")
 
 
 @case("stream-point", "points before a wrong one are executed", "R10")
 def _wrong_point(bench: Bench) -> None:
     here, joints = bench.position, bench.group.joints
-    wrong: list[tuple[Reason, Point]] = [
-        (Reason.JOINT_LIMIT, ((*here[:1], joints[1].upper + 0.1, *here[2:]), 30.0)),
-        (Reason.BAD_DURATION, (here, 0.0)),
-        (Reason.BAD_DURATION, (here, -1.0)),
+    wrong: list[tuple[RawReason, Point]] = [
+        (RawReason.JOINT_LIMIT, ((*here[:1], joints[1].upper + 0.1, *here[2:]), 30.0)),
+        (RawReason.BAD_DURATION, (here, 0.0)),
+        (RawReason.BAD_DURATION, (here, -1.0)),
     ]
     if bench.config.trajectory.too_fast == "refuse":
-        wrong.append((Reason.SEGMENT_TOO_SHORT, (here, bench.config.trajectory.min_segment / 2)))
+        wrong.append((RawReason.SEGMENT_TOO_SHORT, (here, bench.config.trajectory.min_segment / 2)))
     for reason, point in wrong:
-        if reason is Reason.SEGMENT_TOO_SHORT and bench.config.trajectory.min_segment < 0.005:
+        if reason is RawReason.SEGMENT_TOO_SHORT and bench.config.trajectory.min_segment < 0.005:
             continue
         good = way(bench, 4)
         if point[0] == here:
@@ -201,7 +189,7 @@ def _names_the_point(bench: Bench) -> None:
     points = [(p, 30.0) for p, _ in way(bench, 6)]
     points[4] = ((points[4][0][0], bench.group.joints[1].lower - 0.1, *points[4][0][2:]), 30.0)
     stream.put(points, BEGIN | END)
-    told = stream.refused(Reason.JOINT_LIMIT, "joint 2 of point 4 is outside its limits")
+    told = stream.refused(RawReason.JOINT_LIMIT, "joint 2 of point 4 is outside its limits")
     if (told.accepted, told.point, told.joint) != (4, 4, 2):
         raise Broken(f"joint 2 of point 4 is outside its limits, the reply is {told}")
 
@@ -213,27 +201,25 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     joint, here = bench.group.joints[0], bench.position
     step = 0.2 if joint.upper - here[0] > here[0] - joint.lower else -0.2
     away = [(here[0] + step, *here[1:])]
-    for reason, joints in ((Reason.JOINT_LIMIT, far), (Reason.START_TOO_FAR, away)):
+    for reason, joints in ((RawReason.JOINT_LIMIT, far), (RawReason.START_TOO_FAR, away)):
         stream = Streamer(bench)
         stream.put([(p, 1.0) for p in joints], BEGIN)
         stream.refused(reason, "a first point that is wrong")
         stream.put(way(bench, 10))
         stream.refused(reason, "a batch behind a first point that is wrong")
         bench.stays(3, "the first point of the stream is wrong")
-        stream.link.close()
-        bench.run(1.5)
+        stream.link.close(then=1.5)
     stream = Streamer(bench, number=9)
     for flags in (_NONE, END, FLUSH):
         stream.put(way(bench, 10), flags)
-        stream.refused(Reason.NO_START, "a batch without a beginning")
+        stream.refused(RawReason.NO_START, "a batch without a beginning")
     stream.sent = 0
     data = bytearray(stream.frame(way(bench, 10), BEGIN))
     data[50] ^= 4
-    stream.link.send(bytes(data))
-    stream.reply()
-    stream.refused(Reason.CHECKSUM, "a damaged beginning")
+    stream.say(bytes(data))
+    stream.refused(RawReason.CHECKSUM, "a damaged beginning")
     stream.put((), BEGIN | END)
-    stream.refused(Reason.SEQUENCE_GAP, "an end without a point")
+    stream.refused(RawReason.SEQUENCE_GAP, "an end without a point")
     bench.stays(3, "no stream has begun")
     stream.number, stream.sent = 10, 0
     stream.all(way(bench, 10))
@@ -255,14 +241,14 @@ def _overrun(bench: Bench) -> None:
     stream.link.send(stream.frame(points[before + 20 : before + 40], _NONE, first=before + 20))
     for _ in range(2):
         stream.reply()
-    told = stream.refused(Reason.OVERRUN, "more points than there is room for")
+    told = stream.refused(RawReason.OVERRUN, "more points than there is room for")
     if not before <= told.accepted <= before + 20:
         raise Broken(f"{before} points were sent with room for them, the reply is {told}")
     bench.wait_until_standing(60)
-    _executed(bench, points[: told.accepted], since)
+    bench.executed(points[: told.accepted], since)
     if distance(bench.position, points[told.accepted - 1][0]) > 1e-3:
         raise Broken("points that were accepted before an overrun are not executed")
-    if _progress(bench, watcher).reason != Reason.OVERRUN:
+    if _progress(bench, watcher).reason != RawReason.OVERRUN:
         raise Broken(f"after an overrun PROGRESS says {bench.progress(watcher)}")
 
 
@@ -272,7 +258,7 @@ def _behind_the_end(bench: Bench) -> None:
     points = way(bench, 12)
     stream.all(points)
     stream.put(way(bench, 3))
-    stream.refused(Reason.SEQUENCE_GAP, "points behind the end")
+    stream.refused(RawReason.SEQUENCE_GAP, "points behind the end")
     bench.wait_until_at(points[-1][0], 20)
     bench.stays(2, "the stream has ended")
 
@@ -280,14 +266,14 @@ def _behind_the_end(bench: Bench) -> None:
 @case("stream-ended", "stops end a stream, and batches are told why", "R5, R7a", background=True)
 def _early_end(bench: Bench) -> None:
     """Everything that ends a trajectory early ends a stream, and batches are told why."""
-    stopped = (Reason.MOTORS_OFF, Reason.PROGRAM_STOPPED, Reason.EMERGENCY_STOP)
+    stopped = (RawReason.MOTORS_OFF, RawReason.PROGRAM_STOPPED, RawReason.EMERGENCY_STOP)
     for action, reasons in (
-        ("STOP", (Reason.STOPPED,)),
+        ("STOP", (RawReason.STOPPED,)),
         ("e-stop", stopped),
         ("stop", stopped),
         ("motors-off", stopped),
-        ("download", (Reason.SUPERSEDED,)),
-        ("stream", (Reason.SUPERSEDED,)),
+        ("download", (RawReason.SUPERSEDED,)),
+        ("stream", (RawReason.SUPERSEDED,)),
     ):
         since, points = bench.now, way(bench, 60)
         stream = Streamer(bench, number=5)
@@ -295,8 +281,7 @@ def _early_end(bench: Bench) -> None:
         bench.wait_until_moving()
         bench.run(0.6)
         if action == "STOP":
-            stream.link.send(STOP)
-            stream.link.reply(JOINT_TRAJ_PT)
+            stream.link.stop()
         elif action == "download":
             stream.link.send(bench.download(bench.wave(4))[:68])
         elif action == "stream":
@@ -304,18 +289,17 @@ def _early_end(bench: Bench) -> None:
         else:
             bench.controller.perform(action)
         bench.wait_until_standing(5)
-        _executed(bench, points, since)
+        bench.executed(points, since)
         bench.run(0.3)
         if action != "stream":
             stream.put(points[25:30])
             told = stream.last
-            if not isinstance(told, messages.PointsRefused) or told.reason not in reasons:
+            if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
                 raise Broken(f"a stream was ended by {action}, a batch is answered by {told}")
         bench.stays(2, f"the stream was ended by {action}")
         bench.start_again()
         bench.stays(3, f"the stream was ended by {action}, then the program was started")
-        stream.link.close()
-        bench.run(1.5)
+        stream.link.close(then=1.5)
         bench.moves_through(bench.motion(), bench.wave(3))
         bench.run(1.5)
 
@@ -340,7 +324,9 @@ def _client_lost(bench: Bench) -> None:
                 raise Broken("a stream went on to its last point for a client that had left")
             bench.stays(3, "the client of the stream has left")
             told = _progress(bench, watcher)
-            reasons = [Reason.CLIENT_LOST] if begun else [Reason.CLIENT_LOST, Reason.INCOMPLETE]
+            reasons = (
+                [RawReason.CLIENT_LOST] if begun else [RawReason.CLIENT_LOST, RawReason.INCOMPLETE]
+            )
             if told.reason not in reasons:
                 raise Broken(f"the client of a stream has left, PROGRESS says {told}")
             watcher.close()

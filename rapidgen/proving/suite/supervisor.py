@@ -5,25 +5,24 @@ from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink, point_frame
-from rapidgen.proving.messages import (
-    JOINT_TRAJ_PT,
-    Comm,
-    Mode,
-    Reason,
-    TrajectoryState,
-    decode,
-    encode,
-    text_of,
-)
+from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.stream import BEGIN, Streamer
-from rapidgen.proving.suite.motion_task import SOON, begins, datum, hangs, patience, unit_of
+from rapidgen.proving.suite.motion_task import (
+    SOON,
+    begins,
+    begins_soon,
+    datum,
+    hangs,
+    patience,
+    unit_of,
+)
 
 case = Theme("halting")
 
 _PROMPT = 0.055
 """s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
-_TRAJ = JOINT_TRAJ_PT
+_TRAJ = messages.JOINT_TRAJ_PT
 
 
 def _prompt(bench: Bench, asked: float, what: str) -> None:
@@ -37,7 +36,7 @@ def _end_as_request(bench: Bench, count: int, duration: float) -> bytes:
     """A trajectory whose end frame is a request."""
     points = bench.wave(count, duration=duration)
     frames = [point_frame(n, count, *p) for n, p in enumerate(points[:-1])]
-    return b"".join((*frames, point_frame(count - 1, count, *points[-1], Comm.REQUEST)))
+    return b"".join((*frames, point_frame(count - 1, count, *points[-1], RawComm.REQUEST)))
 
 
 @case("answers-soon", "the supervisor answers by interrupts", "R7a", background=True)
@@ -51,15 +50,15 @@ def _answers_soon(bench: Bench) -> None:
         bench.run(0.3 + 0.021 * phase)
         link.send(_end_as_request(bench, 5, unit))
         asked = bench.now
-        content = decode(link.expect_reply(2, "the end frame is answered"))
-        if not isinstance(content, messages.Accepted):
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if not isinstance(content, messages.RawAccepted):
             raise Broken(f"a good trajectory is answered by {content}")
         _prompt(bench, asked, "the end frame of a trajectory")
-        begins(bench, asked)
+        begins_soon(bench, asked)
         if control is not None:
             for paused in (1, 0):
                 asked = bench.now
-                if control.ask(messages.Pause(paused)) != messages.Acknowledged():
+                if control.ask(messages.RawPause(paused)) != messages.RawAcknowledged():
                     raise Broken(f"PAUSE {paused} is refused")
                 _prompt(bench, asked, f"PAUSE {paused}")
                 bench.run(0.1)
@@ -75,7 +74,7 @@ def _answers_soon(bench: Bench) -> None:
         port.read()
         port.send(STOP)
         asked = bench.now
-        if port.reply(_TRAJ) != messages.Acknowledged():
+        if port.reply(_TRAJ) != messages.RawAcknowledged():
             raise Broken("STOP is not confirmed")
         _prompt(bench, asked, "STOP")
         # One that was measured before is on its way for no longer than this.
@@ -89,15 +88,14 @@ def _answers_soon(bench: Bench) -> None:
             if other is not None:
                 bench.run(0.2 + 0.021 * phase)
                 asked = bench.now
-                other.send(STOP)
-                other.reply(_TRAJ)
+                other.stop()
                 _prompt(bench, asked, "STOP at a standstill")
         # What comes right behind a stop of the program is refused.
         bench.run(0.4)
         bench.controller.perform("stop")
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
-        if content != messages.Refused(Reason.NOT_EXECUTING, -1, 0):
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0):
             raise Broken(f"right behind a stop of the program a trajectory is answered: {content}")
         bench.controller.perform("start")
 
@@ -115,18 +113,18 @@ def _why_it_ended(bench: Bench) -> None:
     """Each event by its own reason, at once; what comes meanwhile is refused for it."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     number = bench.progress(watcher).trajectory
-    auto, failed = Mode.AUTO, TrajectoryState.FAILED
+    auto, failed = RawMode.AUTO, RawTrajectoryState.FAILED
     for action, reason, later, status in (
-        ("e-stop", Reason.EMERGENCY_STOP, Reason.EMERGENCY_STOP, (0, 1, auto)),
-        ("motors-off", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, auto)),
-        ("stop", Reason.PROGRAM_STOPPED, Reason.NOT_EXECUTING, (1, 0, auto)),
-        ("manual", Reason.MOTORS_OFF, Reason.MOTORS_OFF, (0, 0, Mode.MANUAL)),
-        ("leaves", Reason.CLIENT_LOST, Reason.NONE, (1, 0, auto)),
+        ("e-stop", RawReason.EMERGENCY_STOP, RawReason.EMERGENCY_STOP, (0, 1, auto)),
+        ("motors-off", RawReason.MOTORS_OFF, RawReason.MOTORS_OFF, (0, 0, auto)),
+        ("stop", RawReason.PROGRAM_STOPPED, RawReason.NOT_EXECUTING, (1, 0, auto)),
+        ("manual", RawReason.MOTORS_OFF, RawReason.MOTORS_OFF, (0, 0, RawMode.MANUAL)),
+        ("leaves", RawReason.CLIENT_LOST, RawReason.NONE, (1, 0, auto)),
     ):
         last, points = bench.last_event, bench.wave(5, duration=unit)
         link.send(bench.download(points))
         number += 1
-        begins(bench, bench.now)
+        begins_soon(bench, bench.now)
         bench.run(1.15 * unit)
         if action == "leaves":
             link.close()
@@ -139,21 +137,21 @@ def _why_it_ended(bench: Bench) -> None:
             raise Broken(f"{action} came between points 1 and 2, PROGRESS says {told}")
         powered, e_stopped, mode = status
         possible = int(action == "leaves")
-        wanted = messages.Status(powered, e_stopped, reason, 1, 0, mode, possible)
+        wanted = messages.RawStatus(powered, e_stopped, reason, 1, 0, mode, possible)
         # An emergency stop is an error of the controller's own, too.
         if seen != wanted:
             raise Broken(f"after {action} STATUS says {seen}, wanted {wanted}")
         said = [e.texts[0] for e in _warnings(bench, last)]
-        if said != ([text_of(reason)] if action == "leaves" else []):
+        if said != ([messages.text_of(reason)] if action == "leaves" else []):
             raise Broken(f"after {action} the event log says {said}")
         if action == "leaves":
             bench.run(0.3)
             link = bench.motion()
             continue
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         number += 1
-        if content != messages.Refused(later, -1, 0):
+        if content != messages.RawRefused(later, -1, 0):
             raise Broken(f"after {action} a trajectory is answered by {content}")
         # What is received meanwhile is for nothing, although its end comes when all is well again.
         frames = _end_as_request(bench, 3, unit)
@@ -165,10 +163,10 @@ def _why_it_ended(bench: Bench) -> None:
         if bench.status(watcher).motion_possible != 1:
             raise Broken(f"after {action} and a start of the program no motion is possible")
         link.send(frames[68:])
-        content = decode(link.expect_reply(2, "the end frame is answered"))
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         # The way back to automatic mode is a change of mode, too.
-        noted = Reason.MODE_CHANGED if action == "manual" else reason
-        if content != messages.Refused(noted, -1, 0):
+        noted = RawReason.MODE_CHANGED if action == "manual" else reason
+        if content != messages.RawRefused(noted, -1, 0):
             raise Broken(f"what began behind {action}, and ended later, is answered by {content}")
 
 
@@ -177,13 +175,13 @@ def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> No
     bench.run(SOON + 2 * bench.config.state_period)
     told, status = bench.progress(watcher), bench.status(watcher)
     if (told.state, told.planned, told.reached, told.reason) != (
-        TrajectoryState.PAUSED,
+        RawTrajectoryState.PAUSED,
         planned,
         reached,
         0,
     ):
         raise Broken(f"a trajectory is paused, PROGRESS says {told}")
-    if status != (1, 0, 0, 0, 0, Mode.AUTO, 0):
+    if status != (1, 0, 0, 0, 0, RawMode.AUTO, 0):
         raise Broken(f"a trajectory is paused, STATUS says {status}")
     bench.stays(0.3, "it is paused")
 
@@ -195,9 +193,9 @@ def _pause_by_step(bench: Bench) -> None:
         return
     control, watcher, link, unit = bench.control(), bench.watcher(), bench.motion(), unit_of(bench)
 
-    def ask(paused: int, reason: Reason = Reason.NONE) -> None:
-        told = control.ask(messages.Pause(paused))
-        if told != (messages.NotDone(reason) if reason else messages.Acknowledged()):
+    def ask(paused: int, reason: RawReason = RawReason.NONE) -> None:
+        told = control.ask(messages.RawPause(paused))
+        if told != (messages.RawNotDone(reason) if reason else messages.RawAcknowledged()):
             raise Broken(f"PAUSE {paused} is answered by {told}")
 
     def goes_on() -> None:
@@ -205,23 +203,22 @@ def _pause_by_step(bench: Bench) -> None:
         bench.wait_until_moving(_PROMPT + bench.setting.motion.servo_lag)
 
     for paused in (1, 0):
-        ask(paused, Reason.IDLE)
+        ask(paused, RawReason.IDLE)
     way = bench.wave(4, duration=unit)
-    link.send(bench.download([*way, (way[3][0], 3 * unit)]))
-    begun = begins(bench, bench.now)
+    begun = begins(bench, link, [*way, (way[3][0], 3 * unit)])
     bench.run(1.15 * unit)
     ask(1)
     _is_paused(bench, watcher, 3, 1)
     fails(bench, "ROS_supervisor", "StartMove", "ERR_PATHDIST")
-    ask(0, Reason.INTERNAL)
+    ask(0, RawReason.INTERNAL)
     _is_paused(bench, watcher, 3, 1)
     ask(1)
     goes_on()
     fails(bench, "ROS_supervisor", "StopMove", "ERR_PATH_STOP")
-    ask(1, Reason.INTERNAL)
+    ask(1, RawReason.INTERNAL)
     ask(0)
     bench.run(SOON + 2 * bench.config.state_period)
-    if bench.standing or bench.status(watcher)[3:] != (0, 1, Mode.AUTO, 1):
+    if bench.standing or bench.status(watcher)[3:] != (0, 1, RawMode.AUTO, 1):
         raise Broken("a pause that was refused, and the end of none, stop the robot")
     bench.wait_until_at(way[3][0], 5)
     bench.followed([p for p, _ in way], since=begun)
@@ -231,20 +228,18 @@ def _pause_by_step(bench: Bench) -> None:
     _is_paused(bench, watcher, 5, 4)
     bench.run(3 * unit)
     told, status = bench.progress(watcher), bench.status(watcher)
-    if (told.state, status.motion_possible) != (TrajectoryState.DONE, 1):
+    if (told.state, status.motion_possible) != (RawTrajectoryState.DONE, 1):
         raise Broken(f"a paused trajectory has come to its end: {told}, {status}")
-    ask(0, Reason.IDLE)
+    ask(0, RawReason.IDLE)
     for stopped in (True, False):
-        link.send(bench.download(bench.wave(3, duration=unit)))
-        begins(bench, bench.now)
+        begins(bench, link, bench.wave(3, duration=unit))
         bench.run(0.5 * unit)
         ask(1)
         bench.wait_until_standing(1)
         if stopped:
-            link.send(STOP)
-            link.reply(_TRAJ)
+            link.stop()
             bench.run(patience(bench))
-            ask(0, Reason.IDLE)
+            ask(0, RawReason.IDLE)
         points = bench.wave(3, duration=unit)
         link.send(bench.download(points))
         bench.wait_until_at(points[2][0], 3 * unit + 2)
@@ -264,15 +259,14 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
         supervisor.sleep(0.004)
 
     for _ in range(4):
-        link.send(bench.download(bench.wave(4, duration=unit, size=0.3)))
-        begins(bench, bench.now)
+        begins(bench, link, bench.wave(4, duration=unit, size=0.3))
         bench.run(0.7 * unit)
-        control.ask(messages.Pause(1))
+        control.ask(messages.RawPause(1))
         bench.wait_until_standing(1)
         at_call(bench, "ROS_supervisor", "StartMove", 1, stop)
-        control.send(encode(messages.Pause(0), Comm.REQUEST))
+        control.send(messages.encode(messages.RawPause(0), RawComm.REQUEST))
         bench.stays(patience(bench), "STOP came at the end of a pause")
-        if link.reply(_TRAJ) != messages.Acknowledged():
+        if link.reply(_TRAJ) != messages.RawAcknowledged():
             raise Broken("STOP at the end of a pause is not confirmed")
 
 
@@ -293,8 +287,8 @@ def _builds_differ(bench: Bench) -> None:
         bench.until(lambda: task[shown] != good, 0.2, "the supervisor looks")
         mixed = bench.now
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
-        if content != messages.Refused(Reason.BUILD_MISMATCH, -1, 0):
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
             raise Broken(f"tasks show different builds, a trajectory is answered by {content}")
         bench.run(seconds)
         if bench.status(watcher).motion_possible:
@@ -316,30 +310,29 @@ def _builds_differ(bench: Bench) -> None:
         other = datum(bench, f"ros_shown_{role}")
         task[other] = "0123456789ab"
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
-        if content != messages.Refused(Reason.BUILD_MISMATCH, -1, 0):
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
             raise Broken(f"the {role} shows another build, a trajectory is answered by {content}")
         stream.number, stream.sent = number, 0
         stream.put(bench.wave(3, duration=unit), BEGIN)
-        stream.refused(Reason.BUILD_MISMATCH, f"the {role} shows another build")
+        stream.refused(RawReason.BUILD_MISMATCH, f"the {role} shows another build")
         task[other] = good
     # What the motion task shows counts from when its program runs.
     shown = datum(bench, "ros_shown_motion")
     for text, stopped, reason in (
-        ("", False, Reason.NOT_EXECUTING),
-        ("mixed", True, Reason.NOT_EXECUTING),
-        ("mixed", False, Reason.BUILD_MISMATCH),
+        ("", False, RawReason.NOT_EXECUTING),
+        ("mixed", True, RawReason.NOT_EXECUTING),
+        ("mixed", False, RawReason.BUILD_MISMATCH),
     ):
         if stopped:
             bench.controller.perform("stop")
         task[shown] = text
         link.send(_end_as_request(bench, 3, unit))
-        content = decode(link.expect_reply(2, "the end frame is answered"))
-        if not isinstance(content, messages.Refused) or content.reason != reason:
+        content = messages.decode(link.expect_reply(2, "the end frame is answered"))
+        if not isinstance(content, messages.RawRefused) or content.reason != reason:
             raise Broken(f"the motion task shows {text!r}, a trajectory is answered by {content}")
         task[shown] = good
         if stopped:
             bench.controller.perform("start")
         bench.run(0.3)
-    link.send(bench.download(bench.wave(3, duration=unit)))
-    begins(bench, bench.now)
+    begins(bench, link, bench.wave(3, duration=unit))

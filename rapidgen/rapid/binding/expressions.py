@@ -5,7 +5,7 @@ Where an expression breaks a rule its type is None, as where something is not kn
 
 from typing import Final
 
-from rapidgen.rapid.binding.names import Scope
+from rapidgen.rapid.binding.names import Scope, called
 from rapidgen.rapid.binding.symbols import DataSymbol, RoutineSymbol, Symbol
 from rapidgen.rapid.binding.types import (
     AGGREGATE,
@@ -75,7 +75,7 @@ def type_of(node: Expression, scope: Scope) -> str | None:
                 return None
             return array("num", degree(found)) if found and kind == "semivalue" else found
         case FunctionCall():
-            symbol = scope.find(node.name)
+            symbol = called(scope.find(node.name))
             if isinstance(symbol, RoutineSymbol) and symbol.kind == "FUNC":
                 return scope.module.type_of(symbol)
             return None

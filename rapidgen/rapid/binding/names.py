@@ -15,7 +15,8 @@ scopes declares:
 5. installed modules (built in, or shared by all tasks): their global names. The program may hide
    them. An installed module itself sees its own names, those of installed modules and what lies
    further out, but never the program;
-6. what the configuration installs: signals, mechanical units, task identities;
+6. what the configuration installs: signals, mechanical units, task identities; where a name is
+   called they hide no predefined routine (`called`): a signal may have the name of a function;
 7. the predefined data, types and routines of RAPID (`builtins/*.rapid`).
 
 A type behind aliases is found from the module that declares its object. What two tasks declare
@@ -377,6 +378,14 @@ def builtin(key: str) -> Symbol | None:
     if routine is not None:
         return RoutineSymbol(routine.name, routine.kind, type=routine.type, signature=routine)
     return None
+
+
+def called(symbol: Symbol | None) -> Symbol | None:
+    """What a call of a name means: what the configuration installs hides no predefined routine."""
+    if symbol is not None and symbol.kind == "INSTALLED":
+        routine = builtin(symbol.name.lower())
+        return routine if isinstance(routine, RoutineSymbol) else symbol
+    return symbol
 
 
 def installed_objects(objects: Iterable[tuple[str, str]]) -> dict[str, Symbol]:

@@ -17,6 +17,7 @@ from rapidgen.rapid.binding import (
     root,
     type_of,
 )
+from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import array
 from rapidgen.rapid.checks.findings import Findings
 from rapidgen.rapid.checks.given import closest
@@ -58,7 +59,7 @@ class CallChecker:
     def call(self, node: ProcedureCall) -> None:
         """A procedure call."""
         findings = self.findings
-        symbol = findings.find(node.name)
+        symbol = called(findings.find(node.name))
         if symbol is None:
             certain = findings.given.judges_routines
             findings.unknown("procedure", node.name, node.first, certain=certain)

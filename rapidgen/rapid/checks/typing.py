@@ -9,6 +9,7 @@ from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
 from rapidgen.rapid.binding import DATA, DataSymbol, RoutineSymbol, Symbol, constant, root, sizes_of
+from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import (
     AGGREGATE,
     ATOMIC,
@@ -125,7 +126,7 @@ class TypeChecker:
         return found
 
     def _call(self, node: FunctionCall) -> str | None:
-        symbol = self.findings.find(node.name)
+        symbol = called(self.findings.find(node.name))
         if symbol is None:
             self.findings.unknown(
                 "function", node.name, node.first, certain=self.findings.given.judges_routines

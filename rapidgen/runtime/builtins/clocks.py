@@ -4,12 +4,14 @@ Sources: S4 reference, pages clock, ClkStart to ClkRead, CDate, CTime, GetTime [
 of GetSysInfo's texts is remembered only [mem].
 """
 
+from collections.abc import Callable
+
 from rapidgen.machine.calendar import date_time
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import register_type
+from rapidgen.runtime.values import Value, register_type
 
 _MS = 1_000_000
 _US = 1_000
@@ -67,18 +69,6 @@ def clk_read(task: Task, clock: StopWatch, high_resolution: bool | None) -> floa
     return single(clock.read(task.scheduler.now) // step * step / _S)
 
 
-@builtin("CDate", cost="string")
-def c_date(task: Task) -> str:
-    """Date as 1998-01-29."""
-    return f"{date_time(task.scheduler):%Y-%m-%d}"
-
-
-@builtin("CTime", cost="string")
-def c_time(task: Task) -> str:
-    """Time of day as 18:20:46."""
-    return f"{date_time(task.scheduler):%H:%M:%S}"
-
-
 @builtin("GetTime")
 def get_time(
     task: Task, weekday: bool | None, hour: bool | None, minute: bool | None, second: bool | None
@@ -94,3 +84,10 @@ def get_time(
     if second:
         return now.second
     raise FatalError(40_661, "GetTime needs a part", "one of \\WDay, \\Hour, \\Min and \\Sec")
+
+
+_SHOWN: dict[str, Callable[..., Value]] = {
+    "CDate": lambda task: f"{date_time(task.scheduler):%Y-%m-%d}",
+    "CTime": lambda task: f"{date_time(task.scheduler):%H:%M:%S}",
+}
+builtins(_SHOWN, cost="string")

@@ -1,11 +1,13 @@
 """Program control, errors, waiting [K §7, 11; S4 datasys]."""
 
+from collections.abc import Callable
+
 from rapidgen.runtime.compiler.runtime import Condition
 from rapidgen.runtime.errors import FIRST_BOOKED_ERROR, ExitCycle, FatalError, RapidError
-from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.task.errors import RETRIES
+from rapidgen.runtime.registry import builtin, builtins
+from rapidgen.runtime.task.errors import RETRIES, Errors
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, Type
+from rapidgen.runtime.values import Ref, Value
 
 POLL_RATE = 0.1
 """Seconds between two looks of WaitUntil [S4 datasys 2-WaitUntil-1]."""
@@ -16,12 +18,6 @@ LONGEST_WAIT = 9_999_999
 def stop(task: Task, no_regain: bool | None, all_move_tasks: bool | None) -> None:
     """Stop: the movement in progress ends first, then the program stands [S4 2-Stop-1]."""
     wait_standing(task)
-    task.stop_here()
-
-
-@builtin("Break")
-def break_(task: Task) -> None:
-    """Break: stops at once, not waiting for the movement [S4 2-Break-1]."""
     task.stop_here()
 
 
@@ -66,12 +62,6 @@ def reset_retry_count(task: Task) -> None:
     task.errors.retry_base = task.errors.retry_number
 
 
-@builtin("RemainingRetries")
-def remaining_retries(task: Task) -> int:
-    """RemainingRetries: of the statement whose error is being handled."""
-    return RETRIES - (task.errors.retry_number - task.errors.retry_base)
-
-
 @builtin("RaiseToUser")
 def raise_to_user(
     task: Task, go_on: bool | None, break_off: bool | None, number: float | None
@@ -101,36 +91,6 @@ def call_by_var(task: Task, name: str, number: float) -> None:
     if number != int(number) or number < 0:
         raise RapidError("ERR_ARGVALERR")
     task.late(f"{name}{int(number)}", None, ())
-
-
-@builtin("EventType")
-def event_type(task: Task) -> int:
-    """EventType: which event routine is being executed."""
-    names = ("", "POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP")
-    event = task.events.running
-    return names.index(event) if event in names else 0
-
-
-@builtin("ExecLevel")
-def exec_level(task: Task) -> int:
-    """ExecLevel: 0 normal, 1 trap, 2 event routine."""
-    if task.events.running:
-        return 2
-    return int(task.in_trap)
-
-
-@builtin("ExecHandler")
-def exec_handler(task: Task) -> int:
-    """ExecHandler: 2 inside an ERROR handler, 3 inside UNDO, else 0."""
-    if task.errors.undo_level:
-        return 3
-    return 2 if task.errors.handler_level else 0
-
-
-@builtin("IsStopStateEvent")
-def is_stop_state_event(task: Task, pp_moved: bool | None, pp_to_main: bool | None) -> bool:
-    """IsStopStateEvent: whether PP was moved; here only a RESET event says so."""
-    return task.events.running == "RESET"
 
 
 # -- waiting -------------------------------------------------------------------------------------
@@ -210,11 +170,27 @@ def wait_test_and_set(task: Task, flag: Ref) -> None:
     flag.set(True)
 
 
-# -- data ----------------------------------------------------------------------------------------
+_EVENTS = ("", "POWER_ON", "START", "STOP", "QSTOP", "RESTART", "RESET", "STEP")
 
 
-@builtin("Type")
-def type_(task: Task, data: Ref, base_name: bool | None) -> str:
-    """Type: name of a datum's type; aliases are told by their base here."""
-    kind: Type = data.type
-    return kind.name
+def _event(task: Task) -> int:
+    event = task.events.running
+    return _EVENTS.index(event) if event in _EVENTS else 0
+
+
+def _handler(errors: Errors) -> int:
+    return 3 if errors.undo_level else 2 if errors.handler_level else 0
+
+
+_TOLD: dict[str, Callable[..., Value]] = {
+    "Break": lambda task: task.stop_here(),  # not waiting for the movement [S4 2-Break-1]
+    "RemainingRetries": lambda task: RETRIES - (task.errors.retry_number - task.errors.retry_base),
+    "EventType": _event,
+    "ExecLevel": lambda task: 2 if task.events.running else int(task.in_trap),
+    "ExecHandler": lambda task: _handler(task.errors),
+    # Whether PP was moved: here only a RESET event says so.
+    "IsStopStateEvent": lambda task, _moved, _to_main: task.events.running == "RESET",
+    # Aliases are told by their base.
+    "Type": lambda _task, data, _base_name: data.type.name,
+}
+builtins(_TOLD)

@@ -20,7 +20,7 @@ from rapidgen.runtime.builtins.operator import appended
 from rapidgen.runtime.disks import file_path, hold, spend
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import NotALiteral, parse_value
 from rapidgen.runtime.values import NUM, Record, Ref, Type, Value, dimensions
@@ -85,18 +85,6 @@ def close_file(task: Task, device: IODevice) -> None:
     _stamp(task, device.path, written=was_written)
 
 
-@builtin("Rewind", cost="socket")
-def rewind(_task: Task, device: IODevice) -> None:
-    """Back to the first byte."""
-    _opened(device).seek(0)
-
-
-@builtin("ClearIOBuff", cost="socket")
-def clear_io_buff(_task: Task, device: IODevice) -> None:
-    """Drop what a serial line has received: a file has nothing to drop."""
-    _opened(device)
-
-
 def _stamp(task: Task, path: Path, *, written: bool) -> None:
     """Give a written file the controller's own time."""
     if written and task.scheduler.clock == "virtual" and path.exists():
@@ -157,12 +145,6 @@ def write_bin(task: Task, device: IODevice, buffer: dict[int, float], count: flo
         raise RapidError("ERR_ARGVALERR", f"{number} of {len(buffer)} elements")
     data = bytes(byte_value(buffer[i]) for i in range(1, number + 1))
     _put(task, device, data, binary=True)
-
-
-@builtin("WriteStrBin", cost="socket")
-def write_str_bin(task: Task, device: IODevice, text: str) -> None:
-    """Write a string's bytes, nothing else."""
-    _put(task, device, text.encode("latin-1"), binary=True)
 
 
 @builtin("WriteRawBytes", cost="socket")
@@ -298,13 +280,6 @@ def read_num(_task: Task, device: IODevice, delimiters: str | None, _time: float
     return number
 
 
-@builtin("ReadBin", cost="socket")
-def read_bin(_task: Task, device: IODevice, _time: float | None) -> int:
-    """The next byte, or -1 at the end."""
-    byte = _reader(device, binary=True).read(1)
-    return byte[0] if byte else _EOF_BIN
-
-
 @builtin("ReadStrBin", cost="socket")
 def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | None) -> str:
     """The next so many bytes as a string, or the string EOF."""
@@ -315,19 +290,7 @@ def read_str_bin(_task: Task, device: IODevice, count: float, _time: float | Non
     return data.decode("latin-1") if data or not number else _EOF_TEXT
 
 
-@builtin("ReadRawBytes", cost="socket")
-def read_raw_bytes(_task: Task, device: IODevice, raw: RawBytes, _time: float | None) -> None:
-    """The next bytes, at most 1024; none at the end."""
-    raw.data[:] = _reader(device, binary=True).read(CAPACITY)
-
-
 # -- the disk -----------------------------------------------------------------------------------
-
-
-@builtin("MakeDir", cost="socket")
-def make_dir(task: Task, path: str) -> None:
-    """Make a folder."""
-    _disk(file_path(task, path).mkdir, path)
 
 
 @builtin("RemoveDir", cost="socket")
@@ -337,12 +300,6 @@ def remove_dir(task: Task, path: str) -> None:
     if place.parent == task.controller.files.folder:
         raise RapidError("ERR_FILEACC", f"{path} is a disk")
     _disk(place.rmdir, path)
-
-
-@builtin("RemoveFile", cost="socket")
-def remove_file(task: Task, path: str) -> None:
-    """Remove a file."""
-    _disk(file_path(task, path).unlink, path)
 
 
 @builtin("RenameFile", cost="socket")
@@ -400,12 +357,6 @@ def is_file(
     if fifo or block or char:
         return False
     return place.exists()
-
-
-@builtin("FileSize", cost="socket")
-def file_size(task: Task, path: str) -> float:
-    """Bytes of a file; ERR_FILEACC when there is none."""
-    return single(_status(task, path).st_size)
 
 
 @builtin("FSSize", cost="socket")
@@ -478,7 +429,25 @@ def read_dir(_task: Task, device: Directory, name: Ref) -> bool:
     return True
 
 
-@builtin("CloseDir", cost="socket")
-def close_dir(task: Task, device: Directory) -> None:
-    """End reading a folder."""
-    task.controller.files.release(device)
+def _next_byte(device: IODevice) -> int:
+    byte = _reader(device, binary=True).read(1)
+    return byte[0] if byte else _EOF_BIN
+
+
+def _refill(raw: RawBytes, device: IODevice) -> None:
+    raw.data[:] = _reader(device, binary=True).read(CAPACITY)
+
+
+# What a serial line has received is dropped by ClearIOBuff: a file has nothing to drop.
+_FILES: dict[str, Callable[..., Value]] = {
+    "Rewind": lambda _, device: _opened(device).seek(0),
+    "ClearIOBuff": lambda _, device: _opened(device),
+    "WriteStrBin": lambda t, device, text: _put(t, device, text.encode("latin-1"), binary=True),
+    "ReadBin": lambda _, device, _time: _next_byte(device),
+    "ReadRawBytes": lambda _, device, raw, _time: _refill(raw, device),
+    "MakeDir": lambda task, path: _disk(file_path(task, path).mkdir, path),
+    "RemoveFile": lambda task, path: _disk(file_path(task, path).unlink, path),
+    "FileSize": lambda task, path: single(_status(task, path).st_size),
+    "CloseDir": lambda task, device: task.controller.files.release(device),
+}
+builtins(_FILES, cost="socket")

@@ -9,10 +9,10 @@ from collections.abc import Callable
 from rapidgen.machine.io import Signal
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.signals import AnySignal, SignalAlias
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 _TIMES = {"irc5": (0.001, 2000.0), "s4": (0.1, 32.0)}
 _DEFAULT_PULSE = 0.2
@@ -68,16 +68,11 @@ def set_do(
     task.controller.io.set(_writable(signal), dionum(task, value), delay=_delay(task, delay))
 
 
-@builtin("Set")
-def set_high(task: Task, signal: AnySignal) -> None:
-    """Set a digital output to 1."""
-    task.controller.io.set(_writable(signal), 1)
-
-
-@builtin("Reset")
-def set_low(task: Task, signal: AnySignal) -> None:
-    """Set a digital output to 0."""
-    task.controller.io.set(_writable(signal), 0)
+_WRITING: dict[str, Callable[..., Value]] = {
+    "Set": lambda task, signal: task.controller.io.set(_writable(signal), 1),
+    "Reset": lambda task, signal: task.controller.io.set(_writable(signal), 0),
+}
+builtins(_WRITING)
 
 
 @builtin("InvertDO")
@@ -123,32 +118,15 @@ def set_go(
 # -- reading ------------------------------------------------------------------------------------
 
 
-def _reader(name: str) -> None:
-    @builtin(name)
-    def read(_task: Task, signal: AnySignal) -> float:
-        return single(signal.value)
-
-
+_READING: dict[str, Callable[..., Value]] = {
+    "TestDI": lambda _, signal: signal.value == 1,
+    "GOutputDnum": lambda _, signal: signal.value,
+    "GInputDnum": lambda _, signal: signal.value,
+    "ValidIO": lambda _, signal: isinstance(signal, Signal) or signal.target is not None,
+}
+builtins(_READING)
 for _name in ("DOutput", "DInput", "AOutput", "AInput", "GOutput", "GInput"):
-    _reader(_name)
-
-
-@builtin("GOutputDnum")
-def g_output_dnum(_task: Task, signal: AnySignal) -> float:
-    """A group of outputs, exactly."""
-    return signal.value
-
-
-@builtin("GInputDnum")
-def g_input_dnum(_task: Task, signal: AnySignal) -> float:
-    """A group of inputs, exactly."""
-    return signal.value
-
-
-@builtin("TestDI")
-def input_is_high(_task: Task, signal: AnySignal) -> bool:
-    """Whether an input is 1."""
-    return signal.value == 1
+    builtin(_name)(lambda _task, signal: single(signal.value))
 
 
 # -- aliases ------------------------------------------------------------------------------------
@@ -175,12 +153,6 @@ def alias_io_reset(_task: Task, target: SignalAlias) -> None:
     """Take the connection of an alias away."""
     if isinstance(target, SignalAlias):
         target.target = None
-
-
-@builtin("ValidIO")
-def valid_io(_task: Task, signal: AnySignal) -> bool:
-    """Whether a signal can be used: an alias that is connected, any signal of the configuration."""
-    return isinstance(signal, Signal) or signal.target is not None
 
 
 # -- waiting ------------------------------------------------------------------------------------

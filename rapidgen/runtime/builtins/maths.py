@@ -6,13 +6,13 @@ Sources: the S4 reference's page of each name [manual]; argument errors: switch 
 import math
 from collections.abc import Callable
 
+from rapidgen.rapid.number_text import to_places
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import whole
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.text import to_places
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 _LARGEST_NUM_INTEGER = 8_388_608
 _SMALLEST_NUM_INTEGER = -8_388_607
@@ -20,26 +20,14 @@ _SMALLEST_NUM_INTEGER = -8_388_607
 
 def _one(name: str, function: Callable[[float], float]) -> None:
     """Bind a function of one number, as num and as dnum."""
-
-    @builtin(name, pure=True)
-    def of_num(_task: Task, value: float) -> float:
-        return single(function(value))
-
-    @builtin(name + "Dnum", pure=True)
-    def of_dnum(_task: Task, value: float) -> float:
-        return function(value)
+    builtin(name, pure=True)(lambda _task, value: single(function(value)))
+    builtin(name + "Dnum", pure=True)(lambda _task, value: function(value))
 
 
 def _two(name: str, function: Callable[[float, float], float]) -> None:
     """Bind a function of two numbers, as num and as dnum."""
-
-    @builtin(name, pure=True)
-    def of_num(_task: Task, one: float, two: float) -> float:
-        return single(function(one, two))
-
-    @builtin(name + "Dnum", pure=True)
-    def of_dnum(_task: Task, one: float, two: float) -> float:
-        return function(one, two)
+    builtin(name, pure=True)(lambda _task, one, two: single(function(one, two)))
+    builtin(name + "Dnum", pure=True)(lambda _task, one, two: function(one, two))
 
 
 def _square_root(value: float) -> float:
@@ -60,6 +48,15 @@ def _within_one(value: float) -> float:
     return value
 
 
+def _rounded(value: float, decimals: float | None, *, truncate: bool = False) -> float:
+    """To so many decimals (0), half away from zero, or cut towards zero."""
+    places = 0 if decimals is None else whole(decimals, "ERR_ARGVALERR")
+    if not 0 <= places <= 15:
+        raise RapidError("ERR_ARGVALERR", f"\\Dec:={places}")
+    number = to_places(value, places, truncate=truncate)
+    return int(number) if places == 0 else float(number)
+
+
 _one("Abs", abs)
 _one("Sqrt", _square_root)
 _two("Pow", _power)
@@ -70,56 +67,8 @@ _one("ASin", lambda value: math.degrees(math.asin(_within_one(value))))
 _one("ACos", lambda value: math.degrees(math.acos(_within_one(value))))
 _one("ATan", lambda value: math.degrees(math.atan(value)))
 _two("ATan2", lambda y, x: math.degrees(math.atan2(y, x)))
-
-
-@builtin("Exp", pure=True)
-def exp(_task: Task, exponent: float) -> float:
-    """e to the power of `exponent`."""
-    return single(math.exp(exponent))
-
-
-@builtin("Max", pure=True)
-def largest(_task: Task, one: float, two: float) -> float:
-    """The larger of two."""
-    return max(one, two)
-
-
-@builtin("Min", pure=True)
-def smallest(_task: Task, one: float, two: float) -> float:
-    """The smaller of two."""
-    return min(one, two)
-
-
-def _rounded(value: float, decimals: float | None, *, truncate: bool = False) -> float:
-    places = 0 if decimals is None else whole(decimals, "ERR_ARGVALERR")
-    if not 0 <= places <= 15:
-        raise RapidError("ERR_ARGVALERR", f"\\Dec:={places}")
-    number = to_places(value, places, truncate=truncate)
-    return int(number) if places == 0 else float(number)
-
-
-@builtin("Round", pure=True)
-def round_num(_task: Task, value: float, decimals: float | None) -> float:
-    """Rounded half away from zero."""
-    return single(_rounded(value, decimals))
-
-
-@builtin("Trunc", pure=True)
-def trunc_num(_task: Task, value: float, decimals: float | None) -> float:
-    """Cut towards zero."""
-    return single(_rounded(value, decimals, truncate=True))
-
-
-@builtin("RoundDnum", pure=True)
-def round_dnum(_task: Task, value: float, decimals: float | None) -> float:
-    """Rounded half away from zero."""
-    return _rounded(value, decimals)
-
-
-@builtin("TruncDnum", pure=True)
-def trunc_dnum(_task: Task, value: float, decimals: float | None) -> float:
-    """Cut towards zero."""
-    return _rounded(value, decimals, truncate=True)
+_two("Round", _rounded)
+_two("Trunc", lambda value, decimals: _rounded(value, decimals, truncate=True))
 
 
 def _target(num: Ref | None, dnum: Ref | None) -> Ref:
@@ -128,18 +77,8 @@ def _target(num: Ref | None, dnum: Ref | None) -> Ref:
     return target
 
 
-@builtin("Incr")
-def incr(_task: Task, num: Ref | None, dnum: Ref | None) -> None:
-    """Add 1."""
-    target = _target(num, dnum)
-    target.set(target.get() + 1)
-
-
-@builtin("Decr")
-def decr(_task: Task, num: Ref | None, dnum: Ref | None) -> None:
-    """Take 1 away."""
-    target = _target(num, dnum)
-    target.set(target.get() - 1)
+def _increase(target: Ref, amount: float) -> None:
+    target.set(target.get() + amount)
 
 
 @builtin("Add")
@@ -154,13 +93,7 @@ def add(
     target = _target(num, dnum)
     amount = value if value is not None else dnum_value
     assert amount is not None
-    target.set(target.get() + amount)
-
-
-@builtin("Clear")
-def clear(_task: Task, num: Ref | None, dnum: Ref | None) -> None:
-    """Set to 0."""
-    _target(num, dnum).set(0)
+    _increase(target, amount)
 
 
 @builtin("TryInt", pure=True)
@@ -169,12 +102,6 @@ def try_int(_task: Task, num: float | None, dnum: float | None) -> None:
     value = num if num is not None else dnum
     assert value is not None
     whole(value, "ERR_INT_NOTVAL")
-
-
-@builtin("NumToDnum", pure=True)
-def num_to_dnum(_task: Task, value: float) -> float:
-    """The same value as a dnum, exactly."""
-    return single(value)
 
 
 @builtin("DnumToNum", pure=True)
@@ -189,3 +116,19 @@ def dnum_to_num(_task: Task, value: float, integer: bool | None) -> float:
         return single(value)
     except OverflowError as error:
         raise RapidError("ERR_ARGVALERR", f"{value:g} does not fit a num") from error
+
+
+# Num or dnum, whichever is given.
+_COUNTING: dict[str, Callable[..., Value]] = {
+    "Incr": lambda _, num, dnum: _increase(_target(num, dnum), 1),
+    "Decr": lambda _, num, dnum: _increase(_target(num, dnum), -1),
+    "Clear": lambda _, num, dnum: _target(num, dnum).set(0),
+}
+builtins(_COUNTING)
+_PURE: dict[str, Callable[..., Value]] = {
+    "Exp": lambda _, exponent: single(math.exp(exponent)),
+    "Max": lambda _, one, two: max(one, two),
+    "Min": lambda _, one, two: min(one, two),
+    "NumToDnum": lambda _, value: single(value),
+}
+builtins(_PURE, pure=True)

@@ -10,12 +10,13 @@ from dataclasses import dataclass
 
 from rapidgen.machine.log import EventType
 from rapidgen.machine.scheduler import WaitSet
+from rapidgen.rapid.number_text import DNUM_DIGITS, number_text
 from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import RapidError, errnum
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.text import DNUM_DIGITS, number_text, value_text
+from rapidgen.runtime.text import value_text
 from rapidgen.runtime.values import Ref, Value
 
 _RESULTS = {

@@ -19,9 +19,9 @@ from rapidgen.runtime.rawbytes import (
     integer_from,
     whole,
 )
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value
 
 DNUM_BITS = 52
 _MASK = (1 << DNUM_BITS) - 1
@@ -147,12 +147,6 @@ def copy_raw_bytes(
         target.put(place, data)
 
 
-@builtin("RawBytesLen", cost="string")
-def raw_bytes_len(_task: Task, raw: RawBytes) -> int:
-    """Valid length."""
-    return len(raw.data)
-
-
 # -- bits -----------------------------------------------------------------------------------
 
 
@@ -172,71 +166,6 @@ def _lowest(size: float | None) -> int:
     return _MASK if size is None else (1 << _steps(size, DNUM_BITS, 1)) - 1
 
 
-def _two(name: str, function: Callable[[int, int], int]) -> None:
-    @builtin(name, cost="string", pure=True)
-    def of_bytes(_task: Task, one: float, two: float) -> int:
-        return function(byte_value(one), byte_value(two))
-
-    @builtin(name + "Dnum", cost="string", pure=True)
-    def of_dnums(_task: Task, one: float, two: float) -> int:
-        return function(_bits(one), _bits(two))
-
-
-_two("BitAnd", lambda a, b: a & b)
-_two("BitOr", lambda a, b: a | b)
-_two("BitXOr", lambda a, b: a ^ b)
-
-
-@builtin("BitNeg", cost="string", pure=True)
-def bit_neg(_task: Task, data: float) -> int:
-    """Every bit of a byte inverted."""
-    return byte_value(data) ^ 0xFF
-
-
-@builtin("BitNegDnum", cost="string", pure=True)
-def bit_neg_dnum(_task: Task, data: float, size: float | None) -> int:
-    """Every one of 52 bits, or of the lowest \\Size, inverted."""
-    mask = _lowest(size)
-    return _steps(data, mask) ^ mask
-
-
-@builtin("BitLSh", cost="string", pure=True)
-def bit_lsh(_task: Task, data: float, steps: float) -> int:
-    """A byte shifted left; bits fall out at the top."""
-    return byte_value(data) << _steps(steps, 8, 1) & 0xFF
-
-
-@builtin("BitRSh", cost="string", pure=True)
-def bit_rsh(_task: Task, data: float, steps: float) -> int:
-    """A byte shifted right."""
-    return byte_value(data) >> _steps(steps, 8, 1)
-
-
-@builtin("BitLShDnum", cost="string", pure=True)
-def bit_lsh_dnum(_task: Task, data: float, steps: float, size: float | None) -> int:
-    """52 bits, or the lowest \\Size, shifted left."""
-    mask = _lowest(size)
-    return _steps(data, mask) << _steps(steps, mask.bit_length(), 1) & mask
-
-
-@builtin("BitRShDnum", cost="string", pure=True)
-def bit_rsh_dnum(_task: Task, data: float, steps: float) -> int:
-    """52 bits shifted right."""
-    return _bits(data) >> _steps(steps, DNUM_BITS, 1)
-
-
-@builtin("BitCheck", cost="string", pure=True)
-def bit_check(_task: Task, data: float, position: float) -> bool:
-    """Whether the bit at `position` (1 = least significant) is set."""
-    return bool(byte_value(data) >> _steps(position, 8, 1) - 1 & 1)
-
-
-@builtin("BitCheckDnum", cost="string", pure=True)
-def bit_check_dnum(_task: Task, data: float, position: float) -> bool:
-    """Whether the bit at `position`, 1 to 52, is set."""
-    return bool(_bits(data) >> _steps(position, DNUM_BITS, 1) - 1 & 1)
-
-
 def _change(data: Ref | None, dnum: Ref | None, position: float, value: int) -> None:
     target = data if data is not None else dnum
     assert target is not None
@@ -248,13 +177,36 @@ def _change(data: Ref | None, dnum: Ref | None, position: float, value: int) -> 
     target.set(bits | mask if value else bits & ~mask)
 
 
-@builtin("BitSet", cost="string")
-def bit_set(_task: Task, data: Ref | None, dnum: Ref | None, position: float) -> None:
-    """Set one bit of a byte or a dnum."""
-    _change(data, dnum, position, 1)
+def _shifted(value: float, steps: float, size: float | None) -> int:
+    mask = _lowest(size)
+    return _steps(value, mask) << _steps(steps, mask.bit_length(), 1) & mask
 
 
-@builtin("BitClear", cost="string")
-def bit_clear(_task: Task, data: Ref | None, dnum: Ref | None, position: float) -> None:
-    """Clear one bit of a byte or a dnum."""
-    _change(data, dnum, position, 0)
+def _is_set(bits: int, position: float, last: int) -> bool:
+    return bool(bits >> _steps(position, last, 1) - 1 & 1)
+
+
+_CHANGING: dict[str, Callable[..., Value]] = {
+    "BitSet": lambda _, data, dnum, position: _change(data, dnum, position, 1),
+    "BitClear": lambda _, data, dnum, position: _change(data, dnum, position, 0),
+    "RawBytesLen": lambda _, raw: len(raw.data),
+}
+# Of bytes, and of the 52 bits (or the lowest \\Size) of a dnum; position 1 is the lowest bit.
+_PURE: dict[str, Callable[..., Value]] = {
+    "BitAnd": lambda _, one, two: byte_value(one) & byte_value(two),
+    "BitAndDnum": lambda _, one, two: _bits(one) & _bits(two),
+    "BitOr": lambda _, one, two: byte_value(one) | byte_value(two),
+    "BitOrDnum": lambda _, one, two: _bits(one) | _bits(two),
+    "BitXOr": lambda _, one, two: byte_value(one) ^ byte_value(two),
+    "BitXOrDnum": lambda _, one, two: _bits(one) ^ _bits(two),
+    "BitNeg": lambda _, data: byte_value(data) ^ 0xFF,
+    "BitNegDnum": lambda _, data, size: _steps(data, _lowest(size)) ^ _lowest(size),
+    "BitLSh": lambda _, data, steps: byte_value(data) << _steps(steps, 8, 1) & 0xFF,
+    "BitLShDnum": lambda _, data, steps, size: _shifted(data, steps, size),
+    "BitRSh": lambda _, data, steps: byte_value(data) >> _steps(steps, 8, 1),
+    "BitRShDnum": lambda _, data, steps: _bits(data) >> _steps(steps, DNUM_BITS, 1),
+    "BitCheck": lambda _, data, position: _is_set(byte_value(data), position, 8),
+    "BitCheckDnum": lambda _, data, position: _is_set(_bits(data), position, DNUM_BITS),
+}
+builtins(_CHANGING, cost="string")
+builtins(_PURE, cost="string", pure=True)

@@ -6,23 +6,27 @@ finds no room for 60 s raises ERR_SOCK_TIMEOUT. Open questions are dialect switc
 `refused_connect`, `failed_connect`, `receive_timeout`, `send_attends`, `sockets_limited`.
 """
 
+from collections.abc import Callable
+
 from rapidgen.machine.network.interface import (
     BUFFER,
     Endpoint,
     NetworkFault,
     NetworkReason,
 )
+from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
 from rapidgen.rapid.numbers import MAX_STRING
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import CAPACITY, RawBytes, byte_value, whole
-from rapidgen.runtime.registry import builtin
-from rapidgen.runtime.sockets import SocketDevice, SocketStatus
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref
+from rapidgen.runtime.values import Ref, Value, register_type
 
 DEFAULT_TIME = 60.0
 WAIT_MAX = 9_999_999
 """A \\Time of this or more waits for ever."""
+
+register_type("socketdev", SocketDevice)
 
 _REFUSED = {
     "timeout": "ERR_SOCK_TIMEOUT",
@@ -198,18 +202,6 @@ def socket_connect(
         if again and socket.status is SocketStatus.CREATED and socket.endpoint is not None:
             network.close(socket.endpoint, abort=True)
             socket.endpoint = None
-
-
-@builtin("SocketClose", cost="socket")
-def socket_close(task: Task, socket: SocketDevice) -> None:
-    """Close; no error when it is closed already."""
-    task.controller.sockets.release(socket)
-
-
-@builtin("SocketGetStatus", cost="socket")
-def socket_get_status(_task: Task, socket: SocketDevice) -> int:
-    """The program's own view: a peer that vanished still shows as connected."""
-    return int(socket.status)
 
 
 # -- data ---------------------------------------------------------------------------------------
@@ -427,3 +419,11 @@ def socket_receive_from(
     sender = endpoint.sender or ("", 0)
     address.set(sender[0])
     port.set(sender[1])
+
+
+# SocketGetStatus is the program's own view: a peer that vanished still shows as connected.
+_PLAIN: dict[str, Callable[..., Value]] = {
+    "SocketClose": lambda task, socket: task.controller.sockets.release(socket),
+    "SocketGetStatus": lambda _task, socket: int(socket.status),
+}
+builtins(_PLAIN, cost="socket")

@@ -4,24 +4,26 @@ Sources: the S4 reference's page of each name for the edges (positions from 1, a
 outside is an error); which error that is: switch `argument_error`.
 """
 
+from collections.abc import Callable
+from operator import add, eq, floordiv, ge, gt, le, lt, mod, mul, ne, sub
+
+from rapidgen.rapid.number_text import exponent_text, fixed_text
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import byte_value, whole
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import (
     NotALiteral,
-    exponent_text,
-    fixed_text,
     limited,
     parse_value,
     value_text,
 )
+from rapidgen.runtime.values import Value
 
 _LARGEST_STRDIG = 4_294_967_295
 _LARGEST_DECIMAL = 9_223_372_036_854_775_807
-_OPERATORS = {1: "<", 2: "<=", 3: "=", 4: "<>", 5: ">=", 6: ">"}
 
 
 def _place(text: str, position: float) -> int:
@@ -35,12 +37,6 @@ def _search_place(task: Task, text: str, position: float) -> int:
     """Where a search begins; see `Switches.find_behind`."""
     behind = task.controller.dialect.find_behind == "none" and position == len(text) + 1
     return len(text) + 1 if behind else _place(text, position)
-
-
-@builtin("StrLen", cost="string", pure=True)
-def str_len(_task: Task, text: str) -> int:
-    """Number of characters."""
-    return len(text)
 
 
 @builtin("StrPart", cost="string", pure=True)
@@ -75,12 +71,6 @@ def str_map(_task: Task, text: str, source: str, target: str) -> str:
     if len(source) != len(target):
         raise RapidError("ERR_ARGVALERR", "FromMap and ToMap differ in length")
     return text.translate(str.maketrans(source, target))
-
-
-@builtin("StrMemb", cost="string", pure=True)
-def str_memb(_task: Task, text: str, position: float, set_: str) -> bool:
-    """Whether the character at a position is in the set."""
-    return text[_place(text, position) - 1] in set_
 
 
 @builtin("StrOrder", cost="string", pure=True)
@@ -128,32 +118,6 @@ def _decimals(decimals: float) -> int:
     if not 0 <= places <= 15:
         raise RapidError("ERR_ARGVALERR", f"{places} decimals")
     return places
-
-
-@builtin("NumToStr", cost="string", pure=True)
-def num_to_str(_task: Task, value: float, decimals: float, exponent: bool | None) -> str:
-    """A number with so many decimals, rounded half away from zero."""
-    write = exponent_text if exponent else fixed_text
-    return limited(write(single(value), _decimals(decimals)))
-
-
-@builtin("DnumToStr", cost="string", pure=True)
-def dnum_to_str(_task: Task, value: float, decimals: float, exponent: bool | None) -> str:
-    """As NumToStr, of a dnum."""
-    write = exponent_text if exponent else fixed_text
-    return limited(write(value, _decimals(decimals)))
-
-
-@builtin("DecToHex", cost="string", pure=True)
-def dec_to_hex(_task: Task, text: str) -> str:
-    """Decimal digits to hexadecimal ones, up to 9223372036854775807 [manual]."""
-    return f"{_integer(text, 10):X}"
-
-
-@builtin("HexToDec", cost="string", pure=True)
-def hex_to_dec(_task: Task, text: str) -> str:
-    """Hexadecimal digits to decimal ones, up to 7FFFFFFFFFFFFFFF [manual]."""
-    return str(_integer(text, 16))
 
 
 def _integer(text: str, base: int, largest: int = _LARGEST_DECIMAL) -> int:
@@ -218,47 +182,56 @@ def _digits(text: str) -> int:
     return _integer(text, 10, _LARGEST_STRDIG)
 
 
+_RELATIONS: dict[int, Callable[[int, int], bool]] = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
+"""opnum"""
+_CALCULATIONS: dict[float, Callable[[int, int], int]] = {
+    1: add,
+    2: sub,
+    3: mul,
+    4: floordiv,
+    5: mod,
+}
+"""opcalc: OpAdd, OpSub, OpMult, OpDiv, OpMod"""
+
+
 @builtin("StrDigCmp", cost="string", pure=True)
 def str_dig_cmp(_task: Task, one: str, relation: float, two: str) -> bool:
     """Compare two whole numbers held as digits."""
     a, b = _digits(one), _digits(two)
-    match _OPERATORS.get(int(relation)):
-        case "<":
-            return a < b
-        case "<=":
-            return a <= b
-        case "=":
-            return a == b
-        case "<>":
-            return a != b
-        case ">=":
-            return a >= b
-        case ">":
-            return a > b
-    raise RapidError("ERR_ARGVALERR", f"{relation:g} is no opnum")
+    if int(relation) not in _RELATIONS:
+        raise RapidError("ERR_ARGVALERR", f"{relation:g} is no opnum")
+    return _RELATIONS[int(relation)](a, b)
 
 
 @builtin("StrDigCalc", cost="string", pure=True)
 def str_dig_calc(_task: Task, one: str, operation: float, two: str) -> str:
-    """Calculate with whole numbers held as digits: OpAdd 1, OpSub 2, OpMult 3, OpDiv 4, OpMod 5."""
+    """Calculate with whole numbers held as digits."""
     a, b = _digits(one), _digits(two)
-    if operation in (4, 5) and b == 0:
-        raise RapidError("ERR_CALC_DIVZERO")
-    match operation:
-        case 1:
-            result = a + b
-        case 2:
-            result = a - b
-        case 3:
-            result = a * b
-        case 4:
-            result = a // b
-        case 5:
-            result = a % b
-        case _:
-            raise RapidError("ERR_ARGVALERR", f"{operation:g} is no opcalc")
+    if operation not in _CALCULATIONS:
+        raise RapidError("ERR_ARGVALERR", f"{operation:g} is no opcalc")
+    try:
+        result = _CALCULATIONS[operation](a, b)
+    except ZeroDivisionError as error:
+        raise RapidError("ERR_CALC_DIVZERO") from error
     if result < 0:
         raise RapidError("ERR_CALC_NEG")
     if result > _LARGEST_STRDIG:
         raise RapidError("ERR_CALC_OVERFLOW")
     return str(result)
+
+
+def _number(value: float, decimals: float, exponent: bool | None) -> str:
+    """A number with so many decimals, rounded half away from zero."""
+    return limited((exponent_text if exponent else fixed_text)(value, _decimals(decimals)))
+
+
+# Hexadecimal digits are those of up to 7FFFFFFFFFFFFFFF [manual].
+_PURE: dict[str, Callable[..., Value]] = {
+    "StrLen": lambda _, text: len(text),
+    "StrMemb": lambda _, text, position, set_: text[_place(text, position) - 1] in set_,
+    "NumToStr": lambda _, value, *form: _number(single(value), *form),
+    "DnumToStr": lambda _, value, *form: _number(value, *form),
+    "DecToHex": lambda _, text: f"{_integer(text, 10):X}",
+    "HexToDec": lambda _, text: str(_integer(text, 16)),
+}
+builtins(_PURE, cost="string", pure=True)

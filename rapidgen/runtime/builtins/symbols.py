@@ -14,8 +14,7 @@ from rapidgen.runtime.anytype import target_of
 from rapidgen.runtime.builtins.modules import task_named
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.builtins.motion.arguments import frame
-from rapidgen.runtime.compiler.linking import LoadedModule
-from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.runtime.compiler.symbols import Data, LoadedModule
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task

@@ -4,13 +4,16 @@ Sources: [K §15] for text tables; GetSysInfo's switches by 3HAC16581-1, the for
 remembered only [mem].
 """
 
+from collections.abc import Callable
+
 from rapidgen.config.model import GroupConfig
 from rapidgen.runtime.disks import file_path
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import whole
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.text import limited
+from rapidgen.runtime.values import Value
 
 _SERIAL = "00-00000"
 
@@ -53,24 +56,6 @@ def get_sys_info(
     raise FatalError(40_662, "GetSysInfo needs a part", "such as \\LanIp")
 
 
-@builtin("IsSysId", cost="string")
-def is_sys_id(_task: Task, identity: str) -> bool:
-    """Whether this is the controller's serial number."""
-    return identity == _SERIAL
-
-
-@builtin("GetServiceInfo", cost="string")
-def get_service_info(task: Task, _unit: object, _duty_time: bool | None) -> str:
-    """Hours that the mechanical unit has been in use."""
-    return str(task.scheduler.now // 3_600_000_000_000)
-
-
-@builtin("RobOS")
-def rob_os(_task: Task) -> bool:
-    """Whether this is a real controller: it is a virtual one."""
-    return False
-
-
 # -- text tables ----------------------------------------------------------------------------
 
 
@@ -83,12 +68,6 @@ def text_tab_install(task: Task, file: str) -> None:
         raise RapidError("ERR_FILEOPEN", f"{file}: {error.strerror}") from error
     except ValueError as error:
         raise FatalError(40_663, "Text table not installed", file, str(error)) from error
-
-
-@builtin("TextTabFreeToUse", cost="string")
-def text_tab_free_to_use(task: Task, name: str) -> bool:
-    """Whether a table's name is not taken yet."""
-    return task.controller.texts.number(name) is None
 
 
 @builtin("TextTabGet", cost="string")
@@ -108,3 +87,12 @@ def text_get(task: Task, table: float, index: float) -> str:
     if text is None:
         raise RapidError("ERR_TXTNOEXIST", f"no text {wanted} in table {table:g}")
     return limited(text)
+
+
+_TOLD: dict[str, Callable[..., Value]] = {
+    "IsSysId": lambda _task, identity: identity == _SERIAL,
+    "GetServiceInfo": lambda task, _unit, _duty: str(task.scheduler.now // 3_600_000_000_000),  # h
+    "TextTabFreeToUse": lambda task, name: task.controller.texts.number(name) is None,
+}
+builtins(_TOLD, cost="string")
+builtin("RobOS")(lambda _task: False)

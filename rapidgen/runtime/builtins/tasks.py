@@ -1,31 +1,15 @@
 """What a task may ask about itself, the others and the controller."""
 
+from collections.abc import Callable
+
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
 
-OP_AUTO, OP_MAN_PROG, OP_MAN_TEST = 1, 2, 3
+OP_MAN_TEST = 3
+OP_MODES = {"auto": 1, "manual_reduced": 2}
 RUN_CONT_CYCLE = 1
-
-
-@builtin("OpMode")
-def op_mode(task: Task) -> int:
-    """OpMode: OP_AUTO, OP_MAN_PROG or OP_MAN_TEST."""
-    mode = task.controller.mode
-    return {"auto": OP_AUTO, "manual_reduced": OP_MAN_PROG}.get(mode, OP_MAN_TEST)
-
-
-@builtin("RunMode")
-def run_mode(task: Task, main: bool | None) -> int:
-    """RunMode: programs run continuously here; they are not stepped."""
-    return RUN_CONT_CYCLE
-
-
-@builtin("NonMotionMode")
-def non_motion_mode(task: Task, main: bool | None) -> int:
-    """NonMotionMode: off."""
-    return 0
 
 
 @builtin("GetTaskName")
@@ -38,18 +22,6 @@ def get_task_name(task: Task, number: Ref | None, mechanical: Ref | None) -> str
         moving = [t for t in tasks if task.controller.motion.is_motion_task(t.name)]
         mechanical.set(moving.index(task) + 1 if task in moving else 0)
     return task.name
-
-
-@builtin("TaskRunRob")
-def task_run_rob(task: Task) -> bool:
-    """TaskRunRob: whether the task moves a robot."""
-    return task.controller.motion.is_motion_task(task.name)
-
-
-@builtin("TaskRunMec")
-def task_run_mec(task: Task) -> bool:
-    """TaskRunMec: whether the task moves any mechanical unit."""
-    return task_run_rob(task)
 
 
 @builtin("RobName")
@@ -67,12 +39,6 @@ def motion_planner_no(task: Task) -> int:
     return 0 if group is None else list(motion.groups.values()).index(group) + 1
 
 
-@builtin("GetMecUnitName")
-def get_mec_unit_name(task: Task, unit: Value) -> str:
-    """GetMecUnitName: name of a mechanical unit."""
-    return str(unit.value or "")
-
-
 def _task(task: Task, reference: Value, name: str | None) -> Task:
     wanted = name if name is not None else str(reference.value or "")
     for other in task.controller.rapid_tasks.values():
@@ -81,13 +47,19 @@ def _task(task: Task, reference: Value, name: str | None) -> Task:
     raise RapidError("ERR_TASKNAME", wanted)
 
 
-@builtin("TaskIsActive")
-def task_is_active(task: Task, reference: Value, name: str | None) -> bool:
-    """TaskIsActive: no task is switched off here."""
-    return _task(task, reference, name).state != "empty"
+def _moves(task: Task) -> bool:
+    return task.controller.motion.is_motion_task(task.name)
 
 
-@builtin("TaskIsExecuting")
-def task_is_executing(task: Task, reference: Value, name: str | None) -> bool:
-    """TaskIsExecuting: whether its program runs."""
-    return _task(task, reference, name).state == "running"
+# Programs run continuously here, and no task is switched off; \\Main changes neither.
+_TOLD: dict[str, Callable[..., Value]] = {
+    "OpMode": lambda task: OP_MODES.get(task.controller.mode, OP_MAN_TEST),
+    "RunMode": lambda _task, _main: RUN_CONT_CYCLE,
+    "NonMotionMode": lambda _task, _main: 0,
+    "TaskRunRob": _moves,
+    "TaskRunMec": _moves,
+    "GetMecUnitName": lambda _task, unit: str(unit.value or ""),
+    "TaskIsActive": lambda task, *which: _task(task, *which).state != "empty",
+    "TaskIsExecuting": lambda task, *which: _task(task, *which).state == "running",
+}
+builtins(_TOLD)

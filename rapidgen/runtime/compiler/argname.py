@@ -4,33 +4,32 @@ Values carry no names: the calls are looked up in the trees, from the place of e
 """
 
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
 from types import FrameType
-from typing import TYPE_CHECKING
+from typing import TypeAlias
 
 from rapidgen.rapid.binding.arguments import match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.compiled import CodeRole
+from rapidgen.runtime.compiler.compiled import CodeRole, Compiled
 from rapidgen.runtime.compiler.resume import find
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.values import Ref
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import Program
-    from rapidgen.runtime.values import Ref
-
-Call = n.ProcedureCall | n.FunctionCall | n.LateCall
+Call: TypeAlias = n.ProcedureCall | n.FunctionCall | n.LateCall
+Codes: TypeAlias = Mapping[str, Compiled]
+FindData: TypeAlias = Callable[[LoadedModule | None, str], Data | None]
 
 
-def arg_name(program: "Program", parameter: str, number: "Ref | None" = None) -> str:
+def arg_name(codes: Codes, find_data: FindData, parameter: str, number: Ref | None = None) -> str:
     """Name of the datum behind `parameter` of the routine that asks [S4 datasys 3-ArgName].
 
     For an element or a component the whole datum's; ERR_ARGNAME for an expression. With
     `number` that gets the error instead, and the name is empty.
     """
     try:
-        return _named(program, parameter)
+        return _named(codes, find_data, parameter)
     except RapidError as error:
         if number is None:
             raise
@@ -38,8 +37,8 @@ def arg_name(program: "Program", parameter: str, number: "Ref | None" = None) ->
         return ""
 
 
-def _named(program: "Program", name: str) -> str:
-    places = _places(program, sys._getframe(2))
+def _named(codes: Codes, find_data: FindData, name: str) -> str:
+    places = _places(codes, sys._getframe(2))
     routine, _ = next(places)
     while (at := routine.by_name.get(name.lower())) is not None:
         caller, token = next(places, (None, 0))
@@ -51,13 +50,12 @@ def _named(program: "Program", name: str) -> str:
         if not isinstance(value, n.Name):
             raise RapidError("ERR_ARGNAME")
         routine, name = caller, value.name
-    data = None if _is_local(routine, name) else program.find_data(routine.module, name.lower())
+    data = None if _is_local(routine, name) else find_data(routine.module, name.lower())
     return data.name if data is not None else name
 
 
-def _places(program: "Program", frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
+def _places(codes: Codes, frame: FrameType | None) -> Iterator[tuple[Routine, int]]:
     """Routines of the call stack, innermost first, and the token at which each is."""
-    codes = program.codes
     inside: Routine | None = None
     while frame is not None:
         compiled = codes.get(frame.f_code.co_filename)

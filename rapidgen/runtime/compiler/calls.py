@@ -5,10 +5,10 @@ from collections.abc import Sequence
 from rapidgen.rapid.binding.arguments import Misfit, match
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
-from rapidgen.runtime.compiler.context import CALLS, CannotCompile, E, Unit, calling, same_type
+from rapidgen.runtime.compiler.context import CALLS, E, Unit, calling, same_type
 from rapidgen.runtime.compiler.references import place_of, reference
 from rapidgen.runtime.compiler.storing import by_value
-from rapidgen.runtime.compiler.symbols import FormalParameter, Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, FormalParameter, Routine
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.values import NUM
 
@@ -31,7 +31,8 @@ def _matched(
     for pair in found.pairs:
         argument = pair.argument
         for misfit in pair.misfits:
-            if misfit not in _FAULTS or argument.kind == "conditional":
+            # Of two conditional arguments for one parameter one may be absent: run time tells.
+            if misfit not in _FAULTS or (misfit is Misfit.TWICE and argument.kind == "conditional"):
                 continue
             name = argument.name if pair.parameter < 0 else parameters[pair.parameter].name
             raise CannotCompile(_FAULTS[misfit].format(routine.name, name), node)
@@ -84,7 +85,7 @@ def _conditional(
         raise CannotCompile("a conditional argument names an optional parameter", argument)
     if parameter.switch or data.storage == "ref" or parameter.mode:
         if builtin and parameter.mode and data.storage not in ("ref", "box"):
-            t = unit.program.keep(data.type)
+            t = unit.linker.keep(data.type)
             code = f"(None if {data.code} is None else BOX({data.code}, {t}, {data.dims!r}))"
             return E(code, data.type, data.dims)
         if data.storage == "ref" and not parameter.mode:

@@ -9,12 +9,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 from types import CodeType, FrameType
-from typing import TYPE_CHECKING, Final
+from typing import Final
 
-from rapidgen.runtime.compiler.symbols import Routine
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.linking import LoadedModule
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 
 HANDLER: Final = "_h"
 """Function of an ERROR handler, and the variable of its routine that holds it."""
@@ -45,8 +42,10 @@ class CodeRole(Enum):
 class Compiled:
     """The code of one routine."""
 
+    file: str
+    """Its Python file name, by which frames are known."""
     routine: Routine
-    module: "LoadedModule"
+    module: LoadedModule
     text: str
     tokens: list[int]
     """RAPID token by Python line."""

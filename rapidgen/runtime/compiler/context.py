@@ -2,18 +2,15 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TypeAlias
 
 from rapidgen.rapid.binding.names import RoutineScope
 from rapidgen.rapid.binding.symbols import Symbol
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.symbols import Data, Routine
+from rapidgen.runtime.compiler.linking import Linker
+from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
 from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.values import BOOL, NUM, Type
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.linking import LoadedModule
-    from rapidgen.runtime.compiler.program import Program
 
 UNBOUNDED = 1 << 60
 """Upper end of the range of a whole number of which only the lower end is known."""
@@ -21,14 +18,6 @@ UNBOUNDED = 1 << 60
 SILENT, SHARED, CALLS = 0, 1, 2
 """What an expression touches: the routine's own data; data that traps or others see; calls
 that may wait, so that the budget has to be written back around them."""
-
-
-class CannotCompile(Exception):
-    """The routine breaks a rule that the checker would have told; `node` is the place."""
-
-    def __init__(self, message: str, node: n.Node) -> None:
-        super().__init__(message)
-        self.node = node
 
 
 @dataclass(slots=True)
@@ -107,8 +96,8 @@ Compile: TypeAlias = "Callable[[Unit, n.Expression, Type | None, tuple[int, ...]
 class Unit:
     """The routine that is being compiled, and what names in it stand for."""
 
-    program: "Program"
-    module: "LoadedModule"
+    linker: Linker
+    module: LoadedModule
     routine: Routine
     node: n.RoutineDeclaration
     options: Options
@@ -133,11 +122,11 @@ class Unit:
         symbol = self.names.find(name)
         if symbol is None:
             return None
-        return self.locals.get(symbol) or self.program.datum(symbol)
+        return self.locals.get(symbol) or self.linker.datum(symbol)
 
     def routine_named(self, name: str) -> Routine | None:
         """What a name stands for when it is a routine."""
-        return self.program.routine(self.names.find(name))
+        return self.linker.routine(self.names.find(name))
 
     def expression(
         self, node: n.Expression, want: Type | None = None, dims: tuple[int, ...] = ()

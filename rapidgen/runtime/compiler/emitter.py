@@ -7,7 +7,8 @@ from typing import TypeAlias
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import CodeRole
-from rapidgen.runtime.compiler.context import CALLS, SILENT, CannotCompile, E, Unit
+from rapidgen.runtime.compiler.context import CALLS, SILENT, E, Unit
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.compiler.writer import CodeLine, Writer
 from rapidgen.runtime.values import NUM
 
@@ -65,7 +66,7 @@ class Emitter:
         w = self.w
         w.token = node.first
         if self.options.tracing and not isinstance(node, n.Label):
-            point = self.unit.program.trace_point(self.unit.routine, node)
+            point = self.unit.linker.trace_point(self.unit.routine, node)
             w.close()
             w.emit(f"R.b = b; R.trace({point}); b = R.b")
         if self._too_deep(node):

@@ -10,7 +10,7 @@ from rapidgen.rapid.binding.types import array
 from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CannotCompile
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import Type, Value
 
 

@@ -2,11 +2,12 @@
 
 from rapidgen.rapid.numbers import single
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CannotCompile, E, Unit, failing
+from rapidgen.runtime.compiler.context import E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
 from rapidgen.runtime.compiler.operators import binary, unary
 from rapidgen.runtime.compiler.references import read
 from rapidgen.runtime.compiler.storing import by_value
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Type, attribute
 
 
@@ -101,5 +102,5 @@ def _aggregate(unit: Unit, node: n.Aggregate, want: Type | None, dims: tuple[int
     inside = ", ".join(
         by_value(p, kind) for p, (_, kind) in zip(parts, want.components, strict=True)
     )
-    cls = unit.program.keep(want.make)
+    cls = unit.linker.keep(want.make)
     return E(f"{cls}({inside})", want, fresh=True).take(*parts)

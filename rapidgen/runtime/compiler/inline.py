@@ -5,9 +5,9 @@ from typing import TypeAlias
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.calls import call, pass_argument
-from rapidgen.runtime.compiler.context import CannotCompile, E, Unit, calling, failing
+from rapidgen.runtime.compiler.context import E, Unit, calling, failing
 from rapidgen.runtime.compiler.references import place_of
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.values import BOOL, NUM, STRING, Type
 
 Inline: TypeAlias = Callable[[Unit, n.FunctionCall], E | None]

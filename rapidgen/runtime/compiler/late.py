@@ -1,10 +1,11 @@
 """`%name% arguments;` [K §4.5]: what is called is known when it is; arguments are thunks."""
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CannotCompile, E, Unit, calling
+from rapidgen.runtime.compiler.context import E, Unit, calling
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.references import DataPlace, place_of
 from rapidgen.runtime.compiler.storing import by_value
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import NUM, STRING
 
 
@@ -17,7 +18,7 @@ def late_call(emitter: Emitter, node: n.LateCall) -> None:
         code, part = _argument(unit, argument)
         codes.append(code)
         parts += part
-    module = unit.program.keep(unit.module)
+    module = unit.linker.keep(unit.module)
     inside = "".join(c + ", " for c in codes)
     code = f"R.late({name.code}, {module}, ({inside}))"
     emitter.simple(calling(code, NUM, *parts, cost=emitter.options.call))
@@ -40,9 +41,9 @@ def _argument(unit: Unit, argument: n.Argument) -> tuple[str, list[E]]:
     place = place_of(unit, node)
     if place is None:
         e = unit.expression(node)
-        t = unit.program.keep(e.type)
+        t = unit.linker.keep(e.type)
         return f"LATE({name}, lambda: {by_value(e, e.type)}, None, {t}{last})", [e]
-    t = unit.program.keep(place.e.type)
+    t = unit.linker.keep(place.e.type)
     read = by_value(place.e, place.e.type)
     ref = _reference(unit, place)
     return f"LATE({name}, lambda: {read}, {ref}, {t}, lambda: {place.e.code}{last})", [place.e]
@@ -56,8 +57,8 @@ def _reference(unit: Unit, place: DataPlace) -> str:
     if not place.holder and data.storage in ("box", "cell", "ref"):
         return f"lambda: {data.code}"
     if not place.holder and data.storage == "global":
-        return f"lambda: {unit.program.global_ref(data)}"
-    t, cell = unit.program.keep(e.type), place.cell or "None"
+        return f"lambda: {unit.linker.global_ref(data)}"
+    t, cell = unit.linker.keep(e.type), place.cell or "None"
     if place.holder and place.atomic:
         maker = "MEMBER" if place.member else "ITEM"
         key = repr(place.key) if place.member else place.key

@@ -4,10 +4,15 @@ Modules are linked into one Python namespace. Persistents, data of shared module
 classes are common to all tasks.
 """
 
-from dataclasses import dataclass, field
-
-from rapidgen.diagnostics import Diagnostic, Span, error
-from rapidgen.rapid.binding.names import ModuleScope, Scope, TaskScope, builtin, installed_objects
+from rapidgen.diagnostics import Diagnostic, error
+from rapidgen.rapid.binding.names import (
+    ModuleScope,
+    Scope,
+    TaskScope,
+    builtin,
+    called,
+    installed_objects,
+)
 from rapidgen.rapid.binding.symbols import (
     DataSymbol,
     ModuleSymbol,
@@ -17,14 +22,13 @@ from rapidgen.rapid.binding.symbols import (
 )
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import predefined
-from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.evaluate import evaluate
-from rapidgen.runtime.compiler.symbols import Data, Routine, formal
+from rapidgen.runtime.compiler.runtime import GlobalRef
+from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine, formal
 from rapidgen.runtime.values import (
     ATOMIC,
     NUM,
     PersistentCell,
-    SharedVariable,
     Type,
     Value,
     make_array,
@@ -34,43 +38,6 @@ from rapidgen.system.model import ModuleFile
 
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
-
-
-@dataclass(slots=True, eq=False)
-class LoadedModule:
-    """A module in a task."""
-
-    index: int
-    tree: n.Module
-    file: ModuleFile
-    scope: ModuleScope
-    routines: dict[str, Routine] = field(default_factory=dict)
-    """Its own, by lower-case name."""
-    types: dict[str, Type | None] = field(default_factory=dict)
-    """What names of types mean here, as far as it was asked."""
-
-    @property
-    def name(self) -> str:
-        """As it is declared."""
-        return self.tree.name
-
-    @property
-    def declarations(self) -> dict[str, n.DataDeclaration]:
-        """Its data, by lower-case name."""
-        return {
-            key: symbol.node
-            for key, symbol in self.scope.own.items()
-            if isinstance(symbol, DataSymbol) and isinstance(symbol.node, n.DataDeclaration)
-        }
-
-    @property
-    def installed(self) -> bool:
-        """Whether it is built in: it does not see the program, which may hide its names."""
-        return self.scope.installed
-
-    def span(self, node: n.Node) -> Span:
-        """Place of a node."""
-        return self.tree.source.span(node.first, node.last)
 
 
 class Shared:
@@ -98,19 +65,45 @@ class Linker:
         self.names = TaskScope(shared.names)
         self.modules: dict[str, LoadedModule] = {}
         self.faults: list[Diagnostic] = []
+        self.trace_points: list[tuple[Routine, n.Statement]] = []
+        self._kept: dict[int, str] = {}
         self._loaded: dict[ModuleScope, LoadedModule] = {}
+        self._modules = 0
         self._serial = 0
         self._types: dict[TypeSymbol, Type | None] = {}
         self._data: dict[DataSymbol, Data | None] = {}
         self._routines: dict[RoutineSymbol, Routine | None] = {}
 
+    # -- what generated code names ---------------------------------------------------------------
+
+    def keep(self, value: Value) -> str:
+        """A name in the namespace for any object."""
+        known = self._kept.get(id(value))
+        if known is None:
+            self._serial += 1
+            known = self._kept[id(value)] = f"k{self._serial}"
+            self.space[known] = value
+        return known
+
+    def global_ref(self, data: Data) -> str:
+        """Name of a reference to module data."""
+        name = f"r_{data.code}"
+        if name not in self.space:
+            self.space[name] = GlobalRef(self.space, data.code, data.type, data.dims, data.name)
+        return name
+
+    def trace_point(self, routine: Routine, statement: n.Statement) -> int:
+        """Number of a statement, for tracing."""
+        self.trace_points.append((routine, statement))
+        return len(self.trace_points) - 1
+
     # -- modules ---------------------------------------------------------------------------------
 
     def add(self, tree: n.Module, file: ModuleFile) -> LoadedModule:
         """Make the names of a module known."""
-        self._serial += 1
+        self._modules += 1
         scope = self.names.add(tree, installed=file.installed or file.shared)
-        module = self._loaded[scope] = LoadedModule(self._serial, tree, file, scope)
+        module = self._loaded[scope] = LoadedModule(self._modules, tree, file, scope)
         self.modules[tree.name.lower()] = module
         return module
 
@@ -191,7 +184,7 @@ class Linker:
     def routine(self, symbol: Symbol | None) -> Routine | None:
         """The routine that a symbol stands for; None for anything else."""
         if not isinstance(symbol, RoutineSymbol):
-            symbol = _meant(symbol)
+            symbol = called(_meant(symbol))
             if not isinstance(symbol, RoutineSymbol):
                 return None
         if symbol not in self._routines:
@@ -270,7 +263,7 @@ class Linker:
             return Data(d.name, "PERS", kind, dims, "cell", code)
         if d.kind == "VAR" and module.file.shared and d.scope != "TASK":
             atom = not dims and kind.kind in ATOMIC
-            made = SharedVariable(d.name, kind, dims, value) if atom else value
+            made = PersistentCell(d.name, kind, dims, value, variable=True) if atom else value
             key = (module.name.lower(), d.name.lower())
             self.space[code] = self.shared.common.setdefault(key, made)
             return Data(d.name, "VAR", kind, dims, "cell" if atom else "global", code)

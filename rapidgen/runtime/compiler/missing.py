@@ -9,8 +9,8 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.rapid.syntax.lexer import KEYWORDS
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.compiler.symbols import LoadedModule
 
 _BEFORE_STATEMENT = frozenset({";", "THEN", "DO", "ELSE", "ERROR", "UNDO", ":", ")"})
 _NO_CALL = frozenset({":=", ".", "{", ":", ",", ";"})

@@ -2,7 +2,8 @@
 
 from rapidgen.rapid.numbers import EXACT
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import UNBOUNDED, CannotCompile, E, Unit, same_type
+from rapidgen.runtime.compiler.context import UNBOUNDED, E, Unit, same_type
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import BOOL, DNUM, STRING, TYPES, Type
 
 _COMPARE = {"=": "==", "<>": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}

@@ -11,13 +11,13 @@ from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
 from rapidgen.runtime.compiler.argname import arg_name
 from rapidgen.runtime.compiler.compiled import Compiled
-from rapidgen.runtime.compiler.context import CannotCompile, Options
-from rapidgen.runtime.compiler.linking import Linker, LoadedModule, Shared
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Linker, Shared
 from rapidgen.runtime.compiler.resume import Standing, after, compile_backward, compile_rest
-from rapidgen.runtime.compiler.routine import compile_routine
-from rapidgen.runtime.compiler.symbols import Data, Routine
+from rapidgen.runtime.compiler.routine import RoutineCompiler
+from rapidgen.runtime.compiler.symbols import CannotCompile, Data, LoadedModule, Routine
 from rapidgen.runtime.errors import RECOVERABLE, FatalError
-from rapidgen.runtime.values import PersistentCell, Type, Value, make_array
+from rapidgen.runtime.values import PersistentCell, Value, make_array
 from rapidgen.system.model import ModuleFile
 
 
@@ -40,17 +40,13 @@ class Program:
         self.codes: dict[str, Compiled] = {}
         self._linked: set[Routine] = set()
         """What is compiled as the modules are now."""
-        self.trace_points: list[tuple[Routine, n.Statement]] = []
-        self.switch_type = Type("switch", "bool")
-        self._serial = 0
-        self._kept: dict[int, str] = {}
         self.space: dict[str, Value] = {
             **runtime.NAMESPACE,
             "R": executor,
             "ERRS": RECOVERABLE,
             "ARRAY": make_array,
             "AFTER": after,
-            "ARGNAME": partial(arg_name, self),
+            "ARGNAME": partial(arg_name, self.codes, self.find_data),
         }
         dialect = options.dialect
         if dialect.for_loop == "tested":
@@ -66,6 +62,8 @@ class Program:
         self.datum = self._linker.datum
         self.routine = self._linker.routine
         self.evaluate = self._linker.evaluate
+        self.global_ref = self._linker.global_ref
+        self.trace_points = self._linker.trace_points
 
     # -- loading ---------------------------------------------------------------------------------
 
@@ -115,35 +113,10 @@ class Program:
         """A routine by lower-case name, as seen from a module; built-ins come last."""
         return self.routine(self.find(module, key))
 
-    # -- what generated code names ---------------------------------------------------------------
-
-    def keep(self, value: Value) -> str:
-        """A name in the namespace for any object."""
-        known = self._kept.get(id(value))
-        if known is None:
-            self._serial += 1
-            known = self._kept[id(value)] = f"k{self._serial}"
-            self.space[known] = value
-        return known
-
-    def global_ref(self, data: Data) -> str:
-        """Name of a reference to module data."""
-        name = f"r_{data.code}"
-        if name not in self.space:
-            self.space[name] = runtime.GlobalRef(
-                self.space, data.code, data.type, data.dims, data.name
-            )
-        return name
-
     def code_name(self, routine: Routine) -> str:
         """Python file name of a routine's code."""
         assert routine.module is not None
         return f"<rapid {self.name} {routine.module.name} {routine.name}>"
-
-    def trace_point(self, routine: Routine, statement: n.Statement) -> int:
-        """Number of a statement, for tracing."""
-        self.trace_points.append((routine, statement))
-        return len(self.trace_points) - 1
 
     def trace_from_now(self) -> None:
         """Compile with a report of every statement from now on."""
@@ -163,20 +136,24 @@ class Program:
     def function(self, routine: Routine) -> Callable[..., Value]:
         """The compiled function of a routine; FatalError when it breaks the language's rules."""
         assert routine.module is not None
-        name = self.code_name(routine)
-        if routine in self._linked and name in self.codes:
+        file = self.code_name(routine)
+        if routine in self._linked and file in self.codes:
             linked: Callable[..., Value] = self.space[routine.code]
             return linked
+        compiler = RoutineCompiler(self._linker, routine, self.options, routine.code, file)
         try:
-            function, compiled = compile_routine(self, routine.module, routine, self.options)
+            function = self._known(*compiler.link())
         except CannotCompile as fault:
             span = routine.module.span(fault.node)
             self.faults.append(error("RG401", span, str(fault)))
             raise FatalError(
                 40001, "Program cannot be linked", f"{routine.name}: {fault}", span=span
             ) from fault
-        self.codes[name] = compiled
         self._linked.add(routine)
+        return function
+
+    def _known(self, function: Callable[..., Value], compiled: Compiled) -> Callable[..., Value]:
+        self.codes[compiled.file] = compiled
         return function
 
     def rest(
@@ -187,16 +164,14 @@ class Program:
         `calls`: the statement is a call that is under way. `alone`: only it is executed.
         """
         options = replace(self.options, tracing=False) if alone else self.options
-        function, compiled, name = compile_rest(self, standing, options, calls=calls, alone=alone)
-        self.codes[name] = compiled
-        return function
+        file = self.code_name(standing.routine)
+        linked = compile_rest(self._linker, standing, options, file, calls=calls, alone=alone)
+        return self._known(*linked)
 
     def backward(self, routine: Routine) -> Callable[..., Value]:
         """The BACKWARD handler of a procedure as a function. CannotCompile."""
-        assert routine.module is not None
-        function, compiled, name = compile_backward(self, routine, self.options)
-        self.codes[name] = compiled
-        return function
+        file = self.code_name(routine)
+        return self._known(*compile_backward(self._linker, routine, self.options, file))
 
     def value(self, module: LoadedModule, key: str) -> Value:
         """Current value of a module datum. KeyError: there is none."""

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CALLS, SHARED, CannotCompile, E, Unit, same_type
+from rapidgen.runtime.compiler.context import CALLS, SHARED, E, Unit, same_type
 from rapidgen.runtime.compiler.storing import by_value
-from rapidgen.runtime.compiler.symbols import Data, FormalParameter
+from rapidgen.runtime.compiler.symbols import CannotCompile, Data, FormalParameter
 from rapidgen.runtime.values import NUM, attribute
 
 
@@ -149,7 +149,7 @@ def _reference_code(
     as_object = not builtin and parameter.mode == "VAR" and not place.atomic
     if as_object:
         return e.code
-    t, cell = unit.program.keep(kind), place.cell or "None"
+    t, cell = unit.linker.keep(kind), place.cell or "None"
     if place.holder:
         if not place.atomic:
             return f"PART({e.code}, {t}, {data.name!r}, {cell})"
@@ -166,14 +166,14 @@ def _reference_code(
             return f"ASPERS({code})"
         return code
     if data.storage == "global" and not data.readonly:
-        return unit.program.global_ref(data)
+        return unit.linker.global_ref(data)
     return f"BOX({e.code}, {t}, {e.dims!r}, {data.name!r})"
 
 
 def _boxed(unit: Unit, node: n.Expression, parameter: FormalParameter) -> E:
     """A value for a REF or anytype parameter that is no datum."""
     e = unit.expression(node, parameter.type)
-    t = unit.program.keep(e.type)
+    t = unit.linker.keep(e.type)
     name = node.name if isinstance(node, n.Name) else ""
     code = f"BOX({by_value(e, e.type)}, {t}, {e.dims!r}, {name!r})"
     return E(code, e.type, e.dims).take(e)

@@ -7,19 +7,16 @@ statement list around, and loops from their next pass on.
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.compiled import Compiled
-from rapidgen.runtime.compiler.context import CannotCompile, Options
+from rapidgen.runtime.compiler.context import Options
+from rapidgen.runtime.compiler.linking import Linker
 from rapidgen.runtime.compiler.loops import loop_bound, loop_variable
 from rapidgen.runtime.compiler.routine import RoutineCompiler
 from rapidgen.runtime.compiler.statements import compile_statement
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.values import Value
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.program import Program
 
 Path = list[tuple[list[n.Statement], int]]
 """Statement lists from the routine's own inwards, and the place in each."""
@@ -144,37 +141,28 @@ class _Rest:
 
 
 def compile_backward(
-    program: "Program", routine: Routine, options: Options
-) -> tuple[Callable[..., object], Compiled, str]:
+    linker: Linker, routine: Routine, options: Options, file: str
+) -> tuple[Callable[..., Value], Compiled]:
     """The BACKWARD handler of a procedure, with its parameters and variables [K §6.1].
 
-    Errors in it are not for the procedure's own ERROR [K §7.1].
+    Errors in it are not for the procedure's own ERROR [K §7.1]. `file` is that of the procedure.
     """
-    node, module = routine.node, routine.module
+    node = routine.node
     assert node is not None
     assert node.backward is not None
-    assert module is not None
     body = replace(node, body=node.backward.body, backward=None, error=None)
-    entry, file = f"{routine.code}_back", f"{program.code_name(routine)} backward"
     changed = replace(routine, node=body)
-    compiler = RoutineCompiler(program, module, changed, options, entry, file)
-    code, compiled = compiler.compile()
-    exec(code, program.space)
-    return program.space[entry], compiled, file
+    entry = f"{routine.code}_back"
+    return RoutineCompiler(linker, changed, options, entry, f"{file} backward").link()
 
 
 def compile_rest(
-    program: "Program", standing: Standing, options: Options, *, calls: bool, alone: bool
-) -> tuple[Callable[[dict[str, Value]], object], Compiled, str]:
-    """A function that goes on with a routine, given the values; and its Python file name."""
+    linker: Linker, standing: Standing, options: Options, file: str, *, calls: bool, alone: bool
+) -> tuple[Callable[[dict[str, Value]], Value], Compiled]:
+    """A function that goes on with a routine, given the values. `file` is the routine's."""
     routine = standing.routine
-    module = routine.module
-    assert module is not None
     at = "".join(f" {i}" for _, i in standing.path)
-    entry = f"{routine.code}_rest"
-    file = f"{program.code_name(routine)} from{at}{' alone' if alone else ''}"
-    compiler = RoutineCompiler(program, module, routine, options, entry, file)
+    file = f"{file} from{at}{' alone' if alone else ''}"
+    compiler = RoutineCompiler(linker, routine, options, f"{routine.code}_rest", file)
     _Rest(compiler, standing, calls=calls, alone=alone)
-    code, compiled = compiler.compile()
-    exec(code, program.space)
-    return program.space[entry], compiled, file
+    return compiler.link()

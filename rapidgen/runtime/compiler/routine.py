@@ -2,23 +2,19 @@
 
 from collections.abc import Callable
 from types import CodeType
-from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.analysis import Facts
 from rapidgen.runtime.compiler.compiled import HANDLER, LISTED, UNDO, CodeRole, Compiled
-from rapidgen.runtime.compiler.context import CannotCompile, Options, Unit
+from rapidgen.runtime.compiler.context import Options, Unit
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.expressions import compile_expression
+from rapidgen.runtime.compiler.linking import Linker
 from rapidgen.runtime.compiler.statements import compile_statement
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.compiler.variables import declare, header
 from rapidgen.runtime.compiler.writer import CodeLine
-from rapidgen.runtime.values import NUM
-
-if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.linking import LoadedModule
-    from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.values import NUM, Value
 
 
 class RoutineCompiler:
@@ -28,30 +24,32 @@ class RoutineCompiler:
     """
 
     def __init__(
-        self,
-        program: "Program",
-        module: "LoadedModule",
-        routine: Routine,
-        options: Options,
-        entry: str,
-        file: str,
+        self, linker: Linker, routine: Routine, options: Options, entry: str, file: str
     ) -> None:
         """`entry` names the Python function, `file` its code."""
         node = routine.node
+        module = routine.module
         assert node is not None
+        assert module is not None
         self.entry = entry
         self.file = file
         names = module.scope.routine(node)
-        self.facts = Facts(node, lambda name: program.routine(names.find(name)))
+        self.facts = Facts(node, lambda name: linker.routine(names.find(name)))
         boxed = self.facts.by_reference
-        self.unit = Unit(program, module, routine, node, options, compile_expression, names, boxed)
+        self.unit = Unit(linker, module, routine, node, options, compile_expression, names, boxed)
         self.emitter = Emitter(self.unit, compile_statement, self.facts.goto)
         self.parameters = header(self.unit)
         self.variables: Callable[[], None] = lambda: declare(self.unit, self.emitter.w, self.facts)
         self.body: Callable[[], None] = lambda: self.emitter.statements(node.body)
 
-    def compile(self) -> tuple[CodeType, Compiled]:
-        """Code of a module that defines the function. CannotCompile."""
+    def link(self) -> tuple[Callable[..., Value], Compiled]:
+        """The function, defined in the namespace. CannotCompile."""
+        code, compiled = self._compile()
+        space = self.unit.linker.space
+        exec(code, space)
+        return space[self.entry], compiled
+
+    def _compile(self) -> tuple[CodeType, Compiled]:
         unit, emitter, w = self.unit, self.emitter, self.emitter.w
         node = unit.node
         w.token = node.name_token
@@ -91,7 +89,9 @@ class RoutineCompiler:
             raise CannotCompile(
                 f"statements are nested too deeply ({error.args[0]})", node
             ) from error
-        compiled = Compiled(unit.routine, unit.module, text, tokens, refunds, synced, emitter.roles)
+        compiled = Compiled(
+            self.file, unit.routine, unit.module, text, tokens, refunds, synced, emitter.roles
+        )
         return code, compiled
 
     def _statements(self) -> list[CodeLine]:
@@ -140,16 +140,3 @@ class RoutineCompiler:
             codes = "".join(f"{self.unit.value_of(x, NUM).code}, " for x in handler.numbers)
             w.emit(f"def {LISTED}(): return ({codes})")
         return w.cut(0)
-
-
-def compile_routine(
-    program: "Program", module: "LoadedModule", routine: Routine, options: Options
-) -> tuple[Callable[..., object], Compiled]:
-    """Compile a routine in the program's namespace."""
-    file = program.code_name(routine)
-    code, compiled = RoutineCompiler(
-        program, module, routine, options, routine.code, file
-    ).compile()
-    space = program.space
-    exec(code, space)
-    return space[routine.code], compiled

@@ -4,12 +4,13 @@ from rapidgen.rapid.builtins.signatures import marked
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.calls import call
 from rapidgen.runtime.compiler.compiled import CodeRole
-from rapidgen.runtime.compiler.context import CALLS, CannotCompile, E, calling, failing
+from rapidgen.runtime.compiler.context import CALLS, E, calling, failing
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.late import late_call
 from rapidgen.runtime.compiler.loops import for_loop, if_statement, test_statement, while_loop
 from rapidgen.runtime.compiler.stores import assignment, connect, step
 from rapidgen.runtime.compiler.storing import by_value
+from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import NUM
 
 

@@ -1,20 +1,11 @@
 """Stores: assignment, Incr and its kin, CONNECT; waking who watches a persistent."""
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import (
-    CALLS,
-    SHARED,
-    SILENT,
-    CannotCompile,
-    E,
-    Unit,
-    calling,
-    failing,
-)
+from rapidgen.runtime.compiler.context import CALLS, SHARED, SILENT, E, Unit, calling, failing
 from rapidgen.runtime.compiler.emitter import Emitter
 from rapidgen.runtime.compiler.references import DataPlace, place_of
 from rapidgen.runtime.compiler.storing import by_value, store_lines
-from rapidgen.runtime.compiler.symbols import Data
+from rapidgen.runtime.compiler.symbols import CannotCompile, Data
 from rapidgen.runtime.values import NUM, Type
 
 
@@ -176,7 +167,7 @@ def connect(emitter: Emitter, node: n.Connect) -> None:
         return
     if place.e.type.kind != "num" or place.e.dims:
         raise CannotCompile("CONNECT takes an intnum", node)
-    code = f"R.connect({place.e.code}, {emitter.unit.program.keep(trap)})"
+    code = f"R.connect({place.e.code}, {emitter.unit.linker.keep(trap)})"
     e = calling(code, NUM, place.e)
     lines = _through("_x", place.e.code, e, NUM)
     if place.data.storage == "global":

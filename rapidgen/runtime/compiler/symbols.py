@@ -1,14 +1,24 @@
 """What names in RAPID stand for, and how compiled code reaches it."""
 
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
+from rapidgen.diagnostics import Span
+from rapidgen.rapid.binding.names import ModuleScope
+from rapidgen.rapid.binding.symbols import DataSymbol
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.registry import Builtin
 from rapidgen.runtime.values import Type, Value
+from rapidgen.system.model import ModuleFile
 
-if TYPE_CHECKING:
-    from rapidgen.runtime.compiler.linking import LoadedModule
+
+class CannotCompile(Exception):
+    """The routine breaks a rule that the checker would have told; `node` is the place."""
+
+    def __init__(self, message: str, node: n.Node) -> None:
+        super().__init__(message)
+        self.node = node
+
 
 Storage: TypeAlias = Literal["inline", "global", "cell", "local", "box", "ref", "object"]
 """How a datum is kept:
@@ -91,3 +101,40 @@ class Routine:
     def __post_init__(self) -> None:
         self.refers = any(p.mode for p in self.parameters)
         self.by_name = {p.name.lower(): i for i, p in enumerate(self.parameters)}
+
+
+@dataclass(slots=True, eq=False)
+class LoadedModule:
+    """A module in a task."""
+
+    index: int
+    tree: n.Module
+    file: ModuleFile
+    scope: ModuleScope
+    routines: dict[str, Routine] = field(default_factory=dict)
+    """Its own, by lower-case name."""
+    types: dict[str, Type | None] = field(default_factory=dict)
+    """What names of types mean here, as far as it was asked."""
+
+    @property
+    def name(self) -> str:
+        """As it is declared."""
+        return self.tree.name
+
+    @property
+    def declarations(self) -> dict[str, n.DataDeclaration]:
+        """Its data, by lower-case name."""
+        return {
+            key: symbol.node
+            for key, symbol in self.scope.own.items()
+            if isinstance(symbol, DataSymbol) and isinstance(symbol.node, n.DataDeclaration)
+        }
+
+    @property
+    def installed(self) -> bool:
+        """Whether it is built in: it does not see the program, which may hide its names."""
+        return self.scope.installed
+
+    def span(self, node: n.Node) -> Span:
+        """Place of a node."""
+        return self.tree.source.span(node.first, node.last)

@@ -7,6 +7,8 @@ from rapidgen.runtime.compiler.symbols import Data, FormalParameter, Storage
 from rapidgen.runtime.compiler.writer import Writer
 from rapidgen.runtime.values import ATOMIC, Type, Value
 
+SWITCH = Type("switch", "bool")
+
 
 def header(unit: Unit) -> str:
     """Parameters of the Python function."""
@@ -26,7 +28,7 @@ def declare(unit: Unit, w: Writer, facts: Facts) -> None:
     values: list[tuple[n.DataDeclaration, Data, Value]] = []
     for d in unit.node.data:
         w.token = d.first
-        kind, dims, value = unit.program.evaluate(unit.module, unit.names, d)
+        kind, dims, value = unit.linker.evaluate(unit.module, unit.names, d)
         key = d.name.lower()
         symbol = unit.names.names[key]
         if d.kind == "CONST" and not dims and kind.kind in ATOMIC:
@@ -47,7 +49,7 @@ def declare(unit: Unit, w: Writer, facts: Facts) -> None:
 def _parameter(unit: Unit, w: Writer, parameter: FormalParameter) -> None:
     key = parameter.name.lower()
     code = f"v_{key}"
-    kind = parameter.type or unit.program.switch_type
+    kind = parameter.type or SWITCH
     dims = (0,) * parameter.dims
     atomic = kind.kind in ATOMIC and not dims
     storage: Storage = "local"
@@ -57,7 +59,7 @@ def _parameter(unit: Unit, w: Writer, parameter: FormalParameter) -> None:
         storage = "object"
     elif key in unit.boxed and atomic and not parameter.switch:
         storage = "box"
-        t = unit.program.keep(kind)
+        t = unit.linker.keep(kind)
         box = f"{code} = BOX({code}, {t}, (), {parameter.name!r})"
         w.emit(f"if {code} is not None: {box}" if parameter.optional else box)
     unit.locals[unit.names.names[key]] = Data(
@@ -80,15 +82,15 @@ def _constant(unit: Unit, name: str) -> Value:
 def _variable(
     unit: Unit, w: Writer, d: n.DataDeclaration, data: Data, value: Value, whole: Whole
 ) -> None:
-    key, kind, dims, program = d.name.lower(), data.type, data.dims, unit.program
+    key, kind, dims, linker = d.name.lower(), data.type, data.dims, unit.linker
     if d.kind == "CONST":
         data.kind, data.readonly, data.storage = "CONST", True, "global"
-        data.code = program.keep(value)
+        data.code = linker.keep(value)
     elif dims or kind.kind not in ATOMIC:
         w.emit(f"{data.code} = {_fresh(unit, d, kind, dims, value)}")
     elif key in unit.boxed:
         data.storage = "box"
-        w.emit(f"{data.code} = BOX({value!r}, {program.keep(kind)}, (), {d.name!r})")
+        w.emit(f"{data.code} = BOX({value!r}, {linker.keep(kind)}, (), {d.name!r})")
     else:
         data.whole = key in whole.whole and kind.kind == "num"
         if data.whole and key in whole.natural:
@@ -100,11 +102,11 @@ def _fresh(
     unit: Unit, d: n.DataDeclaration, kind: Type, dims: tuple[int, ...], value: Value
 ) -> str:
     """What makes a record, an array or an object for each call."""
-    program = unit.program
+    linker = unit.linker
     if d.initial is None and not dims and kind.make is not None:
-        return f"{program.keep(kind.make)}()"
+        return f"{linker.keep(kind.make)}()"
     if d.initial is None and len(dims) == 1 and kind.kind in ATOMIC:
         return f"dict.fromkeys(range(1, {dims[0] + 1}), {kind.default()!r})"
     if kind.is_value:
-        return f"COPY({program.keep(value)})"
-    return f"ARRAY({dims!r}, {program.keep(kind.make)})"
+        return f"COPY({linker.keep(value)})"
+    return f"ARRAY({dims!r}, {linker.keep(kind.make)})"

@@ -4,10 +4,9 @@
 from collections.abc import Sequence
 
 from rapidgen.rapid.binding.arguments import Misfit, first_fit, match
-from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import FormalParameter, Routine
+from rapidgen.runtime.compiler.symbols import FormalParameter, LoadedModule, Routine
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.values import ATOMIC, Value
 

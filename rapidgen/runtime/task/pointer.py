@@ -13,10 +13,9 @@ from typing import TYPE_CHECKING, ParamSpec, TypeVar
 
 from rapidgen.rapid.syntax.walk import walk
 from rapidgen.runtime.compiler.compiled import CodeRole
-from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.resume import Standing, find
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.task.call_stack import frames_of, outwards
 from rapidgen.runtime.task.errors import Handler

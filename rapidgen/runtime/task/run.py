@@ -3,9 +3,8 @@
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from rapidgen.runtime.compiler.context import CannotCompile
 from rapidgen.runtime.compiler.resume import Standing
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import CannotCompile, Routine
 from rapidgen.runtime.errors import RECOVERABLE, EndOfRun, ExitCycle, FatalError, PointerMoved
 from rapidgen.runtime.task.call_stack import stack_of_error
 from rapidgen.runtime.task.event_routines import WHILE_STOPPED

@@ -12,9 +12,8 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.runtime.compiler.context import CannotCompile
-from rapidgen.runtime.compiler.linking import LoadedModule
 from rapidgen.runtime.compiler.resume import Standing
+from rapidgen.runtime.compiler.symbols import CannotCompile, LoadedModule
 from rapidgen.runtime.errors import Location
 from rapidgen.runtime.task.call_stack import outwards
 from rapidgen.runtime.task.driving_back import StepHistory

@@ -11,13 +11,15 @@ from typing import Literal, TypeAlias
 
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
+from rapidgen.motion.faults import MotionFault
 from rapidgen.runtime import unsupported
-from rapidgen.runtime.compiler.linking import LoadedModule, Shared
+from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
-from rapidgen.runtime.compiler.symbols import Routine
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host
+from rapidgen.runtime.motion_faults import in_rapid
 from rapidgen.runtime.registry import COSTS
 from rapidgen.runtime.task import late_call
 from rapidgen.runtime.task.call_stack import location, stack_at
@@ -388,11 +390,17 @@ class Task(Process):
     # -- called by compiled code -----------------------------------------------------------------
 
     def poll(self, b: int) -> int:
-        """See Process.poll; also looks at the depth of the call stack."""
+        """See Process.poll; also looks at the depth of the call stack.
+
+        Events come in here: what the planner refuses in one is an error of this program.
+        """
         try:
             sys._getframe(DEEPEST)
         except ValueError:
-            return super().poll(b)
+            try:
+                return super().poll(b)
+            except MotionFault as fault:
+                raise in_rapid(fault) from fault
         self.b = b
         raise FatalError(40027, "Stack overflow", "routines call each other too deeply")
 

@@ -10,13 +10,13 @@ from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.network.memory import MemoryNetwork
+from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
 from rapidgen.rapid.builtins import signatures
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.registry import bound
-from rapidgen.runtime.sockets import SocketTable
 from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import BOOL, DNUM, NUM, STRING, Box, Type

@@ -4,9 +4,9 @@ from types import SimpleNamespace
 
 import pytest
 
+from rapidgen.machine.texts import TextTables
 from rapidgen.runtime.builtins.clocks import StopWatch
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.texts import TextTables
 from rapidgen.system.model import System
 
 

@@ -7,9 +7,9 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.machine.network.faulty import FaultyNetwork
 from rapidgen.machine.network.memory import MemoryNetwork
 from rapidgen.machine.network.rules import NetworkRule
+from rapidgen.machine.network.sockets import SocketDevice
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.sockets import SocketDevice
 
 
 @pytest.fixture

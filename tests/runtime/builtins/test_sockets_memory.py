@@ -2,9 +2,9 @@
 
 import pytest
 
+from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.sockets import SocketDevice, SocketStatus
 from rapidgen.runtime.switches import Switches
 from tests.runtime.booting import boot
 

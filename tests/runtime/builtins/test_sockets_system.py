@@ -6,10 +6,10 @@ import threading
 import pytest
 
 from rapidgen.machine.network.interface import NetworkFault, NetworkReason
+from rapidgen.machine.network.sockets import SocketDevice, SocketStatus
 from rapidgen.machine.network.system import SystemNetwork
 from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.rawbytes import RawBytes
-from rapidgen.runtime.sockets import SocketDevice, SocketStatus
 
 
 @pytest.fixture

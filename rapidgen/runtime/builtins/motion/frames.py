@@ -4,9 +4,11 @@ Sources: S4 datasys, the page of each name (RelTool, OrientZYX, EulerZYX, DefFra
 MirPos, ORobT, NOrient). Lengths are mm throughout: these functions never leave RAPID's units.
 """
 
-from math import pi, sqrt
+from collections.abc import Callable
+from math import pi
 
-from rapidgen.axes import frames
+from rapidgen.axes import fitting, frames
+from rapidgen.axes.fitting import NoFit
 from rapidgen.axes.frames import Pose as Frame
 from rapidgen.axes.frames import Vector
 from rapidgen.axes.mapping import ABSENT
@@ -14,14 +16,11 @@ from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, group_of
 from rapidgen.runtime.builtins.motion.arguments import quaternion
 from rapidgen.runtime.errors import RapidError
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import ExtJoint, Orient, Pos, Pose, Ref, Value
 
 _RAD = pi / 180
-_CLOSEST = 0.1
-"""mm between the points of a frame (S4 datasys 3-DefFrame)."""
-_STRAIGHT = 1e-4
 
 
 def _vector(data: Value) -> Vector:
@@ -135,27 +134,26 @@ def o_rob_t(
 
 @builtin("DefFrame", pure=True)
 def def_frame(_task: Task, p1: Value, p2: Value, p3: Value, origin: float | None) -> Value:
-    """A frame from a point on its x axis, another one, and one on the positive y side."""
-    points = (_vector(p1.trans), _vector(p2.trans), _vector(p3.trans))
-    return _pose(_through(points, origin))
+    """A frame from a point on its x axis, another one, and one on the positive y side.
 
-
-def _through(points: tuple[Vector, Vector, Vector], origin: float | None = None) -> Frame:
-    first, second, third = points
-    along, side = frames.subtract(second, first), frames.subtract(third, first)
-    if min(frames.norm(along), frames.norm(side)) < _CLOSEST:
-        raise RapidError("ERR_FRAME", "points closer than 0.1 mm")
-    x, towards = frames.unit(along), frames.unit(side)
-    if abs(frames.dot(x, towards)) > 1 - _STRAIGHT:
-        raise RapidError("ERR_FRAME", "the points lie on one line")
-    z = frames.unit(frames.cross(x, towards))
-    y = frames.cross(z, x)
-    turned = frames.from_matrix(((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2])))
+    Its origin is the first point, the second, or (3) below the third on the x axis.
+    """
+    first, second, third = (_vector(p.trans) for p in (p1, p2, p3))
+    _, turned = _through(p1.trans, p2.trans, p3.trans)
     if origin == 2:
-        return second, turned
-    if origin == 3:
-        return frames.add(first, frames.scale(x, frames.dot(side, x))), turned
-    return first, turned
+        first = second
+    elif origin == 3:
+        x = frames.unit(frames.subtract(second, first))
+        share = frames.dot(frames.subtract(third, first), x)
+        first = frames.add(first, frames.scale(x, share))
+    return _pose((first, turned))
+
+
+def _through(first: Value, second: Value, third: Value) -> Frame:
+    try:
+        return fitting.frame_through(_vector(first), _vector(second), _vector(third))
+    except NoFit as fault:
+        raise RapidError("ERR_FRAME", str(fault)) from fault
 
 
 @builtin("DefDFrame", pure=True)
@@ -163,8 +161,8 @@ def def_d_frame(
     _task: Task, old1: Value, old2: Value, old3: Value, new1: Value, new2: Value, new3: Value
 ) -> Value:
     """The displacement that takes three old points to three new ones; the first is exact."""
-    old = _through((_vector(old1.trans), _vector(old2.trans), _vector(old3.trans)))
-    new = _through((_vector(new1.trans), _vector(new2.trans), _vector(new3.trans)))
+    old = _through(old1.trans, old2.trans, old3.trans)
+    new = _through(new1.trans, new2.trans, new3.trans)
     return _pose(frames.compose(new, frames.invert(old)))
 
 
@@ -173,53 +171,20 @@ def def_acc_frame(
     _task: Task, first: Value, second: Value, count: float, worst: Ref, mean: Ref
 ) -> Value:
     """The displacement that fits a list of points to another one best (least squares)."""
-    import numpy as np  # only a best fit needs linear algebra
-
     number = int(count)
     if number != count or not 3 <= number <= min(len(first), len(second)):
         raise RapidError("ERR_FRAME", f"{count:g} points")
-    a = np.array([_vector(first[i].trans) for i in range(1, number + 1)])
-    b = np.array([_vector(second[i].trans) for i in range(1, number + 1)])
-    middle_a, middle_b = a.mean(axis=0), b.mean(axis=0)
-    u, size, vt = np.linalg.svd((a - middle_a).T @ (b - middle_b))
-    if size[1] < _CLOSEST**2:
-        raise RapidError("ERR_FRAME", "the points lie on one line")
-    sign = np.sign(np.linalg.det(vt.T @ u.T))
-    rotation = vt.T @ np.diag([1.0, 1.0, sign]) @ u.T
-    shift = middle_b - rotation @ middle_a
-    errors = np.linalg.norm(a @ rotation.T + shift - b, axis=1)
-    worst.set(float(errors.max()))
-    mean.set(float(errors.mean()))
-    rows = [(float(r[0]), float(r[1]), float(r[2])) for r in rotation]
-    turned = frames.from_matrix((rows[0], rows[1], rows[2]))
-    return _pose(((float(shift[0]), float(shift[1]), float(shift[2])), turned))
-
-
-@builtin("PoseMult", pure=True)
-def pose_mult(_task: Task, outer: Value, inner: Value) -> Value:
-    """Frame 2 in frame 0, of frame 1 in frame 0 and frame 2 in frame 1."""
-    return _pose(frames.compose(_frame(outer), _frame(inner)))
-
-
-@builtin("PoseInv", pure=True)
-def pose_inv(_task: Task, pose: Value) -> Value:
-    """Frame 0 in frame 1."""
-    return _pose(frames.invert(_frame(pose)))
-
-
-@builtin("PoseVect", pure=True)
-def pose_vect(_task: Task, pose: Value, position: Value) -> Value:
-    """A point given in frame 1, in frame 0."""
-    return _pos(frames.transform(_frame(pose), _vector(position)))
+    old, new = ([_vector(d[i].trans) for i in range(1, number + 1)] for d in (first, second))
+    try:
+        found, largest, average = fitting.displacement(old, new)
+    except NoFit as fault:
+        raise RapidError("ERR_FRAME", str(fault)) from fault
+    worst.set(largest)
+    mean.set(average)
+    return _pose(found)
 
 
 # -- orientations and vectors -----------------------------------------------------------------
-
-
-@builtin("OrientZYX", pure=True)
-def orient_zyx(_task: Task, z: float, y: float, x: float) -> Value:
-    """Turns about z, then the new y, then the new x (degrees)."""
-    return _orient(frames.from_zyx(z * _RAD, y * _RAD, x * _RAD))
 
 
 @builtin("EulerZYX", pure=True)
@@ -233,32 +198,17 @@ def euler_zyx(
     return single((about_x if x else about_y if y else about_z) / _RAD)
 
 
-@builtin("NOrient", pure=True)
-def n_orient(_task: Task, rotation: Value) -> Value:
-    """Divided by its norm; ERR_ILLQUAT more than 0.1 off."""
-    return _orient(quaternion(rotation))
-
-
-@builtin("Distance", pure=True)
-def distance(_task: Task, first: Value, second: Value) -> float:
-    """mm"""
-    return single(frames.distance(_vector(first), _vector(second)))
-
-
-@builtin("DotProd", pure=True)
-def dot_prod(_task: Task, first: Value, second: Value) -> float:
-    """Scalar product."""
-    return single(frames.dot(_vector(first), _vector(second)))
-
-
-@builtin("CrossProd", pure=True)
-def cross_prod(_task: Task, first: Value, second: Value) -> Value:
-    """Vector product."""
-    return _pos(frames.cross(_vector(first), _vector(second)))
-
-
-@builtin("VectMagn", pure=True)
-def vect_magn(_task: Task, vector: Value) -> float:
-    """Length."""
-    x, y, z = _vector(vector)
-    return single(sqrt(x * x + y * y + z * z))
+# Angles in degrees, turns about z, then the new y, then the new x. NOrient: ERR_ILLQUAT more
+# than 0.1 off.
+_PURE: dict[str, Callable[..., Value]] = {
+    "PoseMult": lambda _, outer, inner: _pose(frames.compose(_frame(outer), _frame(inner))),
+    "PoseInv": lambda _, pose: _pose(frames.invert(_frame(pose))),
+    "PoseVect": lambda _, pose, place: _pos(frames.transform(_frame(pose), _vector(place))),
+    "OrientZYX": lambda _, z, y, x: _orient(frames.from_zyx(z * _RAD, y * _RAD, x * _RAD)),
+    "NOrient": lambda _, rotation: _orient(quaternion(rotation)),
+    "Distance": lambda _, one, two: single(frames.distance(_vector(one), _vector(two))),
+    "DotProd": lambda _, one, two: single(frames.dot(_vector(one), _vector(two))),
+    "CrossProd": lambda _, one, two: _pos(frames.cross(_vector(one), _vector(two))),
+    "VectMagn": lambda _, vector: single(frames.norm(_vector(vector))),
+}
+builtins(_PURE, pure=True)

@@ -7,10 +7,10 @@ end together (`together.py`).
 
 from collections.abc import Iterable
 
+from rapidgen.machine.meetings import Meeting
 from rapidgen.runtime.builtins.control import wait_standing
 from rapidgen.runtime.builtins.motion.access import data_of, group_of, moving_group
 from rapidgen.runtime.errors import FatalError, RapidError
-from rapidgen.runtime.meetings import Meeting
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value

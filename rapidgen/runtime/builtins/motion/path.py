@@ -4,14 +4,15 @@ Sources: 3HAC050917 for arguments and IsStopMoveAct's two kinds, S4 datasys 2-St
 2-StartMove for behaviour, abb_driver [code] for StopMove, ClearPath, StartMove in sequence.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from rapidgen.motion.group import MotionGroup
 from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, planned
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.task.task import Task
+from rapidgen.runtime.values import Value
 
 MOVE_TASK = "move task"
 OTHER_TASK = "other task"
@@ -66,12 +67,6 @@ def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
         group.start(_reason(task))
 
 
-@builtin("ClearPath", cost="call")
-def clear_path(task: Task) -> None:
-    """Removes what is left of the path; the robot ends where its stop ends."""
-    group_of(task).clear_path()
-
-
 @builtin("IsStopMoveAct")
 def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None) -> bool:
     """Whether a StopMove of a motion task, or of another task, holds the robot."""
@@ -84,26 +79,18 @@ def is_stop_move_act(task: Task, from_move: bool | None, from_other: bool | None
     return MOVE_TASK in reasons or other
 
 
-@builtin("WaitRob")
-def wait_rob(task: Task, _in_position: bool | None, _zero_speed: bool | None) -> None:
-    """Waits for standstill without letting the program run ahead."""
-    group_of(task).wait_standing(task)
-
-
-@builtin("StorePath", cost="call")
-def store_path(task: Task, _keep_sync: bool | None) -> None:
-    """Puts the path aside; moves that follow make a new one."""
-    group_of(task).store_path(task, _reason(task))
-
-
-@builtin("RestoPath", cost="call")
+@builtin("RestoPath")
 @planned
 def resto_path(task: Task) -> None:
     """Brings the stored path back; StartMove sets the robot going on it."""
     group_of(task).restore_path(_reason(task))
 
 
-@builtin("PathLevel")
-def path_level(task: Task) -> int:
-    """1 = original path."""
-    return group_of(task).path_level
+_PLAIN: dict[str, Callable[..., Value]] = {
+    # What is left of the path goes; the robot ends where its stop ends.
+    "ClearPath": lambda task: group_of(task).clear_path(),
+    "WaitRob": lambda task, _in_pos, _zero_speed: group_of(task).wait_standing(task),
+    "StorePath": lambda task, _keep_sync: group_of(task).store_path(task, _reason(task)),
+    "PathLevel": lambda task: group_of(task).path_level,
+}
+builtins(_PLAIN)

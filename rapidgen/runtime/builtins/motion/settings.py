@@ -4,6 +4,7 @@ Sources: S4 datasys 2-VelSet, 2-AccSet, 2-ConfL, 2-PDispOn, 2-EOffsOn and 1-mots
 3HAC050917 for SpeedRefresh and CSpeedOverride.
 """
 
+from collections.abc import Callable
 from math import inf
 
 from rapidgen.axes import frames
@@ -18,7 +19,7 @@ from rapidgen.runtime.builtins.motion.positions import here_of, load0
 from rapidgen.runtime.builtins.motion.units import unit_axis
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_SIMULATED
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.robot_data import NO_OFFSETS
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import Ref, Value
@@ -63,24 +64,6 @@ def c_speed_override(task: Task, own: bool | None) -> float:
     group = group_of(task)
     share = group.override * (group.refresh if own else 1.0)
     return single(round(share * 100, 3))
-
-
-@builtin("MaxRobSpeed")
-def max_rob_speed(task: Task) -> float:
-    """mm/s"""
-    return single(group_of(task).config.tcp_speed_limit * 1000)
-
-
-@builtin("ConfL")
-def conf_l(task: Task, _on: bool | None, off: bool | None) -> None:
-    """Whether linear and circular moves check the configuration that they end in."""
-    group_of(task).modal.check_linear = not off
-
-
-@builtin("ConfJ")
-def conf_j(task: Task, _on: bool | None, off: bool | None) -> None:
-    """Whether joint moves go to the programmed configuration or to the closest one."""
-    group_of(task).modal.check_joint = not off
 
 
 @builtin("SingArea")
@@ -185,18 +168,6 @@ def speed_lim_check_point(task: Task, speed: float) -> None:
     group.limit_point()
 
 
-@builtin("PDispSet")
-def p_disp_set(task: Task, displacement: Value) -> None:
-    """Replaces the program displacement."""
-    group_of(task).modal.displacement = frame(displacement)
-
-
-@builtin("PDispOff")
-def p_disp_off(task: Task) -> None:
-    """No program displacement."""
-    group_of(task).modal.displacement = IDENTITY
-
-
 @builtin("PDispOn")
 def p_disp_on(
     task: Task,
@@ -222,18 +193,6 @@ def p_disp_on(
     modal.displacement = frames.compose(modal.displacement, step)
 
 
-@builtin("EOffsSet")
-def e_offs_set(task: Task, offsets: Value) -> None:
-    """Replaces the offsets of external axes."""
-    data_of(task, group_of(task)).external_offset = _used(offsets.values())
-
-
-@builtin("EOffsOff")
-def e_offs_off(task: Task) -> None:
-    """No offsets of external axes."""
-    data_of(task, group_of(task)).external_offset = NO_OFFSETS
-
-
 @builtin("EOffsOn")
 def e_offs_on(task: Task, executed: Value, programmed: Value) -> None:
     """Adds, for each external axis, the executed minus the programmed value."""
@@ -254,6 +213,27 @@ def _external_now(group: MotionGroup, offsets: Offsets) -> Offsets:
 
 def _used(values: tuple[float, ...]) -> tuple[float, ...]:
     return tuple(0.0 if v > ABSENT / 2 else v for v in values)
+
+
+def _offset(task: Task, values: Offsets) -> None:
+    data_of(task, group_of(task)).external_offset = values
+
+
+def _modal(name: str, value: Callable[..., object]) -> Callable[..., None]:
+    """Sets a modal setting to what its arguments mean."""
+    return lambda task, *given: setattr(group_of(task).modal, name, value(*given))
+
+
+_PLAIN: dict[str, Callable[..., Value]] = {
+    "ConfL": _modal("check_linear", lambda _on, off: not off),
+    "ConfJ": _modal("check_joint", lambda _on, off: not off),
+    "PDispSet": _modal("displacement", frame),
+    "PDispOff": _modal("displacement", lambda: IDENTITY),
+    "EOffsSet": lambda task, offsets: _offset(task, _used(offsets.values())),
+    "EOffsOff": lambda task: _offset(task, NO_OFFSETS),
+    "MaxRobSpeed": lambda task: single(group_of(task).config.tcp_speed_limit * 1000),
+}
+builtins(_PLAIN)
 
 
 # -- settings without effect on this model ----------------------------------------------------

@@ -6,11 +6,11 @@ of its \\ID; all then take the time of the longest [mem: MultiMove is in no publ
 
 from dataclasses import replace
 
+from rapidgen.machine.meetings import Gathering
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Move
 from rapidgen.runtime.builtins.motion.access import data_of
 from rapidgen.runtime.errors import FatalError
-from rapidgen.runtime.meetings import Gathering
 from rapidgen.runtime.motion_faults import NOT_ALLOWED
 from rapidgen.runtime.task.task import Task
 

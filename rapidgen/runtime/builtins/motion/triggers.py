@@ -5,6 +5,7 @@ A distance counts from the end (\\Start: the beginning) of the move, \\Time in s
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from operator import eq, ge, gt, le, lt, ne
 
 from rapidgen.motion.moves import From, PathEvent
@@ -12,13 +13,30 @@ from rapidgen.runtime.builtins.io import fitting
 from rapidgen.runtime.builtins.motion.access import group_of
 from rapidgen.runtime.builtins.motion.path import MOVE_TASK
 from rapidgen.runtime.builtins.motion.request import MoveArguments, bind, cartesian_move, joint_move
-from rapidgen.runtime.builtins.motion.triggdata import TriggData
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED, NOT_SIMULATED
-from rapidgen.runtime.registry import builtin
+from rapidgen.runtime.registry import builtin, builtins
 from rapidgen.runtime.signals import AnySignal
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Ref, Value
+from rapidgen.runtime.values import Ref, Value, register_type
+
+
+@dataclass(slots=True)
+class TriggData:
+    """A triggdata: an event that TriggIO or a relative has prepared, and that TriggL fires."""
+
+    event: PathEvent | None = None
+
+    def set(self, where: From, amount: float, act: Callable[[], None], lag: float = 0.0) -> None:
+        """Prepare: `amount` m or s, see PathEvent."""
+        self.event = PathEvent(where, amount, act, lag)
+
+    def take(self, event: PathEvent | None) -> None:
+        """The same event as another one, or none."""
+        self.event = event
+
+
+register_type("triggdata", TriggData)
 
 _RELATIONS = {1: lt, 2: le, 3: eq, 4: ne, 5: ge, 6: gt}
 """opnum [mem]"""
@@ -174,24 +192,6 @@ def trigg_check_io(
     data.set(where, amount, act)
 
 
-@builtin("TriggDataReset")
-def trigg_data_reset(_task: Task, data: TriggData) -> None:
-    """Nothing is prepared any more."""
-    data.event = None
-
-
-@builtin("TriggDataCopy")
-def trigg_data_copy(_task: Task, source: TriggData, destination: TriggData) -> None:
-    """The same event in another triggdata, which later changes of the first one leave alone."""
-    destination.event = source.event
-
-
-@builtin("TriggDataValid")
-def trigg_data_valid(_task: Task, data: TriggData) -> bool:
-    """Whether an event is prepared."""
-    return data.event is not None
-
-
 def _prepared(_task: Task, given: MoveArguments) -> tuple[PathEvent, ...]:
     array = given["TriggArray"]
     if array is not None:
@@ -209,6 +209,13 @@ def _prepared(_task: Task, given: MoveArguments) -> tuple[PathEvent, ...]:
     return tuple(found)
 
 
+_DATA: dict[str, Callable[..., Value]] = {
+    "TriggDataReset": lambda _task, data: data.take(None),
+    # Later changes of the first one leave the other alone.
+    "TriggDataCopy": lambda _task, source, destination: destination.take(source.event),
+    "TriggDataValid": lambda _task, data: data.event is not None,
+}
+builtins(_DATA)
 bind("TriggL", cartesian_move, _prepared)
 bind("TriggC", cartesian_move, _prepared)
 bind("TriggJ", joint_move, _prepared)  # distances are approximate, as on a controller

@@ -1,9 +1,8 @@
-"""socketdev, and the controller's table of sockets that are in use."""
+"""Sockets as a program holds them, and the controller's table of those that are in use."""
 
 from enum import IntEnum
 
 from rapidgen.machine.network.interface import Endpoint, Network
-from rapidgen.runtime.values import register_type
 
 MAX_SOCKETS = 32
 """Sockets of one controller at a time (switch `sockets_limited`)."""
@@ -28,9 +27,6 @@ class SocketDevice:
         self.endpoint: Endpoint | None = None
         self.status = SocketStatus.CLOSED
         self.udp = False
-
-
-register_type("socketdev", SocketDevice)
 
 
 class SocketTable:

@@ -1,0 +1,113 @@
+"""Figures from measured points: a frame, a displacement, a sphere, the point that a tool holds.
+
+Lengths are mm, as measured. Only a best fit needs numpy, and imports it then. Sources: S4 datasys
+3-DefFrame for when points are too close; FitSphere and its family as the built-ins say.
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose, Vector
+
+_CLOSEST = 0.1
+"""mm between the points of a frame (S4 datasys 3-DefFrame)."""
+_STRAIGHT = 1e-4
+_FLAT = 1e-9
+"""Spread of points across a line or a plane, against their spread along it."""
+
+
+class NoFit(Exception):
+    """The points do not determine the figure."""
+
+
+class Sphere(NamedTuple):
+    """A sphere, and how far the points lie off it."""
+
+    centre: Vector
+    radius: float
+    rms: float
+    largest: float
+    worst: int
+    """Which point is off most, from 0."""
+
+
+def frame_through(first: Vector, second: Vector, third: Vector) -> Pose:
+    """The frame at the first point, with the second on its x axis and the third on the y side.
+
+    NoFit: one is too close to the first, or all lie on one line.
+    """
+    along, side = frames.subtract(second, first), frames.subtract(third, first)
+    if min(frames.norm(along), frames.norm(side)) < _CLOSEST:
+        raise NoFit("points closer than 0.1 mm")
+    x, towards = frames.unit(along), frames.unit(side)
+    if abs(frames.dot(x, towards)) > 1 - _STRAIGHT:
+        raise NoFit("the points lie on one line")
+    z = frames.unit(frames.cross(x, towards))
+    y = frames.cross(z, x)
+    return first, frames.from_matrix(((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2])))
+
+
+def displacement(old: Sequence[Vector], new: Sequence[Vector]) -> tuple[Pose, float, float]:
+    """What takes old points to new ones best, the largest and the mean distance that remains.
+
+    NoFit: all lie on one line.
+    """
+    import numpy as np
+
+    a, b = np.array(old), np.array(new)
+    middle_a, middle_b = a.mean(axis=0), b.mean(axis=0)
+    u, size, vt = np.linalg.svd((a - middle_a).T @ (b - middle_b))
+    if size[1] < _CLOSEST**2:
+        raise NoFit("the points lie on one line")
+    sign = np.sign(np.linalg.det(vt.T @ u.T))
+    rotation = vt.T @ np.diag([1.0, 1.0, sign]) @ u.T
+    shift = middle_b - rotation @ middle_a
+    errors = np.linalg.norm(a @ rotation.T + shift - b, axis=1)
+    rows = [_vector(row) for row in rotation]
+    turned = frames.from_matrix((rows[0], rows[1], rows[2]))
+    return (_vector(shift), turned), float(errors.max()), float(errors.mean())
+
+
+def sphere(points: Sequence[Vector]) -> Sphere:
+    """The sphere through four points or more, by least squares. NoFit: they lie in a plane."""
+    import numpy as np
+
+    at = np.array(points)
+    middle = at.mean(axis=0)
+    near = at - middle
+    spread = np.linalg.svd(near, compute_uv=False)
+    if spread[2] <= _FLAT * spread[0]:
+        raise NoFit("the points lie in a plane")
+    # |p - c|^2 = r^2 is linear in c and r^2 - |c|^2.
+    matrix = np.column_stack([2 * near, np.ones(len(near))])
+    solved = np.linalg.lstsq(matrix, (near**2).sum(axis=1), rcond=None)[0]
+    found = float(np.sqrt(solved[3] + solved[:3] @ solved[:3]))
+    errors = np.abs(np.linalg.norm(near - solved[:3], axis=1) - found)
+    rms = float(np.sqrt((errors**2).mean()))
+    centre = _vector(solved[:3] + middle)
+    return Sphere(centre, found, rms, float(errors.max()), int(errors.argmax()))
+
+
+def held_point(flanges: Sequence[Pose]) -> tuple[Vector, list[float]]:
+    """The point of a tool that all flanges hold at one place, and how far off each one has it.
+
+    NoFit: the flanges do not turn the tool.
+    """
+    import numpy as np
+
+    rows, ends = [], []
+    for place, turn in flanges:
+        # turn * tcp + place = world, for the unknown tcp and world
+        rows.append(np.hstack([np.array(frames.to_matrix(turn)), -np.eye(3)]))
+        ends.append(-np.array(place))
+    solved, _, rank, _ = np.linalg.lstsq(np.vstack(rows), np.concatenate(ends), rcond=1e-9)
+    if rank < 6:
+        raise NoFit("the postures do not turn the tool about two axes")
+    off = [float(np.linalg.norm(row @ solved - end)) for row, end in zip(rows, ends, strict=True)]
+    return _vector(solved[:3]), off
+
+
+def _vector(values: Sequence[float]) -> Vector:
+    x, y, z = values
+    return float(x), float(y), float(z)

@@ -1,0 +1,41 @@
+"""What the planner refuses in an event of the scheduler stops the program it comes in, by its name.
+
+It comes between two statements, where no handler is asked.
+"""
+
+import pytest
+
+from rapidgen.motion.faults import MotionFault, Refusal
+from tests.runtime.booting import boot
+
+PROGRAM = """
+PROC main()
+ VAR num n;
+ WHILE n < 100000 DO
+  n := n + 1;
+ ENDWHILE
+ENDPROC
+"""
+
+
+@pytest.mark.parametrize(
+    ("refusal", "title"),
+    [
+        (Refusal.OUT_OF_REACH_IN_CORNER, "Unhandled error ERR_OUTSIDE_REACH"),
+        (Refusal.SINGULARITY, "Close to singularity"),
+    ],
+)
+def test_a_refusal_in_an_event(refusal: Refusal, title: str) -> None:
+    controller, _ = boot(PROGRAM, cycle="once")
+    with controller:
+
+        def refuse() -> None:
+            raise MotionFault(refusal)
+
+        controller.start_program()
+        controller.scheduler.after(1_000_000, refuse)
+        controller.run(max_time=10)
+        task = controller.task("T1")
+        assert task.state == "error"
+        assert task.fault is not None
+        assert task.fault.title == title
