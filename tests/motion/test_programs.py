@@ -15,77 +15,6 @@ def numbers(row):
     return [float(v) for v in row[row.index("[") + 1 : row.rindex("]")].split(",")]
 
 
-def test_reading_back_what_was_commanded(rapid):
-    out = rapid(
-        HOME + 'q := CRobT(); TPWrite "" \\Pos:=q.trans; TPWrite "" \\Orient:=q.rot;'
-        'j := CJointT(); TPWrite "" \\Num:=j.robax.rax_5; TPWrite "" \\Num:=j.extax.eax_a;',
-        DATA,
-    ).run()
-    assert out == ["[364.354,0,594]", "[0.5,0,0.866025,0]", "30", "9E+09"]
-
-
-def test_moves_end_where_they_are_told(rapid):
-    out = rapid(
-        HOME
-        + "MoveL Offs(p,10,20,30), v200, z10, tool0; MoveC Offs(p,10,30,40), Offs(p,10,40,30), "
-        'v200, fine, tool0; TPWrite "" \\Pos:=CPos(); MoveJ p, v200, fine, tool0;'
-        'TPWrite "" \\Pos:=CPos();',
-        DATA,
-    ).run()
-    assert numbers(out[0]) == pytest.approx([374.354, 40, 624], abs=1e-3)
-    assert numbers(out[1]) == pytest.approx([364.354, 0, 594], abs=1e-3)
-
-
-def test_tool_and_work_object(rapid):
-    data = DATA + (
-        "PERS tooldata t := [TRUE,[[0,0,100],[1,0,0,0]],[1,[0,0,1],[1,0,0,0],0,0,0]];\n"
-        'PERS wobjdata w := [FALSE,TRUE,"",[[100,0,0],[1,0,0,0]],[[0,50,0],[1,0,0,0]]];\n'
-    )
-    out = rapid(
-        HOME + 'q := CRobT(\\Tool:=t \\WObj:=w); TPWrite "" \\Pos:=q.trans;'
-        'MoveL Offs(q,0,-20,0), v200, fine, t \\WObj:=w; TPWrite "" \\Pos:=CPos();'
-        'TPWrite "" \\Pos:=CPos(\\Tool:=tool0 \\WObj:=wobj0);',
-        data,
-    ).run()
-    assert numbers(out[0]) == pytest.approx([364.354 + 86.6025 - 100, -50, 544], abs=2e-3)
-    assert numbers(out[1]) == pytest.approx([350.956, -70, 544], abs=2e-3)
-    assert numbers(out[2]) == pytest.approx([364.354, -20, 594], abs=2e-3)
-
-
-def test_calc_joint_t_and_calc_rob_t_are_inverse(rapid):
-    out = rapid(
-        'j := CalcJointT(p, tool0); q := CalcRobT(j, tool0); TPWrite "" \\Pos:=q.trans;'
-        'TPWrite "" \\Num:=j.robax.rax_5;',
-        DATA,
-    ).run()
-    assert numbers(out[0]) == pytest.approx([364.354, 0, 594], abs=2e-3)
-    assert float(out[1]) == pytest.approx(30, abs=1e-3)
-
-
-def test_out_of_reach_is_recoverable(rapid):
-    # 3HAC050917: ERR_ROBLIMIT, ERR_OUTSIDE_REACH of CalcJointT and the moves
-    out = rapid(
-        HOME + "MoveJ Offs(p,3000,0,0), v200, fine, tool0; j := CalcJointT(Offs(p,3000,0,0), tool0"
-        '\\ErrorNumber:=n); IF n = ERR_OUTSIDE_REACH TPWrite "number";\n'
-        'ERROR IF ERRNO = ERR_OUTSIDE_REACH TPWrite "handled"; TRYNEXT;',
-        DATA + "VAR errnum n;\n",
-    ).run()
-    assert out == ["handled", "number"]
-
-
-def test_configuration_is_followed_with_conf_j_on_and_ignored_off(rapid):
-    """Axes 4, 5, 6 = 30, 30, 0 or -150, -30, 180: one pose, two configurations."""
-    out = rapid(
-        "MoveAbsJ start, v1000, fine, tool0; q := CRobT(); q.robconf := [0,-2,2,1];"
-        'MoveJ q, v500, fine, tool0; j := CJointT(); TPWrite "" \\Num:=j.robax.rax_4;'
-        "ConfJ\\Off; q.robconf := [0,0,0,0]; MoveJ q, v500, fine, tool0; j := CJointT();"
-        'TPWrite "" \\Num:=j.robax.rax_4; ConfJ\\On; MoveJ q, v500, fine, tool0; j := CJointT();'
-        'TPWrite "" \\Num:=j.robax.rax_4;',
-        DATA + "CONST jointtarget start := [[0,0,0,30,30,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n",
-    ).run()
-    assert [round(float(v)) for v in out] == [-150, -150, 30]
-
-
 def test_an_impossible_configuration_stops_the_program(rapid):
     program = rapid(
         HOME + 'MoveJ f, v500, fine, tool0; TPWrite "no";',
@@ -116,29 +45,6 @@ def test_how_far_an_axis_may_be_from_its_quarter(rapid, check, said, move):
     else:
         assert out == said
     assert any(event.code == 50080 for event in program.controller.log) is not bool(said)
-
-
-def test_displacement_moves_targets_but_not_move_abs_j(rapid):
-    out = rapid(
-        HOME
-        + 'PDispSet [[0,50,0],[1,0,0,0]]; MoveL p, v200, fine, tool0; TPWrite "" \\Pos:=CPos();'
-        'q := ORobT(p); TPWrite "" \\Num:=q.trans.y;' + HOME + "PDispOff;"
-        'TPWrite "" \\Pos:=CPos();',
-        DATA,
-    ).run()
-    assert numbers(out[0]) == pytest.approx([364.354, 0, 594], abs=2e-3)  # in the displaced frame
-    assert float(out[1]) == pytest.approx(50)
-    assert numbers(out[2]) == pytest.approx([364.354, 0, 594], abs=2e-3)
-
-
-def test_p_disp_on_adds_the_way_between_two_points(rapid):
-    # S4 datasys 2-PDispOn: an active displacement is added to
-    out = rapid(
-        HOME + "PDispOn \\ExeP:=Offs(p,0,30,0), p, tool0; PDispOn \\ExeP:=Offs(p,0,0,20), p, tool0;"
-        'MoveL p, v200, fine, tool0; PDispOff; TPWrite "" \\Pos:=CPos();',
-        DATA,
-    ).run()
-    assert numbers(out[0]) == pytest.approx([364.354, 30, 614], abs=2e-3)
 
 
 @pytest.mark.parametrize(
@@ -215,79 +121,6 @@ def test_search_finds_the_place_of_the_edge(rapid):
     assert found < stood < found + 5
 
 
-def test_a_search_without_hit_keeps_the_point_and_fails(rapid):
-    data = DATA + "PERS bool hit := FALSE;\n"
-    out = rapid(
-        HOME + "q := p; SearchL \\PStop, hit, q, Offs(p,0,50,0), v200, tool0;"
-        'TPWrite "" \\Num:=q.trans.y; TPWrite "" \\Pos:=CPos();\n'
-        'ERROR IF ERRNO = ERR_WHLSEARCH TPWrite "none"; TRYNEXT;',
-        data,
-    ).run()
-    assert out[:2] == ["none", "0"]
-    assert numbers(out[2])[1] == pytest.approx(50, abs=1e-3)
-
-
-def test_a_signal_that_is_high_at_the_start_is_an_error(rapid):
-    data = DATA + "PERS bool hit := TRUE;\n"
-    out = rapid(
-        HOME + 'SearchL \\Stop, hit, q, Offs(p,0,50,0), v200, tool0; TPWrite "" \\Pos:=CPos();\n'
-        'ERROR IF ERRNO = ERR_SIGSUPSEARCH TPWrite "high"; TRYNEXT;',
-        data,
-    ).run()
-    assert out[0] == "high"
-    assert numbers(out[1])[1] == pytest.approx(0, abs=1e-3)
-
-
-def test_a_trap_leaves_the_path_and_comes_back(rapid):
-    # S4 datasys StorePath: StopMove, StorePath, moves, RestoPath, StartMove
-    data = DATA + (
-        "VAR intnum i;\nTRAP aside\nVAR robtarget here;\nStopMove;\nStorePath;\n"
-        "here := CRobT(\\Tool:=tool0);\nMoveL Offs(here,0,0,30), v200, fine, tool0;\n"
-        'TPWrite "level " \\Num:=PathLevel();\nMoveL here, v200, fine, tool0;\nRestoPath;\n'
-        "StartMove;\nENDTRAP\n"
-    )
-    out = rapid(
-        HOME + "CONNECT i WITH aside; ITimer \\Single, 0.5, i;"
-        "MoveL Offs(p,0,100,0), v100, fine, tool0;"
-        'TPWrite "" \\Pos:=CPos(); TPWrite "level " \\Num:=PathLevel();',
-        data,
-    ).run()
-    assert out[0] == "level 2"
-    assert numbers(out[1])[1:] == pytest.approx([100, 594], abs=2e-3)
-    assert out[2] == "level 1"
-
-
-def test_stop_reasons_of_the_two_kinds_of_tasks(rapid):
-    out = rapid(
-        'StopMove; IF IsStopMoveAct(\\FromMoveTask) TPWrite "own";'
-        'IF IsStopMoveAct(\\FromNonMoveTask) TPWrite "other"; StartMove;'
-        'IF NOT IsStopMoveAct(\\FromMoveTask) TPWrite "free";'
-    ).run()
-    assert out == ["own", "free"]
-
-
-def test_external_axes_of_a_track(rapid):
-    out = rapid(
-        "j := CJointT(); j.extax.eax_a := 300; MoveAbsJ j, v1000, fine, tool0;"
-        "j.extax.eax_a := 400; MoveExtJ j, vlin100, fine; j := CJointT();"
-        'TPWrite "" \\Num:=j.extax.eax_a; TPWrite "" \\Num:=j.robax.rax_1;'
-        "EOffsSet [50,0,9E9,9E9,9E9,9E9]; j.extax.eax_a := 400; MoveAbsJ j, v1000, fine, tool0;"
-        'EOffsOff; j := CJointT(); TPWrite "" \\Num:=j.extax.eax_a;',
-        "VAR jointtarget j;\n",
-        robot="irb120_track",
-    ).run()
-    assert [float(v) for v in out] == pytest.approx([400, 0, 450], abs=1e-3)
-
-
-def test_wait_rob_waits_for_standstill(rapid):
-    out = rapid(
-        HOME + "MoveL Offs(p,0,50,0), v100, z10, tool0; WaitRob \\ZeroSpeed;"
-        'TPWrite "" \\Pos:=CPos(); ',
-        DATA,
-    ).run()
-    assert numbers(out[0])[1] == pytest.approx(50, abs=1e-3)
-
-
 def test_path_acc_lim_slows_the_ramps(rapid):
     times = []
     for limit in ("", "PathAccLim TRUE \\AccMax:=0.2, FALSE;"):
@@ -299,33 +132,6 @@ def test_path_acc_lim_slows_the_ramps(rapid):
         times.append(float(out[0]) - MotionSettings().ramp_time)
     assert times[1] - 1.0 == pytest.approx(0.1 / 0.2, abs=0.01)
     assert times[0] < 1.1
-
-
-def test_a_circle_may_keep_its_orientation_in_the_object(rapid):
-    # 3HAC050917 CirPathMode
-    out = rapid(
-        HOME
-        + "CirPathMode \\ObjectFrame; MoveC Offs(p,0,25,25), Offs(p,0,50,0), v100, fine, tool0;"
-        'q := CRobT(); TPWrite "" \\Orient:=q.rot;',
-        DATA,
-    ).run()
-    assert numbers(out[0]) == pytest.approx([0.5, 0, 0.866025, 0], abs=1e-5)
-
-
-def test_mechanical_units_and_a_deactivated_axis(rapid):
-    out = rapid(
-        "WHILE GetNextMechUnit(n, name \\TCPRob:=robot \\NoOfAxes:=count) DO "
-        'TPWrite name + " " + ValToStr(robot) + " " + ValToStr(count); ENDWHILE '
-        "j := CJointT(); j.extax.eax_a := 100; DeactUnit TRACK_1; "
-        'IF NOT IsMechUnitActive(TRACK_1) TPWrite "off"; '
-        'MoveAbsJ j, v1000, fine, tool0; j := CJointT(); TPWrite "" \\Num:=j.extax.eax_a;'
-        "ActUnit TRACK_1; j.extax.eax_a := 100; MoveAbsJ j, v1000, fine, tool0; j := CJointT();"
-        'TPWrite "" \\Num:=j.extax.eax_a;',
-        "VAR jointtarget j;\nVAR num n;\nVAR string name;\nVAR bool robot;\nVAR num count;\n",
-        robot="irb120_track",
-    ).run()
-    assert out[-3:] == ["off", "0", "100"]
-    assert out[0] == "ROB_1 TRUE 6"
 
 
 @pytest.mark.parametrize(("waits", "ended"), [(False, "running"), (True, "standing")])

@@ -7,6 +7,7 @@ from hypothesis import strategies as st
 from rapidgen.rapid.number_text import number_text
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import RapidError
+from rapidgen.runtime.switches import Switches
 from rapidgen.runtime.text import (
     NotALiteral,
     literal_text,
@@ -149,3 +150,48 @@ def test_no_text_breaks_the_reader(text):
             parse_value(text, type_)
         except NotALiteral:
             continue
+
+
+# -- built-ins that compiled text does not call: it has code of its own for them ------------------
+
+
+def test_str_part(bench):
+    assert bench("StrPart", "Robotics", 1, 5) == "Robot"
+    assert bench("StrPart", "Robotics", 8, 1) == "s"
+    assert bench("StrPart", "Robotics", 3, 0) == ""
+
+
+@pytest.mark.parametrize(("position", "length"), [(0, 1), (9, 1), (8, 2), (1, -1), (1.5, 1)])
+def test_str_part_outside(bench, position, length):
+    with pytest.raises(RapidError) as caught:
+        bench("StrPart", "Robotics", position, length)
+    assert caught.value.name == "ERR_OUTOFBND"
+
+
+def test_str_find_and_match(bench):
+    """Nothing found is length + 1; a position outside is an error [S4 StrFind, StrMatch].
+
+    Machina's driver [code] looks for its next word right behind the last one.
+    """
+    assert bench("StrFind", "Robotics", 1, "aeiou") == 2
+    assert bench("StrFind", "Robotics", 1, "aeiou", NotInSet=True) == 1
+    assert bench("StrFind", "Robotics", 2, "aeiou") == 2
+    assert bench("StrFind", "Robotics", 8, "s") == 8
+    assert bench("StrMatch", "Robotics", 3, "bo") == 3
+    assert bench("StrFind", "Robotics", 3, "xyz") == 9
+    assert bench("StrMatch", "Robotics", 1, "bo") == 3
+    assert bench("StrMatch", "Robotics", 1, "BO") == 9
+    assert bench("StrMatch", "Robotics", 4, "bo") == 9
+    for name in ("StrFind", "StrMatch"):
+        assert bench(name, "Robotics", 9, "x") == 9
+        assert bench(name, "", 1, "x") == 1
+        for place in (0, 10, 1.5):
+            with pytest.raises(RapidError):
+                bench(name, "Robotics", place, "x")
+
+
+def test_a_search_from_behind_by_the_manual_s_word(bench):
+    bench.controller.dialect = Switches(find_behind="error")
+    for name in ("StrFind", "StrMatch"):
+        with pytest.raises(RapidError):
+            bench(name, "Robotics", 9, "x")
