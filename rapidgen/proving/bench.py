@@ -224,6 +224,11 @@ class Bench:
         self.run(seconds)
         still(self.track[start:], before, why)
 
+    def rests(self, within: float, then: float, why: str) -> None:
+        """Wait until the robot has come to rest; Broken when it moves in the s `then`."""
+        self.wait_until_standing(within)
+        self.stays(then, why)
+
     def followed(self, path: Sequence[Position], *, since: float, corner: float = 0.05) -> None:
         """Broken unless the robot was on a prefix of `path` since then (`on_path`)."""
         on_path([sample for sample in self.track if sample[0] >= since], path, corner)

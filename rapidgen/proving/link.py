@@ -156,7 +156,7 @@ class RawLink:
         number = int.from_bytes(data[4:8], "little")
         return self.reply(number, seconds)
 
-    def reply(self, number: int, seconds: float = 2) -> RawContent:
+    def reply(self, number: int, seconds: float = 2, what: str = "") -> RawContent:
         """The next reply of a type; what comes before it is passed over."""
         found: list[RawFrame] = []
 
@@ -168,13 +168,13 @@ class RawLink:
                     found.append(frame)
             return bool(found)
 
-        self._bench.until(arrived, seconds, f"a reply of type {number} arrives")
+        self._bench.until(arrived, seconds, what or f"a reply of type {number} arrives")
         return decode(found[0])
 
-    def stop(self, seconds: float = 2) -> RawContent:
+    def stop(self, seconds: float = 2, what: str = "STOP is answered") -> RawContent:
         """Send STOP; the reply to it."""
         self.send(STOP)
-        return self.reply(JOINT_TRAJ_PT, seconds)
+        return self.reply(JOINT_TRAJ_PT, seconds, what)
 
     def wait_until_lost(self, seconds: float, what: str) -> None:
         """Wait for the controller to end the connection."""

@@ -38,7 +38,8 @@ class Behaviour:
 class Theme:
     """The cases of one file, in the order of its text: a decorator that says a case's own facts.
 
-    With `port="control"` there is nothing to prove where the configuration has no such port.
+    With `port="control"`, for all or for one, there is nothing to prove where the configuration has
+    no such port.
     """
 
     def __init__(self, group: str, *, port: Literal["", "control"] = "") -> None:
@@ -54,11 +55,12 @@ class Theme:
         *,
         once: bool = False,
         background: bool = False,
+        port: Literal["", "control"] = "",
     ) -> "Callable[[Proving], Proving]":
         """Make a function the case of that name; it stays what it is."""
 
         def made(prove: Proving) -> Proving:
-            own = self._where_there_is_a_port(prove) if self._port else prove
+            own = self._where_there_is_a_port(prove) if port or self._port else prove
             self.cases.append(Behaviour(name, title, self._group, own, answers, once, background))
             return prove
 

@@ -340,7 +340,7 @@ def test_a_stop_that_is_not_confirmed_is_seen(bench):
     control.stop(bench.control())
     link = bench.control()
     link.stop_reading()
-    with red("a reply of type 11"):
+    with red("STOP is answered"):
         control.stop(link)
 
 

@@ -277,8 +277,7 @@ def _silent(bench: Bench) -> None:
     stream.put(points[25:50], END)
     stream.accepted("points after 2.5 s of silence")
     stream.link.wait_until_lost(2, "a client whose stream has ended gives way")
-    bench.wait_until_standing(2)
-    bench.stays(1, "its client was replaced")
+    bench.rests(2, 1, "its client was replaced")
 
 
 @case("batch-index-wraps", "more points than numbers")

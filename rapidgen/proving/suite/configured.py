@@ -103,10 +103,8 @@ def _stalls(bench: Bench) -> None:
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
-@links("control-silent", "a control client that does not read harms nobody", "R13")
+@links("control-silent", "a control client that does not read harms nobody", "R13", port="control")
 def _control_silent(bench: Bench) -> None:
-    if not bench.group.ports.control:
-        return
     silent, link = bench.control(), bench.motion()
     bench.run(0.2)
     silent.stop_reading()

@@ -92,8 +92,7 @@ def _stop_under_load(bench: Bench) -> None:
         late = next(o.time for o in orders if o.time >= asked and o.instruction == "StopMove")
         if late - asked > 0.02 and not bench.setting.random_schedule:
             raise Broken(f"under load the robot is told to stop after {late - asked:.3f} s")
-        bench.wait_until_standing(3)
-        bench.stays(1, "it was stopped under load")
+        bench.rests(3, 1, "it was stopped under load")
         stream.link.close(then=2)
     bench.moves_through(bench.motion(), bench.wave(3))
 
@@ -127,8 +126,7 @@ def _pauses(bench: Bench) -> None:
     for _ in range(3):
         bench.run(0.8)
         done(control.ask(messages.RawPause(1)), "PAUSE")
-        bench.wait_until_standing(3)
-        bench.stays(4, "it is paused")
+        bench.rests(3, 4, "it is paused")
         told, status = bench.progress(watcher), bench.status(watcher)
         if told.state != RawTrajectoryState.PAUSED or told.reason:
             raise Broken(f"a trajectory is paused, PROGRESS says {told}")
@@ -167,8 +165,7 @@ def _pause_ends(bench: Bench) -> None:
         told = control.ask(messages.RawPause(0))
         if isinstance(told, messages.RawAcknowledged) and action != "another":
             raise Broken(f"after {action} an end of the pause is taken: {told}")
-        bench.wait_until_standing(5)
-        bench.stays(3, f"it was paused, then came {action}")
+        bench.rests(5, 3, f"it was paused, then came {action}")
         bench.start_again()
         bench.stays(3, f"it was paused, then came {action} and a start of the program")
         control.close()
@@ -235,8 +232,7 @@ def _own_stop(bench: Bench) -> None:
             stop(control)
             if leaves:
                 control.close()
-            other.wait_until_standing(3)
-            other.stays(1, "it was stopped over the control port")
+            other.rests(3, 1, "it was stopped over the control port")
             other.moves_through(link, other.wave(3))
             if leaves:
                 control = other.control()
@@ -339,8 +335,7 @@ def _instructions_fail(bench: Bench) -> None:
         control = bench.control()
         bench.run(0.3)
         stop(control, 2)
-        bench.wait_until_standing(3)
-        bench.stays(1, f"it was stopped; {instruction} of the control server has failed")
+        bench.rests(3, 1, f"it was stopped; {instruction} of the control server has failed")
         bench.moves_through(link, bench.wave(3))
         control.close()
         link.close(then=1.3)
@@ -368,8 +363,7 @@ def _supervisor_is_gone(bench: Bench) -> None:
         fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
         other.run(0.5)
         control.stop(3)
-        other.wait_until_standing(1)
-        other.stays(3, "it was stopped, the supervisor does not answer")
+        other.rests(1, 3, "it was stopped, the supervisor does not answer")
 
 
 @case("old-end", "STOPPED tells what ends, not what has ended")

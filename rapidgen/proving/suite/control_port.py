@@ -50,8 +50,7 @@ def _newest_control_client(bench: Bench) -> None:
         bench.run(1.2)
         bench.sets_off(link, bench.wave(12))
         stop(control)
-        bench.wait_until_standing(3)
-        bench.stays(1, "the newest client has stopped it")
+        bench.rests(3, 1, "the newest client has stopped it")
 
 
 @case("control-hello", "HELLO, PING and requests in pieces and lumps", "R2")

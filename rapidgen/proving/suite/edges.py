@@ -5,7 +5,7 @@ from itertools import pairwise
 
 from rapidgen.proving import messages
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
+from rapidgen.proving.link import RawLink, point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState, decode
 from rapidgen.proving.model import Broken, Theme
 from rapidgen.proving.suite.refusals import refused
@@ -31,8 +31,7 @@ def _taken(bench: Bench, points: list[Point], why: str) -> None:
     content = decode(link.expect_reply(5, "the end frame is answered"))
     if not isinstance(content, messages.RawAccepted):
         raise Broken(f"{why} is refused: {content}")
-    link.send(STOP)
-    link.expect_reply(2, "STOP is answered")
+    link.stop()
     bench.wait_until_standing(5)
     link.close(then=1.2)
 
@@ -210,8 +209,7 @@ def _stop_in_a_stay(bench: Bench) -> None:
     link.send(bench.download([first, second, (second[0], 20.0), third]))
     bench.wait_until_at(second[0])
     bench.run(1)
-    link.send(STOP)
-    link.expect_reply(1, "STOP in a stay is answered")
+    link.stop(1, "STOP in a stay is answered")
     bench.stays(25, "it was stopped in a stay")
     bench.moves_through(link, bench.wave(3))
 

@@ -136,8 +136,7 @@ def _stale_data(bench: Bench) -> None:
             link = other.motion()
             other.moves_through(link, other.wave(4))
             other.sets_off(link, other.wave(8))
-            link.send(STOP)
-            link.expect_reply(2, "STOP is answered")
+            link.stop()
             other.wait_until_standing(5)
             other.moves_through(link, other.wave(3))
             other.healthy()
@@ -214,8 +213,7 @@ def _two_groups(bench: Bench) -> None:
         theirs.send(other.download(second))
         bench.until(lambda: not bench.standing and not other.standing, 5, "both groups move")
         if stopping:
-            mine.send(STOP)
-            mine.expect_reply(2, "STOP is answered")
+            mine.stop()
             bench.wait_until_standing(3)
             if distance(bench.position, first[-1][0]) < 1e-3:
                 raise Broken("a group went on after its STOP")

@@ -202,8 +202,7 @@ def _progress_of_a_download(bench: Bench) -> None:
         told = _newest(bench, link)
         if told[1:] != (RawTrajectoryState.RECEIVING, sent, 0, 0, 0, -1, 0):
             raise Broken(f"{sent} points were sent, PROGRESS says {told}")
-    motion.send(STOP)
-    motion.expect_reply(1, "STOP is answered")
+    motion.stop(1)
     told = _newest(bench, link)
     if (told.state, told.reason) != (RawTrajectoryState.STOPPED, RawReason.STOPPED):
         raise Broken(f"a download was stopped, PROGRESS says {told}")
@@ -224,8 +223,7 @@ def _progress_of_a_refusal(bench: Bench) -> None:
     status = bench.status(link)
     if (status.in_error, status.error_code) != (1, 204):
         raise Broken(f"point 3 was refused for joint 2, STATUS says {status}")
-    motion.send(STOP)
-    motion.expect_reply(1, "STOP is answered")
+    motion.stop(1)
     told, status = _newest(bench, link), bench.status(link)
     if (told.state, status.in_error, status.error_code) != (RawTrajectoryState.STOPPED, 0, 0):
         raise Broken(f"STOP ends the report of a refusal, but {told}, {status}")

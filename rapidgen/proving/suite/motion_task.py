@@ -247,11 +247,9 @@ def _stream_by_step(bench: Bench) -> None:
         raise Broken(f"a stream was cut behind two points, but {progress} and {status}")
 
 
-@case("speed-by-step", "a speed is for one trajectory, from the reply on")
+@case("speed-by-step", "a speed is for one trajectory, from the reply on", port="control")
 def _speed_by_step(bench: Bench) -> None:
     """Half the speed from the reply on, for this trajectory alone."""
-    if not bench.group.ports.control:
-        return
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
     # Some controllers do not slow down what was given its time.
     slower = 2.0 if bench.setting.motion.refresh_timed else 1.0
@@ -350,13 +348,11 @@ def _halts(bench: Bench) -> None:
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     cycles = _cycles(bench)
     for _ in range(7):
-        link.send(STOP)
-        link.expect_reply(SOON, "STOP at a standstill is answered")
+        link.stop(SOON, "STOP at a standstill is answered")
     begins(bench, link, bench.wave(4, duration=unit))
     bench.run(1.15 * unit)
     since = bench.now
-    link.send(STOP)
-    link.expect_reply(SOON, "STOP on the way is answered")
+    link.stop(SOON, "STOP on the way is answered")
     told = _over_soon(bench, watcher, since, "STOP on the way")
     if (told.planned, told.reached) != (3, 1):
         raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
@@ -365,8 +361,7 @@ def _halts(bench: Bench) -> None:
     bench.wait_until_at(way[1][0], 5)
     bench.run(0.5)
     since = bench.now
-    link.send(STOP)
-    link.expect_reply(SOON, "STOP in a stay is answered")
+    link.stop(SOON, "STOP in a stay is answered")
     told = _over_soon(bench, watcher, since, "STOP in a stay")
     if (told.planned, told.reached) != (3, 2):
         raise Broken(f"STOP came in the stay behind two points, PROGRESS says {told}")

@@ -161,11 +161,10 @@ def _is_answered(link: RawLink) -> bool:
     "STOP over the control port at each statement of a beginning",
     "R7b",
     once=True,
+    port="control",
 )
 def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
     """Whatever the motion server is at when it comes: nothing moves after the reply to it."""
-    if not bench.group.ports.control:
-        return
     with _stepped(bench) as other:
         control = other.control()
         for module, routines in (
@@ -185,8 +184,7 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
                     other.run(0.2)
                 if came:
                     done(control.reply(JOINT_TRAJ_PT), f"STOP at line {line} of {module}")
-                    other.wait_until_standing(1)
-                    other.stays(1, f"STOP came at line {line} of {module}")
+                    other.rests(1, 1, f"STOP came at line {line} of {module}")
                 else:
                     link.send(STOP)
                     other.wait_until_standing(2)
@@ -199,10 +197,9 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
     "STOP at each statement with which a paused robot goes on",
     "R7b",
     once=True,
+    port="control",
 )
 def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
-    if not bench.group.ports.control:
-        return
     with _stepped(bench) as other:
         control, link = other.control(), other.motion()
         other.run(0.5)
@@ -218,8 +215,7 @@ def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
                 came.append(other.now)
                 link.send(STOP)
             link.reply(JOINT_TRAJ_PT)
-            other.wait_until_standing(2)
-            other.stays(1, f"STOP came at line {line} of the supervisor, which ended a pause")
+            other.rests(2, 1, f"STOP came at line {line} of the supervisor, which ended a pause")
             other.run(patience(other))
 
 

@@ -32,8 +32,7 @@ def _moves_again_after_stop(bench: Bench) -> None:
     link = bench.motion()
     for _ in range(4):
         bench.sets_off(link, bench.wave(10), 0.4)
-        link.send(STOP)
-        link.expect_reply(1, "STOP is answered")
+        link.stop(1)
         if bench.setting.motion.servo_lag:
             # Where it is now is too far from where it comes to rest to be a start.
             bench.wait_until_standing(2)
@@ -48,10 +47,8 @@ def _stop_at_every_moment(bench: Bench) -> None:
         points = bench.wave(5, duration=0.3)
         link.send(bench.download(points))
         bench.run(step * 0.005)
-        link.send(STOP)
-        link.expect_reply(2, f"STOP {step * 5} ms behind a trajectory is answered")
-        bench.wait_until_standing(5)
-        bench.stays(0.5, "it was stopped")
+        link.stop(2, f"STOP {step * 5} ms behind a trajectory is answered")
+        bench.rests(5, 0.5, "it was stopped")
     bench.moves_through(link, bench.wave(4))
 
 
@@ -115,8 +112,7 @@ def _short_way_to_stop(bench: Bench) -> None:
     link = bench.motion()
     count = min(bench.config.trajectory.capacity, 400)
     bench.sets_off(link, bench.wave(count, duration=0.2, size=0.01), 0.2)
-    link.send(STOP)
-    link.expect_reply(3, "STOP behind a long trajectory is answered")
+    link.stop(3, "STOP behind a long trajectory is answered")
     bench.wait_until_standing(5)
     points = bench.wave(4)
     bench.moves_through(link, points)
@@ -127,8 +123,7 @@ def _short_way_to_stop(bench: Bench) -> None:
 def _state_tells_of_the_stop(bench: Bench) -> None:
     state, link = bench.state(), bench.motion()
     bench.sets_off(link, bench.wave(10))
-    link.send(STOP)
-    link.expect_reply(1, "STOP is answered")
+    link.stop(1)
     bench.wait_until_standing(5)
     # Where a move does not return when its path is cleared its task is begun anew.
     bench.run(1 if bench.setting.motion.cleared_move == "return" else 2.5)

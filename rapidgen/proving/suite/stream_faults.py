@@ -159,8 +159,7 @@ def _speeds(bench: Bench, streams: _Streams) -> None:
     streams.begin(allowed)
     streams.taken(len(allowed), "each joint at its speed")
     streams.stop()
-    bench.wait_until_standing(2)
-    bench.stays(0.1, "the last stream was stopped")
+    bench.rests(2, 0.1, "the last stream was stopped")
 
 
 def _said(bench: Bench, reason: RawReason) -> None:

@@ -186,11 +186,9 @@ def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> No
     bench.stays(0.3, "it is paused")
 
 
-@case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends")
+@case("pause-by-step", "each answer to PAUSE, and how a paused trajectory ends", port="control")
 def _pause_by_step(bench: Bench) -> None:
     """Each answer to PAUSE, what is told of it, and what becomes of a paused trajectory."""
-    if not bench.group.ports.control:
-        return
     control, watcher, link, unit = bench.control(), bench.watcher(), bench.motion(), unit_of(bench)
 
     def ask(paused: int, reason: RawReason = RawReason.NONE) -> None:
@@ -245,11 +243,9 @@ def _pause_by_step(bench: Bench) -> None:
         bench.wait_until_at(points[2][0], 3 * unit + 2)
 
 
-@case("stop-in-pause", "STOP while a paused robot is about to be started", "R7b")
+@case("stop-in-pause", "STOP while a paused robot is about to be started", "R7b", port="control")
 def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
     """STOP comes while the supervisor is about to start a paused robot: it does not move."""
-    if not bench.group.ports.control:
-        return
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)
     supervisor = bench.rapid_task("ROS_supervisor")
 
