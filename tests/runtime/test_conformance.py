@@ -2,8 +2,8 @@
 
 The head of a file names its source; comments tell the rest:
 `! expect: TEXT` one TPWrite, in order · `! fault: NAME LINE` how a task ends ·
-`! dialect: SWITCH=VALUE` · `! signal: NAME TYPE` · `! cycle: N` main runs again, N lines are read ·
-`! until: S` simulated seconds to run at most · `! robot: SHIPPED NAME` ·
+`! dialect: SWITCH=VALUE` · `! signal: NAME TYPE [BITS]` · `! robot: SHIPPED NAME` ·
+`! cycle: N` main runs again, N lines are read · `! until: S` simulated seconds to run at most ·
 `! task: NAME ENTRY [TYPE]` one more task (a ROB in the name: it has a robot) ·
 `! hook: ROUTINE EVENT TASK` an event routine · `! case: SWITCH=VALUE` all that follows on a
 controller of its own, with this switch (or motion setting) too.
@@ -63,7 +63,10 @@ def system(path: Path, text: str) -> System:
     return System(
         path.stem,
         tuple(tasks),
-        signals=tuple(SignalSpec(*line) for line in words(text, "signal")),
+        signals=tuple(
+            SignalSpec(name, kind, size=int(size[0]) if size else 1)
+            for name, kind, *size in words(text, "signal")
+        ),
         events=tuple(EventRoutine(*line) for line in words(text, "hook")),
     )
 
