@@ -99,9 +99,7 @@ def _state_is_true(bench: Bench) -> None:
         raise Broken("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
-    joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
-    last = joints[-1]
-    assert isinstance(last, messages.RawJointPosition)
+    _, last = link.told(messages.RawJointPosition)[-1]
     here = bench.position
     if distance(last.joints[: len(here)], here) > 1e-4 or any(last.joints[len(here) :]):
         raise Broken(f"JOINT says {last.joints}, the robot stands at {here}")

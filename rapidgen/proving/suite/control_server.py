@@ -130,8 +130,7 @@ def _not_begun(bench: Bench) -> None:
         or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
     ):
         raise Broken(f"a stream was stopped before it moved, STOPPED says {told}")
-    stream.put(way(bench, 2))
-    stream.refused(RawReason.STOPPED, "points behind STOP")
+    stream.refuses(RawReason.STOPPED, "points behind STOP", way(bench, 2))
     bench.run(0.3)
     progress = bench.progress(watcher)
     if (progress.trajectory, progress.state, progress.reason) != (

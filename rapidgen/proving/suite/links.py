@@ -127,8 +127,7 @@ def _silent(bench: Bench, old: RawLink, what: str, points: list[Point]) -> RawLi
     if what == "stream":
         # Its batches may come far apart, until it has ended, although it moves on.
         bench.run(2.5)
-        stream.put([(place, 6.0)], END)
-        stream.accepted("a slow last point")
+        stream.takes("a slow last point", [(place, 6.0)], END)
         points = [(place, 6.0)]
         bench.run(0.8)
         _pings(bench, old)

@@ -122,11 +122,7 @@ def _start_too_far(bench: Bench) -> None:
     points = bench.wave(4)
     for axis, joint in enumerate(bench.group.joints):
         here = bench.position
-        near = (
-            bench.config.trajectory.start_tolerance
-            if joint.kind == "revolute"
-            else bench.config.trajectory.start_tolerance_linear
-        )
+        near = bench.start_tolerance(joint)
         away = here[axis] + (1.5 * near if here[axis] + 2 * near < joint.upper else -1.5 * near)
         start = (*here[:axis], away, *here[axis + 1 :])
         points = [(start, 10.0), *bench.wave(4)[1:]]
