@@ -158,7 +158,7 @@ def goldens() -> list[tuple[float, str]]:
 FIGURES = [
     Figure("share of the largest room, %", rooms, 21, together=False),
     Figure("share of the largest folder, its own files, %", folders, 14, together=False),
-    Figure("files in the largest circle of imports", circle_sizes, 5, 2, together=False),
+    Figure("files in the largest circle of imports", circle_sizes, 2, together=False),
     Figure("type: ignore", lambda: words("# type: ignore"), 15),
     Figure("the word Any besides the alias of RAPID values", anything, 60),
     Figure("public class names that stand for two things", double_names, 12),

@@ -4,9 +4,10 @@ import random
 import struct
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import distance

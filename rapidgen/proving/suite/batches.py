@@ -1,10 +1,11 @@
 """Batches of points one by one: what each reply says, and each way to spoil one."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import Point, distance

@@ -1,10 +1,11 @@
 """What the unmodified ROS-Industrial nodes send and expect."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, point_frame, raw_point
 from rapidgen.proving.messages import JOINT_POSITION, STATUS, RawComm, RawReplyCode, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point, distance
 
 case = Theme("compatible")

@@ -1,10 +1,11 @@
 """What a configuration can ask for: slower rather than refused, a slow TCP, some clients alone."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, raw_point
 from rapidgen.proving.messages import RawReason
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import Point, changed, distance

@@ -4,11 +4,12 @@ import math
 from dataclasses import replace
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.suite.streams import way

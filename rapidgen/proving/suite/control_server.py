@@ -1,11 +1,12 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.proving.suite.streams import way

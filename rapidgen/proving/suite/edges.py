@@ -4,10 +4,11 @@ import math
 from itertools import pairwise
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, inward, small_unit
 

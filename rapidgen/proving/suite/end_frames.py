@@ -3,10 +3,11 @@
 from itertools import pairwise
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame
 from rapidgen.proving.messages import RawReason, RawSpecial, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.points import Table
 from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, inward
 

@@ -1,10 +1,11 @@
 """Each joint by itself, in streams and away from zero; each signal by itself."""
 
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame
 from rapidgen.proving.messages import RawReason, RawTriState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import Point, changed, distance, inward

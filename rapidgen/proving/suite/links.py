@@ -1,10 +1,11 @@
 """Connections that come, go, hang and take each other's place."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
 from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.track import SETTLED, Point, distance
 

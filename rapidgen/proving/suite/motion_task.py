@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
 

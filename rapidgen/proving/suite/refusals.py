@@ -4,10 +4,11 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
 
 case = Theme("refused")

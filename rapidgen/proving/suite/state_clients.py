@@ -10,11 +10,12 @@ from rapidgen.machine.log import EventType
 from rapidgen.machine.network.interface import BUFFER, NetworkFault
 from rapidgen.machine.network.memory import MemoryEndpoint
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawFeature, RawReason
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.suite.state_port import PLAIN, on_turn, rounds, subscribe
 from rapidgen.proving.track import Point

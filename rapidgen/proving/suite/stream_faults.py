@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from rapidgen.generate.context import WRAP
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import point_frame, raw_point
@@ -14,7 +15,7 @@ from rapidgen.proving.messages import (
     RawStreamFlag,
     RawTrajectoryState,
 )
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.points import fast_ends
 from rapidgen.proving.suite.streams import way

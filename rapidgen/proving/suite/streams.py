@@ -1,10 +1,11 @@
 """Trajectories without end: batches, credits, starvation, and what cuts a stream."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
 
