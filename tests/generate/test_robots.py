@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from rapidgen.machine.configuration import arm_name
+from rapidgen.machine.system_parameters import arm_name
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
