@@ -12,7 +12,7 @@ from itertools import pairwise
 from typing import Self, TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.config.model import GroupConfig, RobotConfig
+from rapidgen.config.model import GroupConfig, Joint, RobotConfig
 from rapidgen.controller.controller import Deadlock, VirtualController
 from rapidgen.controller.tracing import Coverage
 from rapidgen.diagnostics import Span
@@ -359,6 +359,12 @@ class Bench:
     def last_event(self) -> int:
         """Sequence number of the newest event in the log; 0: there is none."""
         return max((event.sequence for event in self.controller.log), default=0)
+
+    def start_tolerance(self, joint: Joint) -> float:
+        """rad or m that the first point of a trajectory may be away from the robot."""
+        policy = self.config.trajectory
+        linear = joint.kind == "prismatic"
+        return policy.start_tolerance_linear if linear else policy.start_tolerance
 
     def seconds_to(self, target: Position) -> float:
         """s to a point from here: half of each axis' speed is enough, and the TCP's ceiling."""

@@ -149,6 +149,11 @@ class RawLink:
         self._bench.until(arrived, seconds, what)
         return found[0]
 
+    def told(self, kind: type[C], since: float = 0.0) -> list[tuple[float, C]]:
+        """All messages of a kind that came from `since` on, and when."""
+        found = [(when, decode(frame)) for when, frame in self.frames if when >= since]
+        return [(when, content) for when, content in found if isinstance(content, kind)]
+
     def ask(self, content: RawContent, seconds: float = 2) -> RawContent:
         """Send a request; the reply to it."""
         data = encode(content, RawComm.REQUEST)

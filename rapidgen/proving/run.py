@@ -8,9 +8,10 @@ from typing import TextIO
 from rapidgen.config.model import RobotConfig
 from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
+from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
 from rapidgen.proving.explore import Explored, explore
-from rapidgen.proving.model import Behaviour, Proof, Verdict
+from rapidgen.proving.model import Proof, Verdict
 from rapidgen.proving.report import series
 from rapidgen.proving.settings import Setting, settings
 from rapidgen.proving.suite import CASES

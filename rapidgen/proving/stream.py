@@ -69,6 +69,20 @@ class Streamer:
             raise Broken(f"{what}: wanted {reason.name}, the reply is {self.last}")
         return self.last
 
+    def takes(
+        self, what: str, points: Sequence[Point], flags: RawStreamFlag = NONE
+    ) -> messages.RawPointsAccepted:
+        """Send a batch; Broken unless the reply is a success."""
+        self.put(points, flags)
+        return self.accepted(what)
+
+    def refuses(
+        self, reason: RawReason, what: str, points: Sequence[Point], flags: RawStreamFlag = NONE
+    ) -> messages.RawPointsRefused:
+        """Send a batch; Broken unless the reply is a refusal for that reason."""
+        self.put(points, flags)
+        return self.refused(reason, what)
+
     def all(self, points: Sequence[Point], *, end: bool = True, size: int = 10) -> None:
         """A whole stream, never more points than there is room for."""
         at = 0
@@ -84,5 +98,4 @@ class Streamer:
                 flags |= BEGIN
             if end and at == len(points):
                 flags |= END
-            self.put(batch, flags)
-            self.accepted(f"points up to {at} of {len(points)}")
+            self.takes(f"points up to {at} of {len(points)}", batch, flags)

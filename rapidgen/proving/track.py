@@ -41,6 +41,11 @@ def changed(position: Position, axis: int, value: float) -> Position:
     return (*position[:axis], value, *position[axis + 1 :])
 
 
+def inward(joint: Joint, here: float, step: float) -> float:
+    """`step` from where a joint stands, to the side where there is more room."""
+    return here + step if joint.upper - here >= here - joint.lower else here - step
+
+
 def small_unit(joint: Joint) -> float:
     """One degree or one millimetre."""
     return 1e-3 if joint.kind == "prismatic" else math.radians(1)

@@ -321,36 +321,6 @@ class Box(Ref):
         self.v = value
 
 
-class View(Ref):
-    """A Ref to something inside a container: module data, an element or a component."""
-
-    __slots__ = ("_get", "_put")
-
-    def __init__(
-        self,
-        get: Callable[[], Value],
-        put: Callable[[Value], None],
-        type: Type,
-        dims: tuple[int, ...] = (),
-        name: str = "",
-        *,
-        whole: bool = True,
-        cell: PersistentCell | None = None,
-    ) -> None:
-        super().__init__(type, dims, name, whole=whole, cell=cell)
-        self._get = get
-        self._put = put
-
-    @property
-    def v(self) -> Value:
-        """The value."""
-        return self._get()
-
-    @v.setter
-    def v(self, value: Value) -> None:
-        self._put(value)
-
-
 def store(target: "Ref | PersistentCell", value: Value) -> None:
     """Store by value what a built-in made: rounded, limited, copied."""
     kind = target.type.kind

@@ -3,11 +3,11 @@
 from dataclasses import replace
 
 import pytest
-from rapidgen.machine.configuration import arm_name
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.generate import build, layout, make_system
 from rapidgen.machine.log import EventType
+from rapidgen.machine.system_parameters import arm_name
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import MAX_JOINTS, RawJointPosition
 from rapidgen.proving.track import distance

@@ -14,8 +14,8 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, with_module
-from rapidgen.proving.model import Behaviour
 from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import Setting
 from rapidgen.proving.workers import each, in_a_fork

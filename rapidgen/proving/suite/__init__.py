@@ -1,6 +1,6 @@
 """The behaviours that a generated driver must have: one file a theme."""
 
-from rapidgen.proving.model import Behaviour, Theme
+from rapidgen.proving.behaviour import Behaviour, Theme
 from rapidgen.proving.suite import (
     batch_bytes,
     batches,

@@ -4,9 +4,10 @@ import random
 import struct
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import distance
@@ -62,11 +63,9 @@ def _just_in_time(bench: Bench) -> None:
     for number in range(1, 13):
         points, since, last = way(bench, 14, seconds), bench.now, bench.last_event
         stream = Streamer(bench, link, number=number)
-        stream.put(points[:6], BEGIN)
-        stream.accepted("the first points")
+        stream.takes("the first points", points[:6], BEGIN)
         bench.run(4.25 * seconds + 0.02 * number)
-        stream.put(points[6:], END)
-        stream.accepted("points that come just in time, or too late")
+        stream.takes("points that come just in time, or too late", points[6:], END)
         bench.arrives(points, since, 20)
         if any(e.code == 50_024 for e in bench.controller.log.since(last)):
             raise Broken(f"a corner had no successor: {number * 20} ms later")
@@ -79,8 +78,7 @@ def _damage(bench: Bench) -> None:
     for _ in range(20):
         points, since = way(bench, 24, 0.12), bench.now
         stream = Streamer(bench)
-        stream.put(points[:12], BEGIN)
-        stream.accepted("the first points")
+        stream.takes("the first points", points[:12], BEGIN)
         data = bytearray(stream.frame(points[12:], END))
         for _ in range(chance.randint(1, 3)):
             data[chance.randrange(4, len(data))] = chance.randrange(256)

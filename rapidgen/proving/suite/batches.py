@@ -1,10 +1,11 @@
 """Batches of points one by one: what each reply says, and each way to spoil one."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import Point, distance
@@ -38,8 +39,7 @@ def _replies(bench: Bench) -> None:
         raise Broken(f"the robot moves, the reply is {stream.last}")
     bench.wait_until_at(points[-1][0], 30)
     bench.run(0.5)
-    stream.put(())
-    told = stream.accepted("a batch without points, starved")
+    told = stream.takes("a batch without points, starved", ())
     if told[2:] != (40, ring - 1, 40, 40, RawTrajectoryState.STARVED):
         raise Broken(f"all of 40 points are executed, the reply is {told}")
     stream.put((), END)
@@ -60,20 +60,16 @@ def _strange(bench: Bench) -> None:
     points = way(bench, 4)
     for number, flags in ((7, _NONE), (7, END), (0, BEGIN), (0, _NONE), (_LARGEST + 1, BEGIN)):
         stream.number, stream.sent = number, 0
-        stream.put(points, flags)
-        told = stream.refused(RawReason.NO_START, f"stream {number}, {flags!r}")
+        told = stream.refuses(RawReason.NO_START, f"stream {number}, {flags!r}", points, flags)
         wanted = number if number <= _LARGEST else 0
         if told != messages.RawPointsRefused(wanted, 0, 0, RawReason.NO_START, -1, 0):
             raise Broken(f"a batch of no stream is answered by {told}")
     stream.number, stream.sent = 7, 0
-    stream.put(points, BEGIN)
-    stream.accepted("a beginning")
+    stream.takes("a beginning", points, BEGIN)
     stream.number = 8
-    stream.put(points)
-    stream.refused(RawReason.NO_START, "a batch of another stream")
+    stream.refuses(RawReason.NO_START, "a batch of another stream", points)
     stream.number, stream.sent = 7, 4
-    stream.put(way(bench, 4), END)
-    stream.accepted("the rest of a stream")
+    stream.takes("the rest of a stream", way(bench, 4), END)
     bench.run(3)
     bench.wait_until_standing(5)
 
@@ -150,8 +146,7 @@ def _enough(bench: Bench) -> None:
     for count, enough in ((5, True), (4, False)):
         stream = Streamer(bench)
         points = [(p, duration) for p, _ in way(bench, 5, duration)][:count]
-        stream.put(points, BEGIN)
-        stream.accepted("the first points")
+        stream.takes("the first points", points, BEGIN)
         if enough:
             bench.wait_until_moving(1)
         else:
@@ -171,8 +166,7 @@ def _not_now(bench: Bench) -> None:
         bench.controller.perform(action)
         bench.run(0.5)
         stream = Streamer(bench)
-        stream.put((), BEGIN)
-        stream.accepted("a beginning without points")
+        stream.takes("a beginning without points", (), BEGIN)
         stream.put(way(bench, 20))
         told = stream.last
         if not isinstance(told, messages.RawPointsRefused) or told.reason not in reasons:
@@ -195,16 +189,14 @@ def _ends_before_it_moves(bench: Bench) -> None:
     stream.number, stream.sent = 5, 0
     stream.put((), BEGIN)
     stream.link.stop()
-    stream.put(way(bench, 20))
-    refusal = stream.refused(RawReason.STOPPED, "points behind a STOP")
+    refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 20))
     if (refusal.accepted, refusal.point, refusal.joint) != (0, -1, 0):
         raise Broken(f"points behind a STOP are answered by {refusal}")
     bench.stays(1, "the stream was stopped")
     stream.number, stream.sent = 2, 0
     stream.put((), BEGIN)
     stream.link.send(bench.download(bench.wave(3))[:68])
-    stream.put(way(bench, 20))
-    stream.refused(RawReason.SUPERSEDED, "points behind a download")
+    stream.refuses(RawReason.SUPERSEDED, "points behind a download", way(bench, 20))
     bench.stays(1, "the stream was superseded")
     for number in (3, 4):
         stream.number, stream.sent = number, 0
@@ -212,8 +204,7 @@ def _ends_before_it_moves(bench: Bench) -> None:
         if number == 4:
             stream.put(way(bench, 3), _NONE)
             stream.sent = 17
-            stream.put(way(bench, 3), _NONE)
-            stream.refused(RawReason.SEQUENCE_GAP, "points behind a hole")
+            stream.refuses(RawReason.SEQUENCE_GAP, "points behind a hole", way(bench, 3), _NONE)
         stream.link.close(then=1)
         told = bench.progress(watcher)
         wanted = (RawTrajectoryState.REFUSED, RawReason.INCOMPLETE) if number == 3 else None
@@ -231,8 +222,7 @@ def _stays(bench: Bench) -> None:
     stay = 1.5
     points: list[Point] = [first, second, (second[0], stay), third]
     stream, since = Streamer(bench), bench.now
-    stream.put(points, BEGIN | END)
-    stream.accepted("a stream with a stay")
+    stream.takes("a stream with a stay", points, BEGIN | END)
     bench.wait_until_at(third[0], 10)
     asked = second[1] + stay + third[1]
     if not asked - 0.1 <= bench.now - since <= 1.3 * asked + 0.4:
@@ -244,8 +234,7 @@ def _stays(bench: Bench) -> None:
     first, second, third = way(bench, 3, 0.6)
     stream, since = Streamer(bench, stream.link, number=2), bench.now
     stream.put([first, second], BEGIN | FLUSH)
-    stream.put([(second[0], stay), third], END)
-    stream.accepted("a stay in another batch")
+    stream.takes("a stay in another batch", [(second[0], stay), third], END)
     bench.wait_until_at(third[0], 10)
     if not any(t > since and distance(p, second[0]) < 1e-4 for t, p in bench.track):
         raise Broken("the robot was not where the next batch told it to stay")
@@ -260,8 +249,7 @@ def _short_last(bench: Bench) -> None:
     points = [(p, 1.0) for p, _ in bench.wave(4, size=0.001)]
     points[3] = (points[3][0], policy.min_segment / 2)
     stream = Streamer(bench)
-    stream.put(points, BEGIN | END)
-    stream.accepted("a short last segment")
+    stream.takes("a short last segment", points, BEGIN | END)
     bench.wait_until_at(points[3][0], 10)
 
 
@@ -274,8 +262,7 @@ def _silent(bench: Bench) -> None:
     bench.wait_until_moving()
     bench.motion()
     bench.run(2.5)
-    stream.put(points[25:50], END)
-    stream.accepted("points after 2.5 s of silence")
+    stream.takes("points after 2.5 s of silence", points[25:50], END)
     stream.link.wait_until_lost(2, "a client whose stream has ended gives way")
     bench.rests(2, 1, "its client was replaced")
 
@@ -286,8 +273,7 @@ def _index_wraps(bench: Bench) -> None:
     last = messages.INDEX_WRAP
     stream, since = Streamer(bench), bench.now
     points = way(bench, 40)
-    stream.put(points[:10], BEGIN)
-    stream.accepted("the first points")
+    stream.takes("the first points", points[:10], BEGIN)
     bench.wait_until_at(points[9][0], 20)
     bench.run(0.5)
     server, motion = bench.task("ROS_motionServer"), bench.task("ROS_motion")
@@ -299,8 +285,7 @@ def _index_wraps(bench: Bench) -> None:
     if stream.accepted("points over the last number").accepted != 5:
         raise Broken(f"ten points from {last - 5} on, the reply is {stream.last}")
     stream.sent = 5
-    stream.put(points[20:], END)
-    stream.accepted("points behind the last number")
+    stream.takes("points behind the last number", points[20:], END)
     bench.arrives(points, since, 20)
 
 
@@ -339,8 +324,7 @@ def _behind_the_end(bench: Bench) -> None:
     watcher = bench.watcher()
     stream = Streamer(bench)
     stream.all(way(bench, 12))
-    stream.put(way(bench, 3))
-    told = stream.refused(RawReason.SEQUENCE_GAP, "points behind the end")
+    told = stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
     if (told.accepted, told.point) != (12, 12):
         raise Broken(f"points came behind 12 and the end, the reply is {told}")
     bench.wait_until_at(stream.points[11][0], 20)
@@ -359,8 +343,7 @@ def _full_ring(bench: Bench) -> None:
         return
     stream = Streamer(bench)
     points = way(bench, count, seconds)
-    stream.put(points[:-3], BEGIN)
-    stream.accepted("almost all that there is room for")
+    stream.takes("almost all that there is room for", points[:-3], BEGIN)
     bench.stays(1, f"{count - 4} points are less than it likes to have")
     stream.put(points[-3:])
     if stream.accepted("all that there is room for").room:

@@ -1,10 +1,11 @@
 """What the unmodified ROS-Industrial nodes send and expect."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, point_frame, raw_point
 from rapidgen.proving.messages import JOINT_POSITION, STATUS, RawComm, RawReplyCode, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point, distance
 
 case = Theme("compatible")
@@ -99,9 +100,7 @@ def _state_is_true(bench: Bench) -> None:
         raise Broken("a moving robot says that it is not in motion")
     bench.wait_until_at(points[-1][0])
     bench.run(1)
-    joints = [decode(f) for _, f in link.frames if f.number == JOINT_POSITION]
-    last = joints[-1]
-    assert isinstance(last, messages.RawJointPosition)
+    _, last = link.told(messages.RawJointPosition)[-1]
     here = bench.position
     if distance(last.joints[: len(here)], here) > 1e-4 or any(last.joints[len(here) :]):
         raise Broken(f"JOINT says {last.joints}, the robot stands at {here}")

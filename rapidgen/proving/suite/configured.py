@@ -1,10 +1,11 @@
 """What a configuration can ask for: slower rather than refused, a slow TCP, some clients alone."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, raw_point
+from rapidgen.proving.link import STOP, raw_point
 from rapidgen.proving.messages import RawReason
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import Point, changed, distance
@@ -33,8 +34,7 @@ def _slowed_down(bench: Bench) -> None:
         points, last, since = _quick(bench), bench.last_event, bench.now
         if streaming:
             stream = Streamer(bench)
-            stream.put(points, BEGIN | END)
-            stream.accepted("a stream that is too fast")
+            stream.takes("a stream that is too fast", points, BEGIN | END)
         else:
             bench.motion().send(bench.download(points))
         bench.arrives(points, since, 20)
@@ -58,8 +58,7 @@ def _tcp_too_fast(bench: Bench) -> None:
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
     good = bench.wave(8)
     stream = Streamer(bench)
-    stream.put(good, BEGIN)
-    stream.accepted("the first points")
+    stream.takes("the first points", good, BEGIN)
     end = good[-1][0]
     stream.put([(changed(end, 0, end[0] + step), seconds)], END)
     told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
@@ -129,20 +128,11 @@ def _braking(bench: Bench) -> None:
         bench.wait_until_standing(3)
         stood = bench.now - 0.1
         bench.run(4 * period + bench.setting.motion.settle)
-        for when, status in _told(state, since):
+        for when, status in state.told(messages.RawStatus, since):
             if when < stood - 0.005 and not status.in_motion:
                 raise Broken(f"at {when:.3f} s the robot brakes, STATUS says {status}")
-        if _told(state, since)[-1][1].in_motion:
+        if state.told(messages.RawStatus, since)[-1][1].in_motion:
             raise Broken("the robot stands, STATUS says that it is in motion")
-
-
-def _told(link: RawLink, since: float) -> list[tuple[float, messages.RawStatus]]:
-    found = [
-        (t, messages.decode(f))
-        for t, f in link.frames
-        if t >= since and f.number == messages.STATUS
-    ]
-    return [(t, status) for t, status in found if isinstance(status, messages.RawStatus)]
 
 
 @reading("there-and-back", "a movement back and forth between two STATUS is in one of them", "R16")
@@ -158,6 +148,6 @@ def _there_and_back(bench: Bench) -> None:
         bench.run(0.6 + 2 * bench.config.state_period + 2 * bench.setting.motion.settle)
         if distance(bench.position, here) > 1e-4:
             raise Broken("a movement there and back does not end where it began")
-        moved = [status.in_motion for _, status in _told(state, since)]
+        moved = [status.in_motion for _, status in state.told(messages.RawStatus, since)]
         if 1 not in moved or moved[-1]:
             raise Broken(f"a movement there and back: STATUS says {moved}")

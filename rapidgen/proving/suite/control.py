@@ -4,11 +4,12 @@ import math
 from dataclasses import replace
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.suite.streams import way
@@ -408,14 +409,11 @@ def _stream_over_control(bench: Bench) -> None:
     bench.run(0.7)
     done(control.ask(messages.RawPause(1)), "PAUSE of a stream")
     bench.wait_until_standing(3)
-    stream.put(points[25:50])
-    stream.accepted("points while the stream is paused")
+    stream.takes("points while the stream is paused", points[25:50])
     bench.stays(3, "the stream is paused")
     done(control.ask(messages.RawPause(0)), "the end of a pause")
-    stream.put(points[50:70])
-    stream.accepted("points behind a pause")
-    stream.put(points[70:], END)
-    stream.accepted("the end of a stream behind a pause")
+    stream.takes("points behind a pause", points[50:70])
+    stream.takes("the end of a stream behind a pause", points[70:], END)
     bench.arrives(points, since, 60)
     stream = Streamer(bench, stream.link, number=2)
     stream.put(way(bench, 25), BEGIN)
@@ -424,8 +422,7 @@ def _stream_over_control(bench: Bench) -> None:
     control.read()
     stop(control)
     told = control.expect(messages.RawStopped, 2, "STOPPED arrives")
-    stream.put(way(bench, 3))
-    refusal = stream.refused(RawReason.STOPPED, "points behind a STOP")
+    refusal = stream.refuses(RawReason.STOPPED, "points behind a STOP", way(bench, 3))
     if refusal.trajectory != told.trajectory or refusal.point != told.reached:
         raise Broken(f"STOPPED says {told}, a batch behind it is answered by {refusal}")
     bench.stays(2, "the stream was stopped")

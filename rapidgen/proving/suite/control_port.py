@@ -4,10 +4,11 @@ import math
 import struct
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import STOP, RawLink, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawReplyCode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.control import done, not_done, stop
 from rapidgen.proving.track import distance
 

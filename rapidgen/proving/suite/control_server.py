@@ -1,11 +1,12 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails, watched_orders
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.proving.suite.streams import way
@@ -130,8 +131,7 @@ def _not_begun(bench: Bench) -> None:
         or max(abs(a - b) for a, b in zip(told.joints, here, strict=True)) > 1e-5
     ):
         raise Broken(f"a stream was stopped before it moved, STOPPED says {told}")
-    stream.put(way(bench, 2))
-    stream.refused(RawReason.STOPPED, "points behind STOP")
+    stream.refuses(RawReason.STOPPED, "points behind STOP", way(bench, 2))
     bench.run(0.3)
     progress = bench.progress(watcher)
     if (progress.trajectory, progress.state, progress.reason) != (

@@ -4,9 +4,10 @@ from dataclasses import replace
 from functools import partial
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.messages import RawMode, RawReason, RawTrajectoryState, RawTriState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 
 case = Theme("controller")
 

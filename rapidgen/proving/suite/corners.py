@@ -13,9 +13,10 @@ from typing import NamedTuple, cast
 from rapidgen.axes import frames
 from rapidgen.config.model import Joint
 from rapidgen.motion.moves import JointMove, Move, Zone
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.motion_task import begins
 from rapidgen.proving.track import Point, Position
 from rapidgen.rapid.builtins import signatures

@@ -4,12 +4,13 @@ import math
 from itertools import pairwise
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.refusals import refused
-from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, small_unit
+from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, inward, small_unit
 
 case = Theme("edges")
 
@@ -18,8 +19,7 @@ _LONGEST = 3600.0
 
 def _inward(bench: Bench, axis: int, step: float) -> float:
     """`step` from where the axis stands, to the side where there is more room."""
-    joint, here = bench.group.joints[axis], bench.position[axis]
-    return here + step if joint.upper - here >= here - joint.lower else here - step
+    return inward(bench.group.joints[axis], bench.position[axis], step)
 
 
 def _taken(bench: Bench, points: list[Point], why: str) -> None:
@@ -121,9 +121,7 @@ def _limits_by_rounding(bench: Bench) -> None:
 def _start_tolerance(bench: Bench) -> None:
     policy = bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
-        near = policy.start_tolerance
-        if joint.kind != "revolute":
-            near = policy.start_tolerance_linear
+        near = bench.start_tolerance(joint)
         if near <= 0:
             continue
         start = changed(bench.position, axis, _inward(bench, axis, 0.97 * near))

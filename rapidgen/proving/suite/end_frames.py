@@ -3,12 +3,13 @@
 from itertools import pairwise
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame
 from rapidgen.proving.messages import RawReason, RawSpecial, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.points import Table
-from rapidgen.proving.track import SETTLED, Point, Position, changed, distance
+from rapidgen.proving.track import SETTLED, Point, Position, changed, distance, inward
 
 case = Theme("taking")
 
@@ -24,7 +25,7 @@ _LEAST = 0.1
 def _inward(bench: Bench, steps: Position) -> Position:
     """Each axis by its step, to the side where there is more room."""
     return tuple(
-        here + step if joint.upper - here >= here - joint.lower else here - step
+        inward(joint, here, step)
         for joint, here, step in zip(bench.group.joints, bench.position, steps, strict=True)
     )
 
@@ -94,11 +95,8 @@ def _one_place(bench: Bench) -> None:
 @case("start-and-ways", "where a trajectory may begin; ways and stays in their time", "R8, R10")
 def _start(bench: Bench) -> None:
     """How far from the robot a first point may be; the ways and stays behind it in their time."""
-    table, policy, joints = Table(bench), bench.config.trajectory, bench.group.joints
-    near = tuple(
-        policy.start_tolerance_linear if j.kind == "prismatic" else policy.start_tolerance
-        for j in joints
-    )
+    table, joints = Table(bench), bench.group.joints
+    near = tuple(map(bench.start_tolerance, joints))
     # Where no axis is at zero.
     there = _inward(bench, tuple(4 * n for n in near))
     table.row(_BEGIN, there, 0.1, _TAKEN)

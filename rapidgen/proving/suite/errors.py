@@ -5,11 +5,12 @@ from dataclasses import replace
 
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import STATUS, RawReason, RawTrajectoryState, RawTriState, text_of
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.runtime.builtins.clocks import StopWatch
 
 case = Theme("failing")

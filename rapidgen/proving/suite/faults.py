@@ -5,10 +5,11 @@ from dataclasses import replace
 from itertools import pairwise
 
 from rapidgen.diagnostics import DiagnosticError
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point, distance
 from rapidgen.runtime.values import PersistentCell
 from rapidgen.system.model import ModuleFile, System

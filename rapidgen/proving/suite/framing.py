@@ -2,10 +2,11 @@
 
 import random
 
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import raw_point
 from rapidgen.proving.messages import POINT_BYTES, RawComm, RawReplyCode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 
 case = Theme("framing")
 

@@ -7,11 +7,12 @@ from rapidgen import __version__
 from rapidgen.client.core.group import Group
 from rapidgen.generate.hello import features
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawFeature, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
 
 case = Theme("paired")

@@ -6,11 +6,12 @@ from functools import partial
 from rapidgen.generate.context import WRAP
 from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.errors import set_counters
 from rapidgen.proving.suite.motion_task import begins, datum, patience, unit_of
 from rapidgen.runtime.errors import RapidError

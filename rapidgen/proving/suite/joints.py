@@ -1,24 +1,19 @@
 """Each joint by itself, in streams and away from zero; each signal by itself."""
 
-from rapidgen.config.model import Joint
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame
 from rapidgen.proving.messages import RawReason, RawTriState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.suite.streams import way
-from rapidgen.proving.track import Point, changed, distance
+from rapidgen.proving.track import Point, changed, distance, inward
 
 case = Theme("joints")
 
 _BEYOND = 0.01
 """rad or m outside a limit: more than rounding."""
-
-
-def _step(joint: Joint, here: float, size: float) -> float:
-    """`size` from `here` to the side with more room."""
-    return here + size if joint.upper - here >= here - joint.lower else here - size
 
 
 class _Blame:
@@ -32,8 +27,7 @@ class _Blame:
         stream = self._stream
         stream.number += 1
         stream.sent = 0
-        stream.put(points, BEGIN | END)
-        told = stream.refused(reason, f"joint {axis + 1} of point {point}")
+        told = stream.refuses(reason, f"joint {axis + 1} of point {point}", points, BEGIN | END)
         if (told.stream, told.accepted, told.point, told.joint) != (
             stream.number,
             point,
@@ -63,24 +57,21 @@ def _joints_of_a_stream(bench: Bench) -> None:
     blame.limits()
     seconds = max(0.2, policy.min_segment)
     for axis, joint in enumerate(bench.group.joints):
-        near = policy.start_tolerance
-        if joint.kind != "revolute":
-            near = policy.start_tolerance_linear
+        near = bench.start_tolerance(joint)
         if near > 0:
-            start = changed(here, axis, _step(joint, here[axis], 1.1 * near))
+            start = changed(here, axis, inward(joint, here[axis], 1.1 * near))
             blame([(start, 1.0), (here, 5.0)], RawReason.START_TOO_FAR, 0, axis)
         fast = 1.05 * seconds * joint.speed
         room = max(joint.upper - here[axis], here[axis] - joint.lower)
         if policy.too_fast == "refuse" and bench.group.tcp_speed_limit >= 5 and room > fast:
-            target = changed(here, axis, _step(joint, here[axis], fast))
+            target = changed(here, axis, inward(joint, here[axis], fast))
             blame([(here, 1.0), (target, seconds), (here, 9.0)], RawReason.TOO_FAST, 1, axis)
     blame.close()
     bench.run(1.2)
     # The first point's duration is not the client's business, nor how far the start is off.
     stream = Streamer(bench)
-    away = changed(here, 0, _step(bench.group.joints[0], here[0], 0.5 * policy.start_tolerance))
-    stream.put([(away, 9.0), (here, 1.0)], BEGIN | END)
-    stream.accepted("a start within tolerance")
+    away = changed(here, 0, inward(bench.group.joints[0], here[0], 0.5 * policy.start_tolerance))
+    stream.takes("a start within tolerance", [(away, 9.0), (here, 1.0)], BEGIN | END)
     bench.wait_until_moving(1)
     bench.run(2.5)
     if not bench.standing or distance(bench.position, here) > 1e-4:

@@ -8,10 +8,11 @@ from rapidgen.config.model import Joint
 from rapidgen.machine.log import EventType
 from rapidgen.machine.system_parameters import arm_name
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
 from rapidgen.proving.link import RawLink, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Position
 
 case = Theme("limits")

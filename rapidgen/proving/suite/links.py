@@ -1,10 +1,11 @@
 """Connections that come, go, hang and take each other's place."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
 from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
 from rapidgen.proving.track import SETTLED, Point, distance
 
@@ -127,8 +128,7 @@ def _silent(bench: Bench, old: RawLink, what: str, points: list[Point]) -> RawLi
     if what == "stream":
         # Its batches may come far apart, until it has ended, although it moves on.
         bench.run(2.5)
-        stream.put([(place, 6.0)], END)
-        stream.accepted("a slow last point")
+        stream.takes("a slow last point", [(place, 6.0)], END)
         points = [(place, 6.0)]
         bench.run(0.8)
         _pings(bench, old)

@@ -6,11 +6,12 @@ from dataclasses import dataclass
 
 from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
 
@@ -237,8 +238,7 @@ def _stream_by_step(bench: Bench) -> None:
     begun = begins_soon(bench, bench.now)
     bench.run(0.5 * unit)
     beyond = (bench.group.joints[0].upper + 1, *points[2][0][1:])
-    stream.put([(beyond, 30.0)])
-    stream.refused(RawReason.JOINT_LIMIT, "joint 1 is outside its limits")
+    stream.refuses(RawReason.JOINT_LIMIT, "joint 1 is outside its limits", [(beyond, 30.0)])
     bench.wait_until_at(points[1][0], 5)
     bench.run(2 * (bench.config.state_period + bench.setting.motion.settle))
     progress, status = bench.progress(watcher), bench.status(watcher)

@@ -1,10 +1,11 @@
 """What the operator reads: lines on the pendant and in the event log."""
 
 from rapidgen.machine.log import Event, EventType
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
 from rapidgen.proving.messages import RawReason, text_of
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 
 case = Theme("telling")
 

@@ -5,10 +5,11 @@ from collections.abc import Sequence
 
 from rapidgen.config.model import Joint
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawSpecial, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.motion_task import datum
 from rapidgen.proving.track import Position, changed, small_unit
 

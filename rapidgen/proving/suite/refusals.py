@@ -4,10 +4,11 @@ import math
 from collections.abc import Sequence
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import point_frame, raw_point
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
 
 case = Theme("refused")
@@ -122,11 +123,7 @@ def _start_too_far(bench: Bench) -> None:
     points = bench.wave(4)
     for axis, joint in enumerate(bench.group.joints):
         here = bench.position
-        near = (
-            bench.config.trajectory.start_tolerance
-            if joint.kind == "revolute"
-            else bench.config.trajectory.start_tolerance_linear
-        )
+        near = bench.start_tolerance(joint)
         away = here[axis] + (1.5 * near if here[axis] + 2 * near < joint.upper else -1.5 * near)
         start = (*here[:axis], away, *here[axis + 1 :])
         points = [(start, 10.0), *bench.wave(4)[1:]]

@@ -1,7 +1,7 @@
 """What was sent while the program did not execute is nothing, whoever finds it on Start."""
 
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.model import Theme
 from rapidgen.proving.stream import BEGIN, END, Streamer
 
 case = Theme("restarts")

@@ -4,10 +4,11 @@ import struct
 from itertools import product
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import JOINT_TRAJ_PT, PING, RawComm, encode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 
 case = Theme("framing")
 

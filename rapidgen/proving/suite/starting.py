@@ -1,9 +1,10 @@
 """What a driver finds at its start: modules of other builds, and what was under way before."""
 
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.link import raw_point
 from rapidgen.proving.messages import POINT_BYTES, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, Streamer
 
 case = Theme("controller")

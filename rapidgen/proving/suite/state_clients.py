@@ -10,11 +10,12 @@ from rapidgen.machine.log import EventType
 from rapidgen.machine.network.interface import BUFFER, NetworkFault
 from rapidgen.machine.network.memory import MemoryEndpoint
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawComm, RawFeature, RawReason
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.suite.state_port import PLAIN, on_turn, rounds, subscribe
 from rapidgen.proving.track import Point
@@ -142,7 +143,7 @@ def _does_not_read(bench: Bench) -> None:
     subscribe(bench, RawFeature.EVENTS, reader)
     since = bench.now
     _write(bench, 1, "First")
-    bench.until(lambda: bool(_events_of(reader, since)), 1, "an event is told")
+    bench.until(lambda: bool(reader.told(messages.RawEvent, since)), 1, "an event is told")
     bench.run(0.01)
     times = max(1, round(0.1 / bench.config.state_period))
     size = messages.STATE_BYTES
@@ -174,11 +175,6 @@ def _breaks_in_a_send(bench: Bench) -> None:
     _fails_to_send(bench, reader)
 
 
-def _feedback_of(link: RawLink) -> list[tuple[float, messages.RawJointFeedback]]:
-    found = [(when, messages.decode(frame)) for when, frame in link.frames]
-    return [(when, told) for when, told in found if isinstance(told, messages.RawJointFeedback)]
-
-
 @case("feedback", "JOINT_FEEDBACK: time, positions and velocities")
 def _feedback(bench: Bench) -> None:
     first = subscribe(bench, RawFeature.FEEDBACK)
@@ -189,15 +185,14 @@ def _feedback(bench: Bench) -> None:
     bench.wait_until_at(points[-1][0])
     bench.run(1)
     for one in (first, link):
-        told = _feedback_of(one)
+        told = one.told(messages.RawJointFeedback)
         if len(told) < 20:
             raise Broken(f"{len(told)} JOINT_FEEDBACK came")
         _is_motion(bench, told[2:])
-    joints = [messages.decode(f) for _, f in link.frames if f.number == messages.JOINT_POSITION]
-    seen = {j.joints for j in joints if isinstance(j, messages.RawJointPosition)}
-    if any(told.positions not in seen for _, told in _feedback_of(link)):
+    seen = {told.joints for _, told in link.told(messages.RawJointPosition)}
+    if any(told.positions not in seen for _, told in link.told(messages.RawJointFeedback)):
         raise Broken("JOINT_FEEDBACK tells other joints than JOINT")
-    if _feedback_of(bench.state()):
+    if bench.state().told(messages.RawJointFeedback):
         raise Broken("JOINT_FEEDBACK comes to a client that did not ask for it")
 
 
@@ -231,14 +226,9 @@ def _write(bench: Bench, number: int, title: str, kind: EventType = EventType.WA
     bench.controller.log.write(10_000 * (number % 9 + 1) + number, kind, title, task=task)
 
 
-def _events_of(link: RawLink, since: float) -> list[tuple[float, messages.RawEvent]]:
-    found = [(when, messages.decode(frame)) for when, frame in link.frames if when >= since]
-    return [(when, told) for when, told in found if isinstance(told, messages.RawEvent)]
-
-
 def _are_told(link: RawLink, since: float, wanted: Sequence[tuple[int, int, int, str]]) -> None:
     """Broken unless just these events were told, in order, no more than ten a second."""
-    found = _events_of(link, since)
+    found = link.told(messages.RawEvent, since)
     told = [(e.domain, e.number, e.type, e.title.rstrip("\0 ")) for _, e in found]
     if told != list(wanted):
         raise Broken(f"wanted are events {wanted}, EVENT told {told}")
@@ -251,9 +241,9 @@ def _burst(
 ) -> tuple[float, list[tuple[int, int, int, str]]]:
     """Write an event, and `count` others just when it is told; what is then to be told."""
     since, kinds = bench.now, tuple(EventType)
-    before = len(_events_of(link, 0.0))
+    before = len(link.told(messages.RawEvent))
     _write(bench, 100, "First")
-    bench.until(lambda: len(_events_of(link, 0.0)) > before, 1, "an event is told")
+    bench.until(lambda: len(link.told(messages.RawEvent)) > before, 1, "an event is told")
     wanted = [(2, 100, 2, "First")]
     for number in range(count):
         # A title has room for 80 characters; one may be empty.
@@ -279,14 +269,14 @@ def _events(bench: Bench) -> None:
         bench.run(0.12 * (len(wanted) + 2))
         for link in (links[0], links[2]):
             _are_told(link, since, wanted)
-        if _events_of(links[1], 0.0):
+        if links[1].told(messages.RawEvent):
             raise Broken("EVENT comes to a client that did not ask for it")
     # Nobody wants those that still wait, nor the number of the others.
     since, wanted = _burst(bench, links[0], 20)
     subscribe(bench, RawFeature.PROGRESS, links[2])
     subscribe(bench, RawFeature.PROGRESS, links[0])
     bench.run(0.3)
-    seen, begun = len(_events_of(links[0], since)), since
+    seen, begun = len(links[0].told(messages.RawEvent, since)), since
     for number in range(100):
         _write(bench, number, "Nobody listens")
     bench.run(0.5)
@@ -294,7 +284,11 @@ def _events(bench: Bench) -> None:
     since = bench.now
     subscribe(bench, RawFeature.EVENTS, links[2])
     bench.run(0.5)
-    if seen > 8 or len(_events_of(links[0], begun)) > seen or _events_of(links[2], since):
+    if (
+        seen > 8
+        or len(links[0].told(messages.RawEvent, begun)) > seen
+        or links[2].told(messages.RawEvent, since)
+    ):
         raise Broken("events from before HELLO are told")
     since, wanted = _burst(bench, links[2], 2)
     bench.run(0.5)

@@ -6,11 +6,12 @@ from typing import NamedTuple, TypeVar
 
 from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawFeature, RawMode, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import distance, small_unit
 from rapidgen.runtime.builtins.clocks import StopWatch
 

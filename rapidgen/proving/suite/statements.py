@@ -5,10 +5,11 @@ from contextlib import contextmanager
 from dataclasses import fields, replace
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import JOINT_TRAJ_PT, POINTS, RawReason, RawTrajectoryState, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.control import done
 from rapidgen.proving.suite.motion_task import patience

@@ -1,10 +1,11 @@
 """STOP, and trajectories that take each other's place."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP
 from rapidgen.proving.messages import JOINT_POSITION, decode
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.track import distance
 
 case = Theme("stopping")

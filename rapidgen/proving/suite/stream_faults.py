@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 from rapidgen.generate.context import WRAP
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.link import point_frame, raw_point
@@ -14,11 +15,11 @@ from rapidgen.proving.messages import (
     RawStreamFlag,
     RawTrajectoryState,
 )
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.points import fast_ends
 from rapidgen.proving.suite.streams import way
-from rapidgen.proving.track import Point, changed, small_unit
+from rapidgen.proving.track import Point, changed, inward, small_unit
 
 case = Theme("streaming")
 
@@ -101,12 +102,9 @@ def _each_value(bench: Bench) -> None:
     streams, here, policy = _Streams(bench), bench.position, bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
         unit = small_unit(joint)
-        near = policy.start_tolerance
-        if joint.kind == "prismatic":
-            near = policy.start_tolerance_linear
+        near = bench.start_tolerance(joint)
         if near > 0:
-            side = 1 if joint.upper - here[axis] >= here[axis] - joint.lower else -1
-            start = changed(here, axis, here[axis] + 1.03 * side * near)
+            start = changed(here, axis, inward(joint, here[axis], 1.03 * near))
             streams.begin([(start, 1.0), (here, 1.0)])
             streams.refused(RawReason.START_TOO_FAR, 0, f"a start at {start}", joint=axis + 1)
         for value in (joint.lower - 0.0015 * unit, joint.upper + 0.0015 * unit):

@@ -1,10 +1,11 @@
 """Trajectories without end: batches, credits, starvation, and what cuts a stream."""
 
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason, RawStreamFlag, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
 
@@ -57,8 +58,7 @@ def _preload(bench: Bench) -> None:
     for flags in (END, FLUSH, _NONE):
         stream = Streamer(bench)
         own = [(p, points[1][1]) for p, _ in way(bench, 40, 0.2)]
-        stream.put(own[:few], BEGIN)
-        stream.accepted("the first points")
+        stream.takes("the first points", own[:few], BEGIN)
         bench.stays(3, f"{few} points are less than it wants to have")
         if flags:
             stream.put((), flags)
@@ -77,8 +77,7 @@ def _starves(bench: Bench) -> None:
     watcher = bench.watcher()
     points, since = way(bench, 45), bench.now
     stream = Streamer(bench)
-    stream.put(points[:15], BEGIN)
-    stream.accepted("the first points")
+    stream.takes("the first points", points[:15], BEGIN)
     bench.wait_until_at(points[14][0], 20)
     bench.stays(2, "the stream has starved")
     told = _progress(bench, watcher)
@@ -105,16 +104,14 @@ def _cut(bench: Bench, data: bytes, reason: RawReason, what: str, taken: int = 0
     watcher, since = bench.watcher(), bench.now
     points = way(bench, 30)
     stream = Streamer(bench, number=3)
-    stream.put(points[:20], BEGIN)
-    stream.accepted("the first points")
+    stream.takes("the first points", points[:20], BEGIN)
     bench.wait_until_moving()
     stream.say(data)
     told = stream.refused(reason, what)
     if told.accepted != 20 + taken:
         raise Broken(f"{what}: {20 + taken} points are right, the reply is {told}")
     stream.sent = 20
-    stream.put(points[20:24])
-    stream.refused(reason, f"a batch behind {what}")
+    stream.refuses(reason, f"a batch behind {what}", points[20:24])
     bench.wait_until_standing(20)
     bench.executed(points[: 20 + taken], since)
     if not taken and distance(bench.position, points[19][0]) > 1e-3:
@@ -203,23 +200,19 @@ def _first_batch_is_wrong(bench: Bench) -> None:
     away = [(here[0] + step, *here[1:])]
     for reason, joints in ((RawReason.JOINT_LIMIT, far), (RawReason.START_TOO_FAR, away)):
         stream = Streamer(bench)
-        stream.put([(p, 1.0) for p in joints], BEGIN)
-        stream.refused(reason, "a first point that is wrong")
-        stream.put(way(bench, 10))
-        stream.refused(reason, "a batch behind a first point that is wrong")
+        stream.refuses(reason, "a first point that is wrong", [(p, 1.0) for p in joints], BEGIN)
+        stream.refuses(reason, "a batch behind a first point that is wrong", way(bench, 10))
         bench.stays(3, "the first point of the stream is wrong")
         stream.link.close(then=1.5)
     stream = Streamer(bench, number=9)
     for flags in (_NONE, END, FLUSH):
-        stream.put(way(bench, 10), flags)
-        stream.refused(RawReason.NO_START, "a batch without a beginning")
+        stream.refuses(RawReason.NO_START, "a batch without a beginning", way(bench, 10), flags)
     stream.sent = 0
     data = bytearray(stream.frame(way(bench, 10), BEGIN))
     data[50] ^= 4
     stream.say(bytes(data))
     stream.refused(RawReason.CHECKSUM, "a damaged beginning")
-    stream.put((), BEGIN | END)
-    stream.refused(RawReason.SEQUENCE_GAP, "an end without a point")
+    stream.refuses(RawReason.SEQUENCE_GAP, "an end without a point", (), BEGIN | END)
     bench.stays(3, "no stream has begun")
     stream.number, stream.sent = 10, 0
     stream.all(way(bench, 10))
@@ -234,8 +227,7 @@ def _overrun(bench: Bench) -> None:
     stream = Streamer(bench)
     stream.put(points[:20], BEGIN)
     while stream.room >= 20:
-        stream.put(points[stream.sent : stream.sent + 20])
-        stream.accepted("points that there is room for")
+        stream.takes("points that there is room for", points[stream.sent : stream.sent + 20])
     before = stream.sent
     stream.link.send(stream.frame(points[before : before + 20], _NONE))
     stream.link.send(stream.frame(points[before + 20 : before + 40], _NONE, first=before + 20))
@@ -257,8 +249,7 @@ def _behind_the_end(bench: Bench) -> None:
     stream = Streamer(bench)
     points = way(bench, 12)
     stream.all(points)
-    stream.put(way(bench, 3))
-    stream.refused(RawReason.SEQUENCE_GAP, "points behind the end")
+    stream.refuses(RawReason.SEQUENCE_GAP, "points behind the end", way(bench, 3))
     bench.wait_until_at(points[-1][0], 20)
     bench.stays(2, "the stream has ended")
 

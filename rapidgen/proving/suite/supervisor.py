@@ -2,11 +2,12 @@
 
 from rapidgen.machine.log import Event, EventType
 from rapidgen.proving import messages
+from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import at_call, fails
 from rapidgen.proving.link import STOP, RawLink, point_frame
 from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
-from rapidgen.proving.model import Broken, Theme
+from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.motion_task import (
     SOON,
