@@ -16,23 +16,9 @@ from rapidgen.config.tree import parse, to_python
 from rapidgen.diagnostics import Severity
 
 NAMES = [
-    "irb120",
-    "irb120_track",
-    "irb1200",
-    "irb1600",
-    "irb2400",
-    "irb4600",
-    "irb5400",
-    "irb6640",
-    "irb6700",
-    "irb7600",
-    "crb15000",
-    "irb14000",
-    "irb14050",
-    "irb460",
-    "irb660",
-    "irb910sc",
-]
+    "irb120", "irb120_track", "irb1200", "irb1600", "irb2400", "irb4600", "irb5400", "irb6640",
+    "irb6700", "irb7600", "crb15000", "irb14000", "irb14050", "irb460", "irb660", "irb910sc",
+]  # fmt: skip
 URDFS = Path(find_shipped("irb120")).parent / "urdf"
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.config.urdf.packages import PackageNotFound, Packages
-from rapidgen.diagnostics import DiagnosticError
+from tests.refusal import refusal, refused
 
 XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
 
@@ -29,9 +29,7 @@ def package(folder, name):
 
 
 def codes(path, **options):
-    with pytest.raises(DiagnosticError) as caught:
-        load_config(path, **options)
-    return [d.code for d in caught.value.diagnostics]
+    return refused(load_config, path, **options)
 
 
 def configure(tmp_path, more=""):
@@ -206,9 +204,7 @@ def test_places_of_a_plain_urdf_are_its_own_lines(tmp_path):
     text = f'<robot name="r">\n{body()}\n</robot>'.replace('lower="-1"', 'lower="-1,5"', 1)
     (tmp_path / "robot.urdf").write_text(text)
     (tmp_path / "cell.yaml").write_text("urdf: {file: robot.urdf}\n")
-    with pytest.raises(DiagnosticError) as caught:
-        load_config(tmp_path / "cell.yaml")
-    (fault,) = caught.value.diagnostics
+    (fault,) = refusal(load_config, tmp_path / "cell.yaml").diagnostics
     assert fault.span is not None
     assert (fault.span.path, fault.span.line) == (str(tmp_path / "robot.urdf"), 2)
     assert "decimal point" in fault.help

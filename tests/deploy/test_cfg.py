@@ -6,8 +6,8 @@ import pytest
 
 from rapidgen.deploy import make_plan
 from rapidgen.deploy.transports.folder import FolderTransport
-from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import parse_cfg
+from tests.refusal import refused
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 SYS = """SYS:CFG_1.0:6:0::\r
@@ -74,9 +74,8 @@ def test_what_others_changed_meanwhile_stays(kit, controller):
 
 
 def test_the_wrong_robotware_is_refused_before_anything_changes(kit, controller):
-    with pytest.raises(DiagnosticError) as caught:
-        kit.deploy(FolderTransport(controller), kit.driver(OLD, robotware=(7, 13)))
-    assert caught.value.diagnostics[0].code == "RG525"
+    wrong = kit.driver(OLD, robotware=(7, 13))
+    assert refused(kit.deploy, FolderTransport(controller), wrong)[0] == "RG525"
     assert list((controller / "HOME").iterdir()) == []
 
 
@@ -105,6 +104,4 @@ def test_instances_in_a_manifest_that_are_none_make_it_damaged(kit, controller, 
     key = next(key for key, old in manifest["cfg_before"].items() if old)
     manifest["cfg_before"][key] = said
     path.write_text(json.dumps(manifest))
-    with pytest.raises(DiagnosticError) as caught:
-        make_plan(transport, None, verb="uninstall")
-    assert [d.code for d in caught.value.diagnostics] == ["RG531"]
+    assert refused(make_plan, transport, None, verb="uninstall") == ["RG531"]

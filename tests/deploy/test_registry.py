@@ -7,13 +7,11 @@ from rapidgen.deploy.secrets import Credentials
 from rapidgen.deploy.target import credentials
 from rapidgen.deploy.transports import folder
 from rapidgen.deploy.transports.registry import SCHEMES, Scheme
-from rapidgen.diagnostics import DiagnosticError
+from tests.refusal import refusal
 
 
 def message(url):
-    with pytest.raises(DiagnosticError) as caught:
-        parse_target(url)
-    (found,) = caught.value.diagnostics
+    (found,) = refusal(parse_target, url).diagnostics
     return found.code, found.message, found.help
 
 

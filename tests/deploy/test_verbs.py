@@ -14,6 +14,7 @@ from rapidgen.deploy import parse_target
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
+from tests.refusal import refusal, refused
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 VERBS = (plan, deploy, rollback, uninstall, doctor)
@@ -175,9 +176,7 @@ def test_doctor_warns_of_the_delivered_password_and_of_other_programs(
     ],
 )
 def test_bad_urls(url, code):
-    with pytest.raises(DiagnosticError) as caught:
-        parse_target(url)
-    (found,) = caught.value.diagnostics
+    (found,) = refusal(parse_target, url).diagnostics
     assert found.code == code
     assert "s3cret" not in str(found)
 
@@ -188,24 +187,21 @@ def test_secrets_come_from_a_tight_file_or_the_environment_and_are_not_shown(tmp
         '["10.0.0.1"]\nuser = "u"\npassword = "s3cret"\n[default]\npassword = "other"\n'
     )
     file.chmod(0o644)
-    with pytest.raises(DiagnosticError) as caught:
-        find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
-    assert caught.value.diagnostics[0].code == "RG511"
+    asked, given = (Credentials(""), "10.0.0.1", 21), {"secrets": file, "ask": False}
+    assert refused(find_password, *asked, **given)[0] == "RG511"
     file.chmod(0o600)
-    login = find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
+    login = find_password(*asked, **given)
     assert (login.user, login.password.get()) == ("u", "s3cret")
     assert "s3cret" not in f"{login!r} {login.password} {login.password!r}"
     assert redact("530 no such pass s3cret", login) == "530 no such pass ***"
-    other = find_password(Credentials("x"), "10.0.0.2", 21, secrets=file, ask=False)
+    other = find_password(Credentials("x"), "10.0.0.2", 21, **given)
     assert (other.user, other.password.get()) == ("x", "other")
     monkeypatch.setenv("RAPIDGEN_PASSWORD", "from env")
     login = find_password(Credentials("x"), "h", 21, secrets=None, ask=False)
     assert login.password.get() == "from env"
     assert Credentials("Default User", Secret("robotics")).is_default
     file.write_text('password = "s3cret\n')
-    with pytest.raises(DiagnosticError) as caught:
-        find_password(Credentials(""), "10.0.0.1", 21, secrets=file, ask=False)
-    assert "s3cret" not in render(caught.value.diagnostics)
+    assert "s3cret" not in render(refusal(find_password, *asked, **given).diagnostics)
 
 
 def test_a_login_without_password_and_key_says_so(run, home, built, tmp_path, monkeypatch):

@@ -52,8 +52,7 @@ class Cell:
         ]
         self.nodes: dict[str, Process] = {}
         self.start_node("abb_driver", "robot_state")
-        self.start_node("abb_driver", "motion_download_interface")
-        self.ready()
+        self.start_motion_node()
 
     def start_node(
         self, package: str, program: str, *arguments: str, name: str = "", kill_at: str = ""
@@ -61,6 +60,12 @@ class Cell:
         """Start a node, in place of the one of that name."""
         node = self.workspace.node(package, program, *arguments, kill_at=kill_at)
         self.nodes[name or program] = node
+        return node
+
+    def start_motion_node(self, *, kill_at: str = "") -> Process:
+        """Start the motion node, in place of the one before, and wait until all are ready."""
+        node = self.start_node("abb_driver", "motion_download_interface", kill_at=kill_at)
+        self.ready()
         return node
 
     def ready(self) -> None:
@@ -145,6 +150,21 @@ class Cell:
         heard = len(self.feedback)
         until(lambda: len(self.feedback) > heard + 5, 10, "no feedback")
         return client
+
+    def moving_by_action(self):
+        """A client whose goal, joint 1 to 1.2 rad in 6 s, has been under way for a second."""
+        client = self.action()
+        client.send_goal(self.goal(self.ramp(6, to=1.2)))
+        self.wait_moving(15)
+        time.sleep(1)
+        return client
+
+    @staticmethod
+    def ended(client, seconds: float) -> bool:
+        """Whether the goal of an action ends in time."""
+        import rospy
+
+        return client.wait_for_result(rospy.Duration(seconds))
 
     @staticmethod
     def goal(trajectory):

@@ -20,24 +20,14 @@ def killed_download(cell: Cell, found: Findings) -> None:
     # Its output is read up to point 100 and no further: it is killed before it gets to the end.
     node = cell.nodes["motion_download_interface"]
     node.end(SIGKILL)
-    node = cell.start_node(
-        "abb_driver", "motion_download_interface", kill_at="Point[100] sent to controller"
-    )
-    cell.ready()
+    node = cell.start_motion_node(kill_at="Point[100] sent to controller")
     cell.publish(cell.trajectory([[0.001 * k] for k in range(900)], step=0.1))
     node.line_with("Point[100] sent")
     until(lambda: not node.alive, 5, "it lives")
-    cell.start_node("abb_driver", "motion_download_interface")
-    cell.ready()
-    quiet = cell.quiet(3)
-    now = cell.next_status()
-    found.must(quiet, "nothing moves")
-    found.must(
-        now.error_code == code(spec.Reason.INCOMPLETE),
-        f"in_error {now.in_error.val}, error_code {now.error_code}",
-    )
-    cell.publish(cell.ramp(1, to=0.2))
-    found.must(cell.arrives([0.2], 25), "the new node's trajectory is executed")
+    cell.start_motion_node()
+    found.must(cell.quiet(3), "nothing moves")
+    found.reports(cell, spec.Reason.INCOMPLETE, error=False)
+    found.ramped(cell, "the new node's trajectory is executed", to=0.2)
 
 
 @case("the motion node killed while the robot moves, and started again")
@@ -45,20 +35,12 @@ def killed_moving(cell: Cell, found: Findings) -> None:
     begin_moving(cell)
     begin = time.monotonic()
     cell.nodes["motion_download_interface"].end(SIGKILL)
-    until(cell.sim.standing, 15, "it never stood")
-    took = time.monotonic() - begin
-    found.must(took < 1, f"the robot stands {took:.2f} s later")
-    cell.start_node("abb_driver", "motion_download_interface")
-    cell.ready()
-    now = cell.next_status()
-    found.must(
-        now.error_code == code(spec.Reason.CLIENT_LOST),
-        f"in_error {now.in_error.val}, error_code {now.error_code}",
-    )
+    found.stands(cell, begin)
+    cell.start_motion_node()
+    found.reports(cell, spec.Reason.CLIENT_LOST, error=False)
     found.tell(f"log: {cell.user_sees(begin)!r}")
     found.must(cell.quiet(2), "nothing resumes")
-    cell.publish(cell.ramp(1, to=0.0))
-    found.must(cell.arrives([0.0], 25), "the new node's trajectory is executed")
+    found.ramped(cell, "the new node's trajectory is executed")
 
 
 @case("both nodes killed at rest, and started again")
@@ -70,8 +52,7 @@ def killed_at_rest(cell: Cell, found: Findings) -> None:
         cell.start_node("abb_driver", name)
     cell.ready()
     found.must(time.monotonic() - begin < 5, f"states after {time.monotonic() - begin:.1f} s")
-    cell.publish(cell.trajectory(FIVE))
-    found.must(cell.arrives(FIVE[-1], 25), "a trajectory is executed")
+    found.five(cell, "a trajectory is executed")
 
 
 @case("the controller restarted under the nodes")
@@ -85,8 +66,7 @@ def restarted(cell: Cell, found: Findings) -> None:
     whole = "is executed" if first else "is lost in the node (its socket is dead), nothing moves"
     found.must(first or cell.at([0.0]), f"the first trajectory {whole}")
     if not first:
-        cell.publish(cell.trajectory(FIVE))
-        found.must(cell.arrives(FIVE[-1], 15), "the second one is executed")
+        found.five(cell, "the second one is executed", 15)
 
 
 @case("a second motion node while the first one is idle, then the first one again")
@@ -187,26 +167,22 @@ def _observe(cell: Cell, name: str) -> None:
 
 @case("three more state nodes while a goal is under way")
 def four_states(cell: Cell, found: Findings) -> None:
-    import rospy
-
     client = cell.action()
     client.send_goal(cell.goal(cell.ramp(8, to=0.8)))
     cell.wait_moving(15)
     for name in ("second", "third", "fourth"):
         _observe(cell, name)
         time.sleep(0.5)
-    ended = client.wait_for_result(rospy.Duration(20))
+    there = cell.ended(client, 20)
     state = client.get_state()
-    found.must(ended and state == SUCCEEDED, f"the goal ends with state {state}")
+    found.must(there and state == SUCCEEDED, f"the goal ends with state {state}")
 
 
 @case("the link of the motion node dies without a word; the node is started again", faults=SILENT)
 def silent(cell: Cell, found: Findings) -> None:
-    cell.publish(cell.trajectory(FIVE))
-    found.must(cell.arrives(FIVE[-1], 25), "the last trajectory before is executed")
+    found.five(cell, "the last trajectory before is executed")
     cell.nodes["motion_download_interface"].end(SIGKILL)
-    cell.start_node("abb_driver", "motion_download_interface")
-    cell.ready()
+    cell.start_motion_node()
     time.sleep(2)
     cell.publish(cell.ramp(1, to=0.0))
     found.must(cell.arrives([0.0, *FIVE[-1][1:]], 25), "the new node's trajectory is executed")
@@ -250,8 +226,7 @@ def _interrupted(cell: Cell, found: Findings, what: str, reason: spec.Reason, *m
     if not cell.sim.standing():
         cell.wait_standing(40)
     until(lambda: cell.next_status().motion_possible.val == TRUE, 10, "no motion possible")
-    cell.publish(cell.ramp(1, to=0.0))
-    found.must(cell.arrives([0.0], 25), "a new trajectory is executed")
+    found.ramped(cell, "a new trajectory is executed")
 
 
 @case("an emergency stop while the robot moves; reset, motors on, Start")
@@ -293,8 +268,6 @@ def coupled(cell: Cell, found: Findings) -> None:
 
 @case("abb_driver's own launch file")
 def launched(cell: Cell, found: Findings) -> None:
-    import rospy
-
     for name in list(cell.nodes):
         cell.nodes.pop(name).end(SIGKILL)
     time.sleep(1)
@@ -304,6 +277,5 @@ def launched(cell: Cell, found: Findings) -> None:
     cell.nodes["joint_trajectory_action"] = launch
     client = cell.action()
     client.send_goal(cell.goal(cell.trajectory(FIVE)))
-    ended = client.wait_for_result(rospy.Duration(25))
-    found.must(ended and client.get_state() == SUCCEEDED, "a goal succeeds")
+    found.succeeds(client, "a goal succeeds")
     found.must(launch.end(SIGINT, 20) is not None, "it ends on Ctrl-C")

@@ -6,7 +6,7 @@ from signal import SIGINT
 
 from rapidgen.wire.simple_message import spec
 from tests.foreign.ros import until
-from tests.foreign.ros_case import FIVE, PREEMPTED, SUCCEEDED, Findings, begin_moving, case, code
+from tests.foreign.ros_case import FIVE, PREEMPTED, SUCCEEDED, Findings, begin_moving, case
 from tests.foreign.ros_cell import FALSE, TRUE, Cell
 
 # -- state --------------------------------------------------------------------------------------
@@ -51,8 +51,7 @@ def idle(cell: Cell, found: Findings) -> None:
     times = [at for at, _ in cell.joints if at >= begin]
     gap = max(b - a for a, b in pairwise(times))
     found.must(gap < 1, f"states all the time, longest gap {gap * 1000:.0f} ms")
-    cell.publish(cell.trajectory(FIVE))
-    found.must(cell.arrives(FIVE[-1], 15), "the trajectory is executed")
+    found.five(cell, "the trajectory is executed", 15)
     lost = sum(len(n.said("ERROR", "WARN")) for n in cell.nodes.values())
     found.must(not lost, "no node warns")
 
@@ -85,10 +84,7 @@ def topic(cell: Cell, found: Findings) -> None:
 def action(cell: Cell, found: Findings) -> None:
     client = cell.action()
     client.send_goal(cell.goal(cell.trajectory(FIVE)))
-    import rospy
-
-    ended = client.wait_for_result(rospy.Duration(25))
-    found.must(ended and client.get_state() == SUCCEEDED, "SUCCEEDED")
+    found.succeeds(client, "SUCCEEDED")
     found.must(cell.sim.standing() and cell.at(FIVE[-1]), "the robot stands there then")
 
 
@@ -131,12 +127,6 @@ def single(cell: Cell, found: Findings) -> None:
 # -- stops --------------------------------------------------------------------------------------
 
 
-def _stands(cell: Cell, found: Findings, begin: float) -> None:
-    until(cell.sim.standing, 15, "it never stood")
-    took = time.monotonic() - begin
-    found.must(took < 1, f"the robot stands {took:.2f} s later")
-
-
 def _halted(cell: Cell, found: Findings) -> None:
     where = cell.sim.positions()[0]
     found.must(cell.quiet(2), f"and stays (at {where:.2f} rad)")
@@ -145,8 +135,7 @@ def _halted(cell: Cell, found: Findings) -> None:
         (now.in_motion.val, now.in_error.val) == (FALSE, FALSE),
         f"in_motion {now.in_motion.val}, in_error {now.in_error.val}",
     )
-    cell.publish(cell.ramp(1, to=0.0))
-    found.must(cell.arrives([0.0], 25), "a new trajectory from there is executed")
+    found.ramped(cell, "a new trajectory from there is executed")
 
 
 @case("the service stop_motion while the robot moves")
@@ -155,7 +144,7 @@ def stop(cell: Cell, found: Findings) -> None:
     begin = time.monotonic()
     took = cell.stop()
     found.must(took < 0.5, f"answered after {took * 1000:.0f} ms")
-    _stands(cell, found, begin)
+    found.stands(cell, begin)
     _halted(cell, found)
 
 
@@ -163,30 +152,24 @@ def stop(cell: Cell, found: Findings) -> None:
 def stop_at_rest(cell: Cell, found: Findings) -> None:
     took = max(cell.stop(), cell.stop())
     found.must(took < 0.5, f"answered within {took * 1000:.0f} ms")
-    cell.publish(cell.trajectory(FIVE))
-    found.must(cell.arrives(FIVE[-1], 25), "a trajectory right behind is executed")
+    found.five(cell, "a trajectory right behind is executed")
 
 
 @case("an empty trajectory while the robot moves")
 def empty(cell: Cell, found: Findings) -> None:
     begin_moving(cell)
-    _stands(cell, found, cell.publish(cell.trajectory([])))
+    found.stands(cell, cell.publish(cell.trajectory([])))
     _halted(cell, found)
 
 
 @case("a goal cancelled while the robot moves")
 def cancel(cell: Cell, found: Findings) -> None:
-    client = cell.action()
-    client.send_goal(cell.goal(cell.ramp(6, to=1.2)))
-    cell.wait_moving(15)
-    time.sleep(1)
+    client = cell.moving_by_action()
     begin = time.monotonic()
     client.cancel_goal()
-    import rospy
-
-    client.wait_for_result(rospy.Duration(5))
+    cell.ended(client, 5)
     found.must(client.get_state() == PREEMPTED, "PREEMPTED")
-    _stands(cell, found, begin)
+    found.stands(cell, begin)
     _halted(cell, found)
 
 
@@ -196,14 +179,22 @@ def interrupted_node(cell: Cell, found: Findings) -> None:
     node = cell.nodes["motion_download_interface"]
     ended = node.end(SIGINT, 5)
     # From its end: the node sends its STOP some time after the signal.
-    _stands(cell, found, time.monotonic())
+    found.stands(cell, time.monotonic())
     found.must(ended is not None, "the node ends (its STOP is answered)")
-    cell.start_node("abb_driver", "motion_download_interface")
-    cell.ready()
+    cell.start_motion_node()
     _halted(cell, found)
 
 
 # -- replaced -----------------------------------------------------------------------------------
+
+
+def _not_begun(cell: Cell, found: Findings, *, error: bool = True) -> None:
+    """A trajectory from an old start came while the robot moved."""
+    found.must(
+        cell.quiet(2) and cell.sim.positions()[0] > 0.1,
+        "the old one is stopped, the new one not begun",
+    )
+    found.reports(cell, spec.Reason.START_TOO_FAR, 1, error=error)
 
 
 @case("a new trajectory by topic while the robot moves, from its old start")
@@ -212,57 +203,33 @@ def replaced(cell: Cell, found: Findings) -> None:
     begin = time.monotonic()
     cell.publish(cell.trajectory(([0.0], [-0.2], [-0.4])))
     time.sleep(1)
-    found.must(
-        cell.quiet(2) and cell.sim.positions()[0] > 0.1,
-        "the old one is stopped, the new one not begun",
-    )
-    now = cell.next_status()
-    found.must(
-        now.in_error.val == TRUE and now.error_code == code(spec.Reason.START_TOO_FAR, 1),
-        f"in_error {now.in_error.val}, error_code {now.error_code}",
-    )
+    _not_begun(cell, found)
     found.tell(f"at {cell.sim.positions()[0]:.2f} rad; log: {cell.user_sees(begin)!r}")
     if not cell.sim.standing():
         cell.wait_standing(40)
-    cell.publish(cell.ramp(1, to=0.0))
-    found.must(cell.arrives([0.0], 25), "one from where it stands is executed")
+    found.ramped(cell, "one from where it stands is executed")
     found.must(cell.next_status().error_code == 0, "error_code is 0 again")
 
 
 @case("a new goal by action while the robot moves: a single point")
 def new_goal(cell: Cell, found: Findings) -> None:
-    import rospy
-
-    client = cell.action()
-    client.send_goal(cell.goal(cell.ramp(6, to=1.2)))
-    cell.wait_moving(15)
-    time.sleep(1)
+    client = cell.moving_by_action()
     client.send_goal(cell.goal(cell.trajectory([[-0.1]], start=3)))
     begin = time.monotonic()
-    ended = client.wait_for_result(rospy.Duration(25))
+    there = cell.ended(client, 25)
     took = time.monotonic() - begin
-    found.must(ended and client.get_state() == SUCCEEDED, f"SUCCEEDED after {took:.1f} s")
+    found.must(there and client.get_state() == SUCCEEDED, f"SUCCEEDED after {took:.1f} s")
     found.must(cell.at([-0.1]), "the robot is there")
 
 
 @case("a new goal by action while the robot moves: from its old start")
 def new_goal_far(cell: Cell, found: Findings) -> None:
-    import rospy
-
-    client = cell.action()
-    client.send_goal(cell.goal(cell.ramp(6, to=1.2)))
-    cell.wait_moving(15)
-    time.sleep(1)
+    client = cell.moving_by_action()
     client.send_goal(cell.goal(cell.trajectory(([0.0], [-0.2], [-0.4]))))
     time.sleep(1)
-    found.must(
-        cell.quiet(2) and cell.sim.positions()[0] > 0.1,
-        "the old one is stopped, the new one not begun",
-    )
-    now = cell.next_status()
-    found.must(now.error_code == code(spec.Reason.START_TOO_FAR, 1), f"error_code {now.error_code}")
-    ended = client.wait_for_result(rospy.Duration(3))
-    found.tell(f"the goal {'has ended' if ended else 'stays'}: state {client.get_state()}")
+    _not_begun(cell, found, error=False)
+    there = cell.ended(client, 3)
+    found.tell(f"the goal {'has ended' if there else 'stays'}: state {client.get_state()}")
 
 
 @case("a single point by topic each half second, five times")
@@ -307,5 +274,4 @@ def stop_when_stopped(cell: Cell, found: Findings) -> None:
     for step in ("reset-e-stop", "motors-on", "start"):
         cell.sim.ask(step)
     until(lambda: cell.next_status().motion_possible.val == TRUE, 10, "no motion possible")
-    cell.publish(cell.trajectory(FIVE))
-    found.must(cell.arrives(FIVE[-1], 25), "then a trajectory is executed")
+    found.five(cell, "then a trajectory is executed")

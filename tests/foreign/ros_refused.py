@@ -1,23 +1,18 @@
 """Cases of the trial with ROS nodes: what the driver refuses."""
 
 from rapidgen.wire.simple_message import spec
-from tests.foreign.ros_case import PREEMPTED, SUCCEEDED, Findings, case, code
-from tests.foreign.ros_cell import FALSE, TRUE, Cell
+from tests.foreign.ros_case import PREEMPTED, Findings, case
+from tests.foreign.ros_cell import FALSE, Cell
 
 
 def _refused(cell: Cell, found: Findings, points, reason: spec.Reason, joint: int, step=0.5):
     begin = cell.publish(cell.trajectory(points, step=step))
     found.must(cell.quiet(3), "nothing moves")
-    now = cell.next_status()
-    found.must(
-        now.in_error.val == TRUE and now.error_code == code(reason, joint),
-        f"in_error {now.in_error.val}, error_code {now.error_code}",
-    )
+    found.reports(cell, reason, joint)
     found.tell(f"log: {cell.user_sees(begin)!r}")
     if not cell.sim.standing():
         cell.wait_standing(40)
-    cell.publish(cell.ramp(1, to=0.2))
-    found.must(cell.arrives([0.2], 25), "a good one behind it is executed")
+    found.ramped(cell, "a good one behind it is executed", to=0.2)
     found.must(cell.next_status().in_error.val == FALSE, "in_error is 0 again")
 
 
@@ -51,18 +46,14 @@ def not_a_number(cell: Cell, found: Findings) -> None:
 
 @case("a goal that the driver refuses")
 def refused_goal(cell: Cell, found: Findings) -> None:
-    import rospy
-
     client = cell.action()
     client.send_goal(cell.goal(cell.trajectory(([0.0, 0.5], [0.0, 0.6]))))
-    ended = client.wait_for_result(rospy.Duration(5))
-    found.tell(f"the goal {'has ended' if ended else 'stays'}: state {client.get_state()}")
+    there = cell.ended(client, 5)
+    found.tell(f"the goal {'has ended' if there else 'stays'}: state {client.get_state()}")
     found.must(cell.quiet(1), "nothing moves")
-    now = cell.next_status()
-    found.must(now.error_code == code(spec.Reason.START_TOO_FAR, 2), f"error_code {now.error_code}")
+    found.reports(cell, spec.Reason.START_TOO_FAR, 2, error=False)
     client.cancel_goal()
-    client.wait_for_result(rospy.Duration(5))
+    cell.ended(client, 5)
     found.must(client.get_state() == PREEMPTED, "it can be cancelled")
     client.send_goal(cell.goal(cell.ramp(1, to=0.2)))
-    ended = client.wait_for_result(rospy.Duration(25))
-    found.must(ended and client.get_state() == SUCCEEDED, "the next goal succeeds")
+    found.succeeds(client, "the next goal succeeds")

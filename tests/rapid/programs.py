@@ -6,6 +6,9 @@ NAMES = ("a", "b2", "größe", "p_10", "Stop", "reg1")
 LITERALS = ("0", "1", "38.", ".27", "2.5E-3", "0x1F", "9E9", "TRUE", "false")
 STRINGS = ('""', '"a b"', '"q""q"', '"\\\\"', '"\\0A!"')
 GAPS = (" ", " ", " ", " ", "\n", "\r\n", "\t", " ! note ; IF\n", "\n\n\n! x\n")
+OPTIONAL = (
+    "\\", "s", ",", "*", ",", "\\", "p", "?", "q", "\\", "r", ",", "v", ":=", "1", ";",
+)  # fmt: skip
 
 
 class Writer:
@@ -44,25 +47,7 @@ class Writer:
             [name, "{", *value, "}", ".", "x", ":=", *self.value(), ";"],
             [name, ";"],
             [name, *value, ",", *self.value(), "\\", "o", ":=", *self.value(), ";"],
-            [
-                name,
-                "\\",
-                "s",
-                ",",
-                "*",
-                ",",
-                "\\",
-                "p",
-                "?",
-                "q",
-                "\\",
-                "r",
-                ",",
-                "v",
-                ":=",
-                "1",
-                ";",
-            ],
+            [name, *OPTIONAL],
             ["%", '"p"', "+", name, "%", *value, ";"],
             ["RETURN", *value, ";"],
             self.pick(["RETURN", ";"], ["EXIT", ";"], ["GOTO", "l", ";"], ["RAISE", "5", ";"]),

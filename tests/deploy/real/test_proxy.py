@@ -14,7 +14,7 @@ import threading
 
 import pytest
 
-from rapidgen.deploy import TransportFault, make_plan
+from rapidgen.deploy import make_plan
 from rapidgen.diagnostics import DiagnosticError
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
@@ -169,12 +169,12 @@ def through(server, act=lambda number, line: None, **options):
         proxy.close()
 
 
-def run(kit, server, proxy, wanted):
+def run(kit, server, proxy, wanted, *, action=None):
     """Codes of the refusal of one deployment through the proxy; none when it went through."""
     transport = None
     try:
         transport = server.connect(proxy.port)
-        kit.deploy(transport, wanted)
+        (action or kit.deploy)(transport, wanted)
     except DiagnosticError as error:
         return [d.code for d in error.diagnostics]
     finally:
@@ -220,12 +220,7 @@ def test_cut_at_every_command(kit, server, tmp_path):
         points = sorted(n for ns in kinds.values() for n in rng.sample(ns, min(2, len(ns))))[:20]
     seen = set()
     for number in points:
-        how = "before" if number % 2 else "after"
-        if LONG:
-            hows = ("before", "after")
-        else:
-            hows = (how,)
-        for how in hows:
+        for how in ("before", "after") if LONG else (("after", "before")[number % 2],):
             reset(server, start)
             with through(
                 server, lambda n, _, at=number, how=how: how if n == at else None
@@ -333,21 +328,8 @@ def test_a_garbled_answer_at_every_command(kit, server):
     for number in range(1, total):
         noise = bytes(rng.randrange(256) for _ in range(rng.randrange(1, 60))) + b"\r\n"
         with through(server, lambda n, _, at=number, x=noise: x if n == at else None) as proxy:
-            codes |= set(planned(server, proxy, wanted))
+            codes |= set(run(kit, server, proxy, wanted, action=make_plan))
     # RG506: an answer that by chance looks like a refusal.
     assert codes <= {"RG501", "RG502", "RG504", "RG505", "RG506"}
     assert "RG504" in codes
     assert list(server.home.iterdir()) == []
-
-
-def planned(server, proxy, wanted):
-    transport = None
-    try:
-        transport = server.connect(proxy.port)
-        make_plan(transport, wanted)
-    except TransportFault as fault:
-        return [fault.diagnostics[0].code]
-    finally:
-        if transport is not None:
-            transport.close()
-    return []

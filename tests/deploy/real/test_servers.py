@@ -7,6 +7,7 @@ import pytest
 
 from rapidgen.deploy import TransportFault, backup_set, make_plan
 from rapidgen.diagnostics import DiagnosticError
+from tests.refusal import refusal
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
 FTP = ("pyftpdlib", "vsftpd", "proftpd", "pure-ftpd")
@@ -68,9 +69,7 @@ def test_wrong_login_is_refused_and_says_no_password(server, monkeypatch):
     if server.kind == "sshd":
         monkeypatch.setenv("HOME", str(server.home))  # no keys there
         monkeypatch.delenv("SSH_AUTH_SOCK", raising=False)
-    with pytest.raises(DiagnosticError) as caught:
-        connect(parse_target(url), access)
-    (found,) = caught.value.diagnostics
+    (found,) = refusal(connect, parse_target(url), access).diagnostics
     assert found.code == "RG502"
     assert "wr0ng-pass" not in found.message + found.help + str(found.notes)
 
