@@ -15,7 +15,7 @@ from rapidgen.proving.run import Starter
 from rapidgen.proving.settings import NEEDED, Setting
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite import CASES
-from rapidgen.rapid.switches import parse_dialect
+from rapidgen.rapid.switches import parse_switches
 
 BY_NAME = {case.name: case for case in CASES}
 SIGNALS = [
@@ -103,7 +103,7 @@ def test_quicker_and_slower_controllers(name):
 def test_a_controller_with_which_the_driver_cannot_work_moves_nothing(switch):
     """A task ends at its start, the first message breaks the link, or a stream is refused."""
     assert switch.partition("=")[0] in NEEDED
-    with Bench(*configured(), Setting(dialect=parse_dialect(switch))) as bench:
+    with Bench(*configured(), Setting(dialect=parse_switches(switch))) as bench:
         bench.run(0.5)
         if any(task.state == "error" for task in bench.controller.tasks.values()):
             return
