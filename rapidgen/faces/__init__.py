@@ -1,4 +1,4 @@
-"""FTP and SFTP faces of a virtual controller's HOME: loopback only, nothing outside the folder."""
+"""Who talks to a controller from outside: FTP and SFTP of its HOME, a control socket; loopback."""
 
 from rapidgen.faces.ftp import serve_ftp
 from rapidgen.faces.service import Service
