@@ -21,7 +21,6 @@ class Facts:
         """What is assigned to whole locals; None = something unknown."""
         self.loops: list[n.For] = []
         self.goto: set[str] = set()
-        self.assigned_in_handlers: set[str] = set()
         for at in walk(routine):
             self._look(at, find)
 
