@@ -62,7 +62,7 @@ _MOTION = {
 }
 # What the driver cannot do without. Where it is otherwise a task ends at its start or every link
 # breaks, and nothing moves: tests/proving/test_variants.py.
-NEEDED = frozenset({"unpack_ulint", "alias_by_name"})
+NEEDED = frozenset({"alias_by_name"})
 
 
 def _inverted() -> Iterable[str]:
