@@ -65,7 +65,7 @@ def group_context(
         "sums": [s for s in _SUMS if any(j["sum"] == s["name"] for j in joints)],
         "robax": _axes(group, [f"rax_{n}" for n in range(1, 7)], "0"),
         "extax": _axes(group, [f"eax_{c}" for c in "abcdef"], "9E9"),
-        "padding": _padding(len(joints)),
+        "absent": list(range(len(joints) + 1, spec.MAX_JOINTS + 1)),
         "signals": [
             {
                 "name": layout.signal_name(config, group, signal),
@@ -94,7 +94,6 @@ def group_context(
         "call_main": config.call_main,
         "tool": _tool(group.tool),
         "wobj": _work_object(group.work_object),
-        "head_point": messages.JOINT_TRAJ_PT.length + (messages.JOINT_TRAJ_PT.number << 32),
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
         "slots": STATE_CLIENTS + 1,
@@ -126,19 +125,25 @@ def _build_constant(module: str) -> str:
 
 def _streams(config: RobotConfig, joints: list[dict[str, object]]) -> dict[str, object]:
     """What batches of points look like to RAPID."""
-    even = len(joints) % 2 == 0
     return {
         "preload": config.trajectory.preload,
-        "words": messages.point_pairs(len(joints)),
-        "pad_word": messages.point_pairs(len(joints)) if even else 0,
+        "words": messages.point_values(len(joints)),
+        "weighted": _weighted(messages.point_values(len(joints))),
         "batch_head": _HEADER_AND_PREFIX + 16,
-        "steps": spec.PAIR_SCALE,
+        "steps": spec.FIXED_SCALE,
         "units": {joint["factor"] for joint in joints},
-        "deg_step": literal(math.degrees(1 / spec.PAIR_SCALE)),
-        "mm_step": literal(_MM / spec.PAIR_SCALE),
+        "deg_step": repr(math.degrees(1 / spec.FIXED_SCALE)).upper(),
+        "mm_step": literal(_MM / spec.FIXED_SCALE),
         "points_accepted": messages.POINTS.reply(ReplyCode.SUCCESS).length,
         "points_refused": messages.POINTS.reply(ReplyCode.FAILURE).length,
     }
+
+
+def _weighted(words: int) -> list[str]:
+    """What the words of a point add to a checksum, in pieces that fit a line."""
+    terms = [f"{2 ** (words - n)} * word_{n}" for n in range(1, words)]
+    terms.append(f"word_{words}")
+    return [" + ".join(terms[at : at + 6]) for at in range(0, words, 6)]
 
 
 def _exposed(config: RobotConfig) -> list[dict[str, object]]:
@@ -201,9 +206,6 @@ def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]
         "arm": layout.arm(group, joint),
         "tolerance": literal(round(to_rapid(joint, tolerance), 4)),
         "factor": "ROS_DEG" if revolute else "ROS_MM",
-        # Where it is in a batch: the upper or the lower half of a word, in steps.
-        "word": n // 2 + 1,
-        "half": "MOD" if n % 2 else "DIV",
         "step": "DEG" if revolute else "MM",
     }
 
@@ -212,17 +214,6 @@ def _axes(group: GroupConfig, names: list[str], absent: str) -> list[str]:
     """Members of a robjoint or extjoint: the variable of each joint, `absent` where is none."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
     return [joints.get(name, absent) for name in names]
-
-
-def _padding(joints: int) -> dict[str, object]:
-    """Offsets from the first byte of a point at which joints that are not there are read.
-
-    Two float32 at a time, as one 64-bit number; an odd one is last.
-    """
-    first = _HEADER_AND_PREFIX + 4 + 4 * joints
-    missing = spec.MAX_JOINTS - joints
-    pairs = [first + 8 * n for n in range(missing // 2)]
-    return {"pairs": pairs, "last": first + 4 * (missing - 1) if missing % 2 else 0}
 
 
 def _tool(tool: Tool) -> dict[str, object]:

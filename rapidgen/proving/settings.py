@@ -37,7 +37,7 @@ class Setting:
 
 # What the driver cannot do without. Where it is otherwise a task ends at its start or every link
 # breaks, and nothing moves: tests/proving/test_variants.py.
-NEEDED = frozenset({"unpack_ulint", "alias_by_name"})
+NEEDED = frozenset({"alias_by_name"})
 # What its moves cannot notice: they are MoveAbsJ.
 NOT_ITS_MOVES = frozenset({"configuration_check"})
 # Figures of the motion that no source gives, and another one for each.

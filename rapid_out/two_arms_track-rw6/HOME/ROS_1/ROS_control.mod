@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "b3712a0089c3";
+    CONST string ROS_BUILD_CONTROL := "dbf3c510a69f";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -150,6 +150,8 @@ MODULE ROS_control
                 RETURN;
             ENDTEST
         ENDWHILE
+    ERROR
+        RAISE;
     ENDPROC
 
     ! The message that begins at byte `at` of `data`. Anything but a request of the right length
@@ -184,6 +186,8 @@ MODULE ROS_control
                 send_answer client;
             ENDIF
         ENDTEST
+    ERROR
+        RAISE;
     ENDPROC
 
     LOCAL FUNC bool is_whole(num length)
@@ -225,6 +229,8 @@ MODULE ROS_control
             ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
             send_answer client;
         ENDIF
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Stop the robot, and ask the supervisor for a halt: before, so that nobody starts it again,
@@ -278,6 +284,8 @@ MODULE ROS_control
         ELSE
             report client, ROS_REASON_INTERNAL;
         ENDIF
+    ERROR
+        RAISE;
     ENDPROC
 
     ! The motion task is asked directly: it is the only one that can.
@@ -299,6 +307,8 @@ MODULE ROS_control
                 report client, ROS_REASON_INTERNAL;
             ENDIF
         ENDIF
+    ERROR
+        RAISE;
     ENDPROC
 
     LOCAL PROC take_heartbeat(VAR socketdev client)
@@ -317,6 +327,8 @@ MODULE ROS_control
         PackRawBytes newest.trajectory, answer, 17 \IntX:=DINT;
         PackRawBytes newest.state, answer, 21 \IntX:=DINT;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! STOPPED: where the robot stands after a trajectory has ended early and its path is gone.
@@ -370,6 +382,8 @@ MODULE ROS_control
         PackRawBytes index, answer, 17 \IntX:=DINT;
         PackRawBytes value, answer, 21 \Float4;
         send_answer client;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Write a signal that the configuration lets be written. Gives why not, 0: done.
