@@ -15,6 +15,7 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
+from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.plan import FileChange, Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
@@ -39,12 +40,14 @@ def apply(
 ) -> None:
     """Do exactly what `plan` says; nothing when it is empty.
 
-    Raises DiagnosticError: RG520, RG521 (conflicts), RG522 (the controller moved on), RG527
-    (cut while switching); TransportFault before that: then nothing old was changed.
+    Raises DiagnosticError: RG520, RG521, RG534, RG535 (conflicts), RG522 (the controller moved
+    on), RG527 (cut while switching); TransportFault before that: then nothing old was changed.
     """
-    if plan.conflicts and not overwrite:
-        raise DiagnosticError(conflicts_of(plan), exit_code=1)
-    if make_plan(transport, plan.wanted, verb=plan.verb).fingerprint != plan.fingerprint:
+    conflicts = conflicts_of(plan, overwrite=overwrite)
+    if conflicts:
+        raise DiagnosticError(conflicts, exit_code=1)
+    now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
+    if now_there.fingerprint != plan.fingerprint:
         raise moved_on(plan.target)
     if plan.is_empty:
         return
@@ -64,9 +67,44 @@ def apply(
         raise _cut(plan, fault) from fault
 
 
-def conflicts_of(plan: Plan) -> list[Diagnostic]:
-    """RG520 and RG521 for everything that only `overwrite` replaces."""
-    return [_conflict(change) for change in plan.conflicts]
+def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
+    """RG520 and RG521 for what only `overwrite` replaces; RG534 and RG535 for what nothing does."""
+    found = [] if overwrite else [_conflict(change) for change in plan.conflicts]
+    if plan.neighbour is not None:
+        found.append(_beside(plan, plan.neighbour))
+    found += [
+        error(
+            "RG535",
+            None,
+            f"{change.key.partition(' ')[2]} is {change.note}",
+            "rename the signal on the controller, or whatever uses it",
+        )
+        for change in plan.cfg
+        if change.action == "clash"
+    ]
+    return found
+
+
+def _beside(plan: Plan, other: Neighbour) -> Diagnostic:
+    help = "its modules have names of ours, and both serve the same ports: " + "; ".join(
+        f"({n}) {step.what}" for n, step in enumerate(plan.steps, 1)
+    )
+    if other.instances:
+        return error(
+            "RG534",
+            None,
+            f"another driver is loaded on {plan.target}, abb_driver or an earlier one",
+            help,
+            notes=tuple(f"{n.domain}: {n.shown}" for n in other.instances),
+        )
+    return error(
+        "RG534",
+        None,
+        f"another driver lies in {plan.target}, and what is loaded is not seen",
+        "where it is not loaded, say so with a backup of the controller: --backup FOLDER; else "
+        + help,
+        notes=tuple(f"HOME:/{path}" for path in other.files),
+    )
 
 
 def moved_on(target: str) -> DiagnosticError:

@@ -75,8 +75,8 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     if had is not None and not undone:
         history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
     before: Members = dict(plan.cfg_before)
-    if plan.cfg_seen:
-        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before)
+    if plan.cfg_present:
+        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
     return Manifest(
         number,
         now(),

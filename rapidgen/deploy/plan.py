@@ -11,6 +11,7 @@ from typing import Literal
 from rapidgen._json import Json, Members
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.driverset import DriverSet, digest
+from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder
 from rapidgen.deploy.steps import ManualStep
 from rapidgen.system import CfgText
@@ -86,7 +87,11 @@ class Plan:
     """Copies of strangers' files, by path."""
     cfg_before: Mapping[str, Json] = field(default_factory=dict, repr=False)
     cfg_present: tuple[CfgText, ...] = field(default=(), repr=False)
-    """SYSPAR as it was read; empty where it is not seen."""
+    """Loaded cfg: SYSPAR, or that of a backup; empty where it is not seen."""
+    cfg_ours: frozenset[str] = field(default=frozenset(), repr=False)
+    """cfg instances that earlier deployments brought."""
+    neighbour: Neighbour | None = None
+    """Another driver that has to go first."""
 
     @property
     def conflicts(self) -> tuple[FileChange, ...]:
@@ -134,6 +139,14 @@ def plan_json(plan: Plan) -> Members:
         ],
         "cfg": [{"domain": c.domain, "instance": c.key, "action": c.action} for c in plan.cfg],
         "cfg_seen": plan.cfg_seen,
+        "another_driver": (
+            {
+                "instances": [n.shown for n in plan.neighbour.instances],
+                "files": [f"HOME:/{path}" for path in plan.neighbour.files],
+            }
+            if plan.neighbour
+            else None
+        ),
         "steps": [
             {"who": s.who, "what": s.what, "stops_motion": s.stops_motion} for s in plan.steps
         ],
