@@ -245,11 +245,11 @@ def _finish(work: Work, journal: Journal | None) -> None:
     elif journal is not None and journal.new is not None:
         kept = (str(past.id) for past in journal.new.history)
         delete_backups(work, keep=frozenset({"origin", *kept}))
+    delete_empty_folders(work)
     for name in ("switching", "journal.a", "journal.b"):
         delete_all(work, [f"{folder}/{name}"])
     if work.plan.wanted is None:
         delete_folder(work, folder)
-    delete_empty_folders(work)
 
 
 def _clean(work: Work) -> None:

@@ -124,10 +124,17 @@ def delete_backup(work: Work, name: str) -> None:
 
 
 def delete_empty_folders(work: Work) -> None:
-    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR."""
+    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR.
+
+    A run that was cut may have removed the files already: the sets before and after it know them.
+    """
+    journal = work.plan.state.journal
+    sets = [work.plan.had, *((journal.old, journal.new) if journal else ())]
+    paths = [c.where for c in work.plan.changes if c.kind != "syspar"]
+    paths += [work.home + record.path for known in filter(None, sets) for record in known.files]
     folders: set[str] = set()
-    for change in work.plan.changes:
-        place = parent(change.where) if change.kind != "syspar" else ""
+    for path in paths:
+        place = parent(path)
         while place and place + "/" != work.home:
             folders.add(place)
             place = parent(place)

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,6 +28,7 @@ def driver_files(
     robotware=(6, 15),
     drop: tuple[str, ...] = (),
     signals: tuple[str, ...] = ("signalMotorOn",),
+    motion_task: bool = True,
 ) -> dict[str, bytes]:
     """The files of a generated folder by path, manifest.json among them."""
     files: dict[str, bytes] = {}
@@ -43,7 +45,7 @@ def driver_files(
         tasks[f"HOME/{path}"] = list(members)
     major = robotware[0]
     sys = f"SYS:CFG_1.0:{major}:0::\n#\nCAB_TASKS:\n"
-    for task in TASKS:
+    for task in TASKS if motion_task else TASKS[1:]:
         kind = ' -Type "NORMAL" -MotionTask' if task == "T_ROB1" else ' -TrustLevel "None"'
         sys += f'\n      -Name "{task}"{kind}\n'
     sys += "#\nCAB_TASK_MODULES:\n"
@@ -151,3 +153,8 @@ class Kit:
 @pytest.fixture(scope="session")
 def kit() -> type[Kit]:
     return Kit
+
+
+@pytest.fixture(autouse=True)
+def _no_fsync(monkeypatch):
+    monkeypatch.setattr(os, "fsync", lambda descriptor: None)
