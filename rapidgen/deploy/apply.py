@@ -16,7 +16,7 @@ from rapidgen.deploy.keep import (
     now,
 )
 from rapidgen.deploy.neighbour import Neighbour
-from rapidgen.deploy.plan import FileChange, Plan
+from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, refused
@@ -40,8 +40,8 @@ def apply(
 ) -> None:
     """Do exactly what `plan` says; nothing when it is empty.
 
-    Raises DiagnosticError: RG520, RG521, RG534, RG535 (conflicts), RG522 (the controller moved
-    on), RG527 (cut while switching); TransportFault before that: then nothing old was changed.
+    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535 (conflicts), RG522 (the controller
+    moved on), RG527 (cut while switching); TransportFault before that: nothing old was changed.
     """
     conflicts = conflicts_of(plan, overwrite=overwrite)
     if conflicts:
@@ -68,8 +68,10 @@ def apply(
 
 
 def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
-    """RG520 and RG521 for what only `overwrite` replaces; RG534 and RG535 for what nothing does."""
+    """RG520, RG521, RG531: only `overwrite` replaces that; RG534, RG535: nothing does."""
     found = [] if overwrite else [_conflict(change) for change in plan.conflicts]
+    if plan.damaged and not overwrite:
+        found.insert(0, error("RG531", None, plan.damaged, DAMAGED))
     if plan.neighbour is not None:
         found.append(_beside(plan, plan.neighbour))
     found += [

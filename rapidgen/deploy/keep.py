@@ -51,7 +51,7 @@ def back_up(work: Work, number: int) -> None:
 def strangers(plan: Plan) -> list[tuple[FileRecord, bytes]]:
     """Files that are not ours and are about to be replaced, or taken over because they are equal,
     and cfg files before our first instance."""
-    count = len(plan.origin)
+    count = plan.copies
     found: list[tuple[FileRecord, bytes]] = []
     for change in plan.changes:
         if change.foreign and change.before is not None and change.path not in plan.origin:

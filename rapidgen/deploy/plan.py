@@ -16,6 +16,12 @@ from rapidgen.deploy.state import FileRecord, Manifest, StateFolder
 from rapidgen.deploy.steps import ManualStep
 from rapidgen.system import CfgText
 
+DAMAGED = (
+    "`rapidgen deploy ... --overwrite` writes a new one: the newest backup's, with the files as "
+    "they lie there now; a backup keeps all of them"
+)
+"""The way out of RG531."""
+
 Verb = Literal["deploy", "rollback", "uninstall"]
 Action = Literal["add", "change", "same", "remove", "restore"]
 
@@ -92,6 +98,10 @@ class Plan:
     """cfg instances that earlier deployments brought."""
     neighbour: Neighbour | None = None
     """Another driver that has to go first."""
+    damaged: str = ""
+    """Why the manifest on the controller cannot be used, if so: only `overwrite` replaces it."""
+    copies: int = 0
+    """Number of the next copy of a stranger's file."""
 
     @property
     def conflicts(self) -> tuple[FileChange, ...]:
@@ -106,7 +116,7 @@ class Plan:
     @property
     def is_stale(self) -> bool:
         """The manifest on the controller does not say what has to lie there."""
-        if self.wanted is None:
+        if self.wanted is None or self.damaged:
             return self.had is not None
         recorded = {r.path: r.sha256 for r in self.had.files} if self.had else None
         return recorded != {f.path: f.sha256 for f in self.wanted.files}

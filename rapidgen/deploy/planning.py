@@ -2,14 +2,15 @@
 
 import difflib
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Members
 from rapidgen.deploy.cfg import compare, keyed, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
+from rapidgen.deploy.mend import copies, mended
 from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour
-from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_of
+from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
@@ -33,15 +34,14 @@ def make_plan(
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
+    damaged = ""
+    if state.damaged and not (state.switching and state.journal):
+        damaged = state.damaged
+        if wanted is None or state.later:
+            raise refused("RG531", damaged, "" if state.later else DAMAGED)
+        state = replace(state, manifest=mended(transport, layout.home, wanted))
     base = _base(transport, layout.home, state)
     had = base.had
-    if state.damaged and not base.repair:
-        raise refused(
-            "RG531",
-            state.damaged,
-            f"restore HOME:/{STATE}/manifest.json from a backup of the controller, or delete "
-            "it: then files that lie there count as a stranger's",
-        )
     if wanted is None and had is None and not base.interrupted:
         raise refused("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
     if wanted is not None and had is not None and had.name != wanted.name:
@@ -133,6 +133,8 @@ def make_plan(
         texts,
         ours,
         neighbour,
+        damaged,
+        copies(transport, layout.home) if damaged else len(base.origin),
     )
 
 

@@ -26,6 +26,9 @@ def plan_text(plan: Plan) -> str:
     out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}"]
     if plan.interrupted:
         out.append(f"  * {plan.interrupted}: this run puts it right")
+    if plan.damaged:
+        taken = "the newest backup's" if plan.had and plan.had.history else "no backup's"
+        out.append(f"  ? {plan.damaged}: {taken} is taken  -> needs --overwrite")
     shown = [(c.shown, c) for c in plan.changes]
     width = max((len(name) for name, _ in shown), default=0)
     out += [f"  {_SIGNS[c.action]} {name:<{width}}  {_words(c)}" for name, c in shown]
