@@ -3,7 +3,9 @@
 Layout as real controllers save it: a header line `DOMAIN:CFG_1.0:<major>:<minor>::`, `#` lines
 between sections, `SECTION:` on a line of its own, instances of `-Attribute value` pairs that a
 `\\` at the end of a line continues, text in double quotes, numbers bare, and a true boolean as a
-bare `-Flag` (a false one is left out).
+bare `-Flag` (a false one is left out). What controllers read is looser (files that ABB ships):
+no blank lines, any indentation, `# text` anywhere between lines, LF; RobotWare 7 ends a file with
+`#CTRL_SIGNATURE:...`. Names have no case.
 """
 
 import re
@@ -76,9 +78,9 @@ class CfgText:
     path: str = ""
 
     def instances(self, name: str) -> Iterator[Instance]:
-        """Instances of every section with this name, in order."""
+        """Instances of every section with this name (in any case), in order."""
         for section in self.sections:
-            if section.name == name:
+            if section.name.casefold() == name.casefold():
                 yield from section.instances
 
 

@@ -117,7 +117,7 @@ def test_backup(backup):
     assert [n.code for n in notes] == ["RG710"]
     program = SignalSpec("goProgram", "GO", device="d651", size=8, bits=tuple(range(8, 16)))
     assert system.signals == (program,)
-    assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", "T_ROB1"),)
+    assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", task="T_ROB1"),)
     assert system.cross == (CrossConnection("", "doA", (("diB", True), ("diC", False)), ("OR",)),)
     assert system.events == (EventRoutine("OnStart", "START", "T_ROB1"),)
     assert read_system(backup) == system
@@ -254,7 +254,10 @@ def test_model_to_text_and_back():
             TaskSpec("T_LOG", "STATIC", "NoSafety"),
         ),
         signals=(SignalSpec("doA", "DO", "ReadOnly"), SignalSpec("goB", "GO", size=8, default=3)),
-        outputs=(SystemOutput("MotorOn", "doA"), SystemOutput("TaskExecuting", "doA", "T_ROB1")),
+        outputs=(
+            SystemOutput("MotorOn", "doA"),
+            SystemOutput("TaskExecuting", "doA", task="T_ROB1"),
+        ),
         inputs=(SystemInput("Start", "diA", "CONT"),),
         cross=(CrossConnection("c", "doA", (("diA", True), ("diB", False)), ("AND",)),),
         events=(EventRoutine("OnStop", "STOP", "T_ROB1"),),
