@@ -82,7 +82,16 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         groups=groups_of(sys_cfg),
         robotware=_robotware(info, sys_cfg, collected),
         home=home if home.is_dir() else None,
+        robot_types=_robot_types(folder),
     )
+
+
+def _robot_types(folder: Path) -> tuple[tuple[str, str], ...]:
+    path = inside(folder, "SYSPAR/MOC.cfg")
+    if not path.is_file():
+        return ()
+    robots = parse_cfg(read_limited(path), path=str(path)).instances("ROBOT")
+    return tuple((robot.text("Name"), robot.text("use_robot_type")) for robot in robots)
 
 
 def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:

@@ -300,3 +300,11 @@ def test_shared_and_installed_modules(backup):
         ("HOME:/Shared.sys", (), True, False),
         ("HOME:/tools.sys", ("T_ROB1",), False, True),
     ]
+
+
+def test_a_backup_tells_its_robots(backup):
+    put(
+        backup / "SYSPAR/MOC.cfg",
+        'MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n -name "ROB_1" -use_robot_type "ROB1_120_0.58_3"\n',
+    )
+    assert read_backup(backup).robot_types == (("ROB_1", "ROB1_120_0.58_3"),)
