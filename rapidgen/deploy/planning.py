@@ -271,12 +271,15 @@ def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
 
 def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, target: str) -> None:
     for text in texts:
-        if wanted is not None and text.version[0] != wanted.robotware[0]:
+        if wanted is None or text.version is None:
+            continue
+        main, _ = text.version
+        if main != wanted.robotware[0]:
             raise refused(
                 "RG525",
-                f"{target} runs RobotWare {text.version[0]} ({text.path}), the driver is built "
+                f"{target} runs RobotWare {main} ({text.path}), the driver is built "
                 f"for {_ware(wanted.robotware)}",
-                f"set `robotware: {text.version[0]}` in the configuration and build again",
+                f"set `robotware: {main}` in the configuration and build again",
             )
 
 

@@ -145,3 +145,5 @@ class System:
     """Folder whose files HOME: starts with; it is copied, never written."""
     build_id: str = ""
     """BUILD_ID of a generated folder, else empty."""
+    robot_types: tuple[tuple[str, str], ...] = ()
+    """(mechanical unit, -use_robot_type of MOC), where a backup tells them."""
