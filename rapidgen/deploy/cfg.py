@@ -3,8 +3,8 @@
 Loading parameters on a controller adds instances, and replaces those of the same name or refuses
 them (120006 [real 6.03]); it never removes one. Instances without a name (CAB_TASK_MODULES,
 SYSSIG_OUT, ...) are told apart by the attributes that make them what they are; names compare
-without case [backup 6.06]. Motion tasks and unit groups are the controller's own: they get back
-what they had, and are never taken away.
+without case [backup 6.06]. Motion tasks, unit groups and the firewall's rules are the controller's
+own: they get back what they had, and are never taken away.
 """
 
 from collections.abc import Iterable, Mapping
@@ -21,6 +21,8 @@ _KEYS: dict[str, tuple[str, ...]] = {
     "SYSSIG_IN": ("Signal", "Name", "Action"),
     "EIO_CROSS": ("Res",),
 }
+_OWN = ("MECHANICAL_UNIT_GROUP", "FIREWALL_MANAGEMENT")
+"""The firewall's rules are delivered with the controller, closed [backup 7.5, 7.6]."""
 _THEIRS = ("name", "type", "motiontask")
 """What a motion task of a controller has without any driver [eight backups, RW 5.15 to 6.13]."""
 
@@ -57,6 +59,11 @@ def keyed(texts: Iterable[CfgText]) -> Keyed:
         for section in text.sections
         for instance in section.instances
     }
+
+
+def may_be_refused(text: CfgText) -> bool:
+    """Whether it is a file of instances that no controller has answered: all of it is optional."""
+    return text.path.casefold().endswith("_open.cfg")
 
 
 def name_of(key: Key) -> str:
@@ -145,9 +152,7 @@ def merged(
 
 def stays(key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool) -> bool:
     """Whether it is the controller's own and nothing says that a deployment brought it."""
-    own = key[1] == "MECHANICAL_UNIT_GROUP" or (
-        key[1] == "CAB_TASKS" and instance.flag("MotionTask")
-    )
+    own = key[1] in _OWN or (key[1] == "CAB_TASKS" and instance.flag("MotionTask"))
     return own and not (uninstall and name_of(key) in before)
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Literal
 
 from rapidgen._json import members, whole
+from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import DriverSet
 from rapidgen.deploy.neighbour import MODULE
 from rapidgen.deploy.plan import Plan
@@ -251,7 +252,13 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
         if change.action == "clash":
             mend = "rename the signal on the controller"
             yield Check("signals", "fail", f"{change.key} is {change.note}", mend)
-    away = [c for c in plan.cfg if c.action not in ("same", "use", "clash")]
+    optional = {name_of(k) for t in wanted.cfg if may_be_refused(t) for k in keyed([t])}
+    away = [
+        c
+        for c in plan.cfg
+        if c.action not in ("same", "use", "clash")
+        and not (c.action == "add" and f"{c.domain} {c.key}".casefold() in optional)
+    ]
     if not away:
         yield Check("configuration", "ok", f"{len(plan.cfg)} instances as the driver needs them")
         return

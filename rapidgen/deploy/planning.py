@@ -89,11 +89,13 @@ def make_plan(
                 foreign=change.foreign,
             )
         )
+    modules = [c for c in changes if c.kind == "module" and c.action != "same"]
     steps = steps_of(
-        [(c.path, c.tasks) for c in changes if c.kind == "module" and c.action != "same"],
+        [(c.path, c.tasks) for c in modules if c.after is not None],
         cfg,
         wanted_cfg,
         old_cfg,
+        gone=any(c.after is None for c in modules),
         written=seen,
     )
     if neighbour is not None:
@@ -307,12 +309,15 @@ def _old_cfg(changes: list[FileChange]) -> tuple[CfgText, ...]:
 
 def _check_robotware(texts: tuple[CfgText, ...], wanted: DriverSet | None, target: str) -> None:
     for text in texts:
-        if wanted is not None and text.version[0] != wanted.robotware[0]:
+        if wanted is None or text.version is None:
+            continue
+        main, _ = text.version
+        if main != wanted.robotware[0]:
             raise refused(
                 "RG525",
-                f"{target} runs RobotWare {text.version[0]} ({text.path}), the driver is built "
+                f"{target} runs RobotWare {main} ({text.path}), the driver is built "
                 f"for {_ware(wanted.robotware)}",
-                f"set `robotware: {text.version[0]}` in the configuration and build again",
+                f"set `robotware: {main}` in the configuration and build again",
             )
 
 

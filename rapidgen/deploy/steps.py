@@ -9,7 +9,7 @@ are loaded at a restart when the file is newer ([mem]). Nothing here restarts an
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rapidgen.deploy.cfg import CfgChange, shown_key
+from rapidgen.deploy.cfg import CfgChange, may_be_refused, shown_key
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.system import CfgText
 
@@ -20,8 +20,9 @@ _TOPICS = {
     "MECHANICAL_UNIT_GROUP": "Controller > Mechanical Unit Group",
     "EIO_SIGNAL": "I/O System > Signal",
     "SYSSIG_OUT": "I/O System > System Output",
+    "FIREWALL_MANAGEMENT": "Communication > Firewall Manager",
 }
-"""Topic and type on the pendant: the first two from abb_driver's page, the others [mem]."""
+"""Topic and type: the first two from abb_driver's page, the last from ABB's, others [mem]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,12 +40,13 @@ def steps_of(
     wanted: Sequence[CfgText],
     old: Sequence[CfgText],
     *,
+    gone: bool,
     written: bool,
 ) -> tuple[ManualStep, ...]:
     """Steps after the files have been switched; none where nothing loaded changes.
 
-    `modules` are the changed ones with their tasks, `wanted` and `old` the cfg files of the new
-    and the last set, `written` that SYSPAR itself was changed.
+    `modules` are the new and changed ones with their tasks, `gone` that some went, `wanted` and
+    `old` the cfg files of the new and the last set, `written` that SYSPAR itself was changed.
     """
     steps = [] if written else [*_delete(cfg), *_load(cfg, wanted), *_give_back(cfg)]
     types = {
@@ -66,7 +68,7 @@ def steps_of(
         if readers:
             what = f"{restart} (menu > {restart}): {'; '.join(readers)}"
             steps.append(ManualStep("pendant", what, stops_motion=True))
-    changed = any(c.action not in ("same", "use") for c in cfg)
+    changed = gone or any(c.action not in ("same", "use") for c in cfg)
     if changed and not any(step.stops_motion for step in steps):
         steps.append(
             ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True)
@@ -110,10 +112,20 @@ def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
             section, _, name = change.key.partition(" ")
             again = "" if change.action == "remove" else " (comes back changed)"
             sections.setdefault(section, []).append(name + again)
+    sections = {s: _by_file(n) if s == "CAB_TASK_MODULES" else n for s, n in sections.items()}
     return [
         ManualStep("pendant", f"loading removes nothing: delete in {_where(s)}: {'; '.join(names)}")
         for s, names in sections.items()
     ]
+
+
+def _by_file(names: Sequence[str]) -> list[str]:
+    """`FILE TASK` of many tasks as one `FILE in TASK, TASK`."""
+    files: dict[str, list[str]] = {}
+    for name in names:
+        file, _, task = name.partition(" ")
+        files.setdefault(file, []).append(task)
+    return [f"{file} in {', '.join(tasks)}" for file, tasks in files.items()]
 
 
 def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualStep]:
@@ -130,13 +142,20 @@ def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualSte
         changed = sum(c.action == "change" for c in mine)
         if not new and not changed:
             continue
-        there = any(c.action == "same" or (c.action == "change" and c.named) for c in mine)
+        there = any(
+            c.action == "same"
+            or (c.action == "change" and c.named)
+            or c.key.startswith("FIREWALL_MANAGEMENT ")
+            for c in mine
+        )
         mode = "and replace duplicates" if there else "if no duplicates"
         what = f"load HOME:/{text.path} ({new} instances to add, {changed} to change): "
         what += f"Control Panel > Configuration > File > Load parameters {mode}"
         theirs = [c.key.partition(" ")[2] for c in mine if c.action == "use"]
         if theirs:
             what += f"; in a copy without {', '.join(theirs)}: somebody else's, used as they are"
+        if may_be_refused(text):
+            what += "; if it is refused leave it out, the driver serves and stops without it"
         steps.append(ManualStep("pendant", what))
     return steps
 

@@ -137,7 +137,7 @@ def test_where_only_home_is_seen_each_step_has_its_instances_and_t_rob1_is_kept(
     assert "Task: T_ROS_RECV loading" in deleted
     assert "Group: " not in deleted
     assert "ROS_on_power POWER_ON T_ROB1" in deleted
-    assert "HOME:/ROS/ROS_motion.mod T_ROB1" in deleted
+    assert "HOME:/ROS/ROS_common.sys in T_ROB1, T_ROS_RECV, T_ROS_STATE;" in deleted
     (kept,) = [s for s in steps if s.startswith("keep T_ROB1 ")]
     assert kept.endswith('(-BindRef 0 -Entry "main" -UseMechanicalUnitGroup "rob1")')
     (load,) = [s for s in steps if s.startswith("load HOME:/rapidgen_deploy/SYS.cfg")]
