@@ -28,9 +28,9 @@ _THEIRS = ("name", "type", "motiontask")
 
 
 CfgAction = Literal["add", "change", "same", "use", "clash", "restore", "leave", "remove"]
-"""`use`: somebody else's signal of the same kind is there, and stays as it is; `clash`: one of
-another kind; `restore`: gets back what it had before the first deployment; `leave`: the
-controller's own, no longer in our files."""
+"""`use`: somebody else's signal of the same kind, or output that drives it, is there and stays;
+`clash`: one of another kind; `restore`: gets back what it had before the first deployment;
+`leave`: the controller's own, no longer in our files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +80,7 @@ def compare(
     """
     found = []
     for key, instance in wanted.items():
-        other = present.get(key)
-        action, note = _toward(key, instance, other, ours, before)
+        action, note = _toward(key, instance, present, ours, before)
         found.append(_change(key, instance, action, note))
     for key, instance in present.items():
         name = name_of(key)
@@ -102,13 +101,14 @@ def compare(
 def without_used(
     wanted: Keyed, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
 ) -> Keyed:
-    """`wanted`, with signals that somebody else has defined (of the same kind) as they are."""
-    return {
-        key: present[key]
-        if _toward(key, instance, present.get(key), ours, before)[0] == "use"
-        else instance
-        for key, instance in wanted.items()
-    }
+    """`wanted`, with what somebody else has defined to the same end as it is."""
+    found = {}
+    for key, instance in wanted.items():
+        if _toward(key, instance, present, ours, before)[0] != "use":
+            found[key] = instance
+        elif key in present:
+            found[key] = present[key]
+    return found
 
 
 def merged(
@@ -152,8 +152,12 @@ def merged(
 
 def stays(key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool) -> bool:
     """Whether it is the controller's own and nothing says that a deployment brought it."""
-    own = key[1] in _OWN or (key[1] == "CAB_TASKS" and instance.flag("MotionTask"))
-    return own and not (uninstall and name_of(key) in before)
+    return is_delivered(key[1], instance) and not (uninstall and name_of(key) in before)
+
+
+def is_delivered(section: str, instance: Instance) -> bool:
+    """Whether a controller has such an instance before anybody adds one."""
+    return section in _OWN or (section == "CAB_TASKS" and instance.flag("MotionTask"))
 
 
 def attributes_text(attributes: Iterable[Attribute]) -> str:
@@ -186,15 +190,12 @@ def _last(text: CfgText, section: Section) -> bool:
 
 
 def _toward(
-    key: Key,
-    instance: Instance,
-    other: Instance | None,
-    ours: frozenset[str],
-    before: Mapping[str, Json],
+    key: Key, instance: Instance, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
 ) -> tuple[CfgAction, str]:
     """What becomes of a wanted instance, and why where a person has to know."""
+    other = present.get(key)
     if other is None:
-        return "add", ""
+        return _driven(key, instance, present, ours)
     old = before.get(name_of(key))
     theirs = name_of(key) not in ours or (old is not None and _equal(instance_from(old), other))
     if key[1] == "EIO_SIGNAL" and theirs:
@@ -203,6 +204,25 @@ def _toward(
             return "clash", f"{kind or 'of no type'} there, the driver needs {needed}"
         return ("same" if _equal(instance, other) else "use"), "somebody else's, of the same kind"
     return ("same" if _equal(instance, other) else "change"), ""
+
+
+def _driven(
+    key: Key, instance: Instance, present: Keyed, ours: frozenset[str]
+) -> tuple[CfgAction, str]:
+    """A new system output, where somebody else's may drive the same signal already."""
+    if key[1] != "SYSSIG_OUT":
+        return "add", ""
+    signal = _signal(instance)
+    for name, other in present.items():
+        if name[1] == key[1] and _signal(other) == signal and name_of(name) not in ours:
+            if other.text("Status").casefold() == instance.text("Status").casefold():
+                return "use", f"somebody else's: {shown_key(key[1], other)}"
+            return "clash", f"driven by {other.text('Status')} there"
+    return "add", ""
+
+
+def _signal(output: Instance) -> str:
+    return (output.text("Signal") or output.text("Name")).casefold()
 
 
 def _change(key: Key, instance: Instance, action: CfgAction, note: str = "") -> CfgChange:

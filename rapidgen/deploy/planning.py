@@ -12,7 +12,7 @@ from rapidgen.deploy.mend import copies, mended
 from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour
 from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
-from rapidgen.deploy.steps import steps_beside, steps_of
+from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
 from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
 from rapidgen.diagnostics import DiagnosticError
@@ -100,6 +100,8 @@ def make_plan(
     )
     if neighbour is not None:
         steps = steps_beside(neighbour)
+    elif wanted is None and not seen and any(c.action == "remove" for c in cfg):
+        steps = (CFG_FIRST, *steps)
     unseen = list(transport.reach.unseen)
     if loaded and not syspar:
         unseen.append("loaded cfg is what the backup says; what was changed since is not seen")

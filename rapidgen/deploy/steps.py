@@ -9,7 +9,7 @@ are loaded at a restart when the file is newer ([mem]). Nothing here restarts an
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rapidgen.deploy.cfg import CfgChange, may_be_refused, shown_key
+from rapidgen.deploy.cfg import CfgChange, is_delivered, may_be_refused, shown_key
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.system import CfgText
 
@@ -32,6 +32,14 @@ class ManualStep:
     who: str
     what: str
     stops_motion: bool = False
+
+
+CFG_FIRST = ManualStep(
+    "you",
+    "have the instances below deleted and the controller restarted before the files go: else it "
+    "starts with tasks whose modules are missing; a new backup shows it (--backup)",
+)
+"""Of an uninstall, where what is loaded is not seen or was still there."""
 
 
 def steps_of(
@@ -133,20 +141,14 @@ def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualSte
     changes = {(c.domain, c.key): c for c in cfg}
     steps = []
     for text in wanted:
-        mine = [
-            changes[text.domain, f"{section.name} {shown_key(section.name, instance)}"]
-            for section in text.sections
-            for instance in section.instances
-        ]
+        rows = [(s.name, i) for s in text.sections for i in s.instances]
+        mine = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
         new = sum(c.action == "add" for c in mine)
         changed = sum(c.action == "change" for c in mine)
         if not new and not changed:
             continue
-        there = any(
-            c.action == "same"
-            or (c.action == "change" and c.named)
-            or c.key.startswith("FIREWALL_MANAGEMENT ")
-            for c in mine
+        there = any(is_delivered(name, i) for name, i in rows) or any(
+            c.action == "same" or (c.action == "change" and c.named) for c in mine
         )
         mode = "and replace duplicates" if there else "if no duplicates"
         what = f"load HOME:/{text.path} ({new} instances to add, {changed} to change): "

@@ -29,6 +29,7 @@ def driver_files(
     drop: tuple[str, ...] = (),
     signals: tuple[str, ...] = ("signalMotorOn",),
     motion_task: bool = True,
+    outputs: str = "",
 ) -> dict[str, bytes]:
     """The files of a generated folder by path, manifest.json among them."""
     files: dict[str, bytes] = {}
@@ -56,7 +57,7 @@ def driver_files(
     eio = f"EIO:CFG_1.0:{major}:1::\n#\nEIO_SIGNAL:\n"
     for signal in signals:
         eio += f'\n      -Name "{signal}" -SignalType "DO"\n'
-    files["EIO.cfg"] = eio.encode()
+    files["EIO.cfg"] = (eio + outputs).encode()
     files["README.md"] = b"# not for the controller\n"
     kinds = {"SYS.cfg": "cfg", "EIO.cfg": "cfg", "README.md": "readme"}
     manifest = {

@@ -14,6 +14,7 @@ from rapidgen.deploy.doctor import examine
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, parse_target
 from rapidgen.deploy.transports.folder import FolderTransport
+from rapidgen.faces import serve_ftp
 from rapidgen.system import parse_cfg
 from tests.refusal import refused
 
@@ -161,6 +162,37 @@ def test_a_signal_of_another_kind_is_refused(kit, controller):
     assert files(controller) == before
 
 
+OUTPUT = """#
+SYSSIG_OUT:
+
+      -Status "MotOnState" -Signal "signalMotorOn"{}
+"""
+
+
+@pytest.mark.parametrize(
+    ("theirs", "action"),
+    [(OUTPUT.format(""), "same"), (OUTPUT.format(' -Arg1 "x"'), "use"), ("", "add")],
+)
+def test_its_system_outputs_are_used(kit, controller, theirs, action):
+    transport = FolderTransport(controller)
+    (controller / "SYSPAR/SYS.cfg").write_text(CLEAN)
+    (controller / "SYSPAR/EIO.cfg").write_text(EIO + theirs)
+    plan = kit.deploy(transport, kit.driver(BUILD, outputs=OUTPUT.format("")))
+    assert {c.action for c in plan.cfg if "SYSSIG_OUT" in c.key} == {action}
+    text = parse_cfg((controller / "SYSPAR/EIO.cfg").read_bytes())
+    assert len(list(text.instances("SYSSIG_OUT"))) == 1
+    kit.deploy(transport, None, verb="uninstall")
+    assert (controller / "SYSPAR/EIO.cfg").read_text() == EIO + theirs
+
+
+def test_a_signal_that_another_output_drives_is_refused(kit, controller):
+    transport = FolderTransport(controller)
+    (controller / "SYSPAR/SYS.cfg").write_text(CLEAN)
+    other = OUTPUT.format("").replace("MotOnState", "AutoOn")
+    (controller / "SYSPAR/EIO.cfg").write_text(EIO + other)
+    assert refused(kit.deploy, transport, kit.driver(BUILD, outputs=OUTPUT.format(""))) == ["RG535"]
+
+
 def test_where_cfg_is_not_seen_its_files_refuse_until_a_backup_says_they_are_not_loaded(
     kit, controller, tmp_path
 ):
@@ -199,15 +231,55 @@ def test_a_folder_without_syspar_is_no_backup(tmp_path):
     assert refused(loaded_cfg, tmp_path) == ["RG536"]
 
 
+def test_doctor_says_whether_the_steps_were_done(kit, controller, tmp_path):
+    """Over a HOME alone, with backups from before and after loading."""
+    (controller / "SYSPAR/SYS.cfg").write_text(CLEAN)
+    shutil.copytree(controller, tmp_path / "before")
+    kit.deploy(FolderTransport(controller), kit.driver(BUILD))
+    target = parse_target(f"dir://{controller / 'HOME'}")
+    for backup, verdict in ((tmp_path / "before", "warn"), (controller, "ok"), (None, "unknown")):
+        checks = examine(
+            target, Access(), kit.driver(BUILD), hello=lambda host, port: None, backup=backup
+        )
+        assert [c.verdict for c in checks if c.area == "configuration"] == [verdict]
+
+
+def test_over_ftp_the_backup_is_an_option_of_every_verb(kit, controller, tmp_path, monkeypatch):
+    folder = built(kit, tmp_path)
+    shutil.copytree(controller, tmp_path / "backup")
+    service = serve_ftp(controller / "HOME", password="x")
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "x")
+    monkeypatch.chdir(tmp_path)
+    url = [f"ftp://127.0.0.1:{service.port}"]
+    options = {"yes": True, "backup": tmp_path / "backup"}
+    try:
+        assert refused(deploy_verb, str(folder), url, yes=True) == ["RG534"]
+        assert refused(deploy_verb, str(folder), url, **options) == ["RG534"]
+        (tmp_path / "backup/SYSPAR/SYS.cfg").write_text(CLEAN)
+        assert refused(deploy_verb, str(folder), [*url, f"dir://{tmp_path}"], **options) == [
+            "RG536"
+        ]
+        assert deploy_verb(str(folder), url, **options) == 0
+    finally:
+        service.close()
+    assert kit.verdict(controller / "HOME", kit.driver(BUILD)) == "set 0"
+    assert (controller / "HOME/ROS/ROS_common.sys").is_file()
+
+
+def built(kit, tmp_path):
+    folder = tmp_path / "built"
+    for path, data in kit.driver_files(BUILD).items():
+        (folder / path).parent.mkdir(parents=True, exist_ok=True)
+        (folder / path).write_bytes(data)
+    return folder
+
+
 def test_doctor_names_it_and_a_copy_loads_it_again(kit, controller, tmp_path, monkeypatch):
     target = parse_target(f"dir://{controller}")
     checks = examine(target, Access(), kit.driver(BUILD), hello=lambda host, port: None)
     (found,) = [c for c in checks if c.area == "drivers"]
     assert (found.verdict, "ROS_common.sys -AllTask" in found.found) == ("fail", True)
-    folder = tmp_path / "built"
-    for path, data in kit.driver_files(BUILD).items():
-        (folder / path).parent.mkdir(parents=True, exist_ok=True)
-        (folder / path).write_bytes(data)
+    folder = built(kit, tmp_path)
     monkeypatch.chdir(tmp_path)
     assert refused(deploy_verb, str(folder), [f"dir://{controller}"], yes=True) == ["RG534"]
     (copy,) = (tmp_path / ".rapidgen/before").rglob("*.cfg")

@@ -148,6 +148,29 @@ def test_where_only_home_is_seen_each_step_has_its_instances_and_t_rob1_is_kept(
     assert places == sorted(places)
 
 
+def test_rolled_back_where_only_home_is_seen(kit, home):
+    transport = FolderTransport(home)
+    kit.deploy(transport, new(kit))
+    plan = kit.deploy(transport, backup_set(transport, "", 2), verb="rollback")
+    assert old_world(home) == "old"
+    steps = [s.what for s in plan.steps]
+    assert any("HOME:/rapidgen/ROS_motion.mod in T_ROB1" in s for s in steps if "delete" in s)
+    (load,) = [s for s in steps if s.startswith("load HOME:/rapidgen_deploy/SYS.cfg")]
+    # T_ROB1 is in that file, and on every controller: adding it would be refused (120006).
+    assert load.endswith("Load parameters and replace duplicates")
+
+
+def test_uninstall_where_only_home_is_seen_wants_the_instances_out_first(kit, home, controller):
+    transport = FolderTransport(home)
+    kit.deploy(transport, new(kit))
+    first = make_plan(transport, None, verb="uninstall").steps[0].what
+    assert "before the files go" in first
+    clean = 'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n      -Name "T_ROB1" -Type "NORMAL" -MotionTask\n'
+    plan = make_plan(transport, None, verb="uninstall", loaded=(parse_cfg(clean),))
+    assert not plan.cfg
+    assert not any("delete" in step.what for step in plan.steps)
+
+
 def test_a_backup_says_which_steps_are_left(kit, home, controller):
     transport = FolderTransport(home)
     loaded = loaded_cfg(controller)
