@@ -53,6 +53,11 @@ def build(
         path=path,
         controller=configuration.controller.type,
         robotware=configuration.controller.robotware,
+        multimove=configuration.controller.multimove,
+        cfg_header=tuple(
+            (domain, int(text.partition(":")[0]), int(text.partition(":")[2]))
+            for domain, text in configuration.controller.cfg_header.items()
+        ),
         groups=tuple(groups),
         trajectory=model.TrajectoryPolicy(
             **{

@@ -195,6 +195,10 @@ class RobotConfig:
     call_main: bool = True
     """False: the motion task's own `main` calls the driver's entry routine."""
     signals: tuple[ExposedSignal, ...] = ()
+    multimove: bool = field(default=False, metadata=SPARSE)
+    """One robot on a controller with MultiMove; with several groups there is no other way."""
+    cfg_header: tuple[tuple[str, int, int], ...] = field(default=(), metadata=SPARSE)
+    """(domain, digits) in the first line of the controller's cfg files, where they were given."""
     generations: tuple[Generation, ...] = ()
     """RobotWare generations that the robot exists for; empty: not known."""
     inputs: tuple[tuple[str, bytes], ...] = field(default=(), compare=False)

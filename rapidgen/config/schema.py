@@ -32,6 +32,7 @@ Port = Annotated[int, Rule(ge=1025, le=65535)]
 Vector = Annotated[list[float], Rule(min_length=3, max_length=3)]
 Quaternion = Annotated[list[float], Rule(min_length=4, max_length=4)]
 Text = Annotated[str, Rule(max_length=2000)]
+CfgDigits = Annotated[str, Rule(pattern=r"^[0-9]{1,2}:[0-9]{1,3}$")]
 
 
 def _robotware(value: object) -> object:
@@ -84,6 +85,14 @@ class ControllerKeys(_Part):
     robotware: Annotated[
         RobotWare, Rule("RobotWare version, 5.15 to 8; 6.10 is read as written, not as 6.1.")
     ] = (6, 15)
+    multimove: Annotated[
+        bool,
+        Rule("One robot on a controller with MultiMove (604-1): its tasks name a unit group."),
+    ] = False
+    cfg_header: Annotated[
+        dict[Literal["SYS", "EIO", "SIO"], CfgDigits],
+        Rule("Digits in the first line of the controller's cfg files, where they are not known."),
+    ] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from rapidgen.config.model import (
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
+from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.spec import ReplyCode
 
@@ -84,8 +85,9 @@ def group_context(
                 "known": f"has_{signal.function}",
                 "function": signal.function,
                 "text": signal.text,
+                "open": signal.is_open(config.robotware[0]),
             }
-            for signal in layout.STATUS_SIGNALS
+            for signal in STATUS_SIGNALS
         ],
         "ports": asdict(group.ports),
         "capacity": config.trajectory.capacity,
