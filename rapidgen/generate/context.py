@@ -6,10 +6,20 @@ from dataclasses import asdict
 from pathlib import Path
 
 from rapidgen import __version__
-from rapidgen.config.model import GroupConfig, Joint, Load, Placement, RobotConfig, Tool, WorkObject
+from rapidgen.config.model import (
+    GroupConfig,
+    Joint,
+    KeptAxis,
+    Load,
+    Placement,
+    RobotConfig,
+    Tool,
+    WorkObject,
+)
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
+from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.spec import ReplyCode
 
@@ -63,8 +73,9 @@ def group_context(
         "wrap": WRAP,
         "joints": joints,
         "sums": [s for s in _SUMS if any(j["sum"] == s["name"] for j in joints)],
-        "robax": _axes(group, [f"rax_{n}" for n in range(1, 7)], "0"),
-        "extax": _axes(group, [f"eax_{c}" for c in "abcdef"], "9E9"),
+        "robax": _robot_axes(group),
+        "extax": _external_axes(group),
+        "kept": [_kept(config, axis) for axis in group.kept],
         "absent": list(range(len(joints) + 1, spec.MAX_JOINTS + 1)),
         "signals": [
             {
@@ -74,8 +85,9 @@ def group_context(
                 "known": f"has_{signal.function}",
                 "function": signal.function,
                 "text": signal.text,
+                "open": signal.is_open(config.robotware[0]),
             }
-            for signal in layout.STATUS_SIGNALS
+            for signal in STATUS_SIGNALS
         ],
         "ports": asdict(group.ports),
         "capacity": config.trajectory.capacity,
@@ -210,10 +222,26 @@ def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]
     }
 
 
-def _axes(group: GroupConfig, names: list[str], absent: str) -> list[str]:
-    """Members of a robjoint or extjoint: the variable of each joint, `absent` where is none."""
+def _robot_axes(group: GroupConfig) -> list[str]:
+    """Members of a robjoint: the variable of each joint, else where the axis stands."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
-    return [joints.get(name, absent) for name in names]
+    return [joints.get(f"rax_{n}", f"ROS_kept_{n}") for n in range(1, 7)]
+
+
+def _external_axes(group: GroupConfig) -> list[str]:
+    """Members of an extjoint: the variable of each joint, 9E9 where is none."""
+    joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
+    return [joints.get(f"eax_{letter}", "9E9") for letter in "abcdef"]
+
+
+def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
+    """A robot axis that no joint drives."""
+    return {
+        "n": int(axis.axis[-1]),
+        "field": f"robax.{axis.axis}",
+        "at": literal(round(math.degrees(axis.value), 4)) if axis.must_stand else "",
+        "tolerance": literal(round(math.degrees(config.trajectory.start_tolerance), 4)),
+    }
 
 
 def _tool(tool: Tool) -> dict[str, object]:
