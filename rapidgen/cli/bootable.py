@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
 
 if TYPE_CHECKING:
     from rapidgen.config.model import GroupConfig
@@ -24,7 +24,7 @@ class Bootable:
 
 
 def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Bootable:
-    """Read a TARGET. `robot` names the mechanics of a backup, which does not tell them.
+    """Read a TARGET. `robot` names the mechanics of a backup, else its robot types tell them.
 
     Raises DiagnosticError.
     """
@@ -45,6 +45,7 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
 def _folder(path: Path, robot: str) -> Bootable:
     from rapidgen.config import from_manifest
     from rapidgen.controller.cell import in_its_cell
+    from rapidgen.controller.mechanics import mechanics
     from rapidgen.system import is_generated, read_manifest, read_system
 
     if is_generated(path):
@@ -53,28 +54,8 @@ def _folder(path: Path, robot: str) -> Bootable:
         return Bootable(config.name, system, config.groups, True)
     notes: list[Diagnostic] = []
     system = read_system(path, notes=notes)
-    groups, more = _mechanics(system, robot)
+    groups, more = mechanics(system, robot)
     return Bootable(system.name, system, groups, False, (*notes, *more))
-
-
-def _mechanics(
-    system: "System", robot: str
-) -> tuple[tuple["GroupConfig", ...], tuple[Diagnostic, ...]]:
-    """A robot of the given model for each motion task."""
-    from rapidgen.config import load_config
-    from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
-
-    groups = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
-    if robot or not groups:
-        return groups, ()
-    note = error(
-        "RG432",
-        None,
-        f"a backup does not tell the mechanics: moving an {DEFAULT_ROBOT}",
-        "name the robot with `--robot NAME`; `rapidgen robots` lists the models",
-        severity=Severity.WARNING,
-    )
-    return groups, (note,)
 
 
 def _no_target(target: str) -> Exception:

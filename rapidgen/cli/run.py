@@ -84,9 +84,8 @@ def run(
     """
     from rapidgen._writing import write_whole
     from rapidgen.cli.bootable import refuse_unloadable
-    from rapidgen.config import load_config
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.controller.mechanics import DEFAULT_ROBOT, groups_for
+    from rapidgen.controller.mechanics import mechanics
     from rapidgen.controller.tracing import Coverage, Profile, Trace
     from rapidgen.machine.operator import read_answers
     from rapidgen.system import is_generated, read_manifest
@@ -106,7 +105,9 @@ def run(
         system = in_its_cell(system, config)
         robots = None if robot else config.groups
     if robots is None:
-        robots = tuple(groups_for(system, load_config(robot or DEFAULT_ROBOT)))
+        robots, said = mechanics(system, robot)
+        # Loose files have no mechanics that could be told; a backup's cell has.
+        sys.stderr.write(render(said if system.robot_types else ()))
     tracing = trace or bool(profile) or coverage is not None
     with VirtualController(
         system,

@@ -40,6 +40,18 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
+class KeptAxis:
+    """A robot axis that no joint drives: it is held where it stands when motion is accepted.
+
+    `must_stand`: only if it stands at `value` (rad); else 0 is just what a simulation assumes.
+    """
+
+    axis: str
+    value: float = 0.0
+    must_stand: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class ChainLink:
     """One step of the kinematic chain: fixed transform to the joint, then the joint's axis.
 
@@ -131,6 +143,8 @@ class GroupConfig:
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
+    kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
+    """Robot axes without a joint."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +195,10 @@ class RobotConfig:
     call_main: bool = True
     """False: the motion task's own `main` calls the driver's entry routine."""
     signals: tuple[ExposedSignal, ...] = ()
+    multimove: bool = field(default=False, metadata=SPARSE)
+    """One robot on a controller with MultiMove; with several groups there is no other way."""
+    cfg_header: tuple[tuple[str, int, int], ...] = field(default=(), metadata=SPARSE)
+    """(domain, digits) in the first line of the controller's cfg files, where they were given."""
     generations: tuple[Generation, ...] = ()
     """RobotWare generations that the robot exists for; empty: not known."""
     inputs: tuple[tuple[str, bytes], ...] = field(default=(), compare=False)

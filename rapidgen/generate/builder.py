@@ -16,28 +16,28 @@ from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
+from rapidgen.generate.parameters import cfg_files
 from rapidgen.generate.readme import readme_context
 from rapidgen.generate.render import Renderer
-from rapidgen.system import ModuleFile, System, eio_cfg, expand_lines, sys_cfg, write_cfg
+from rapidgen.system import ModuleFile, System, expand_lines, write_cfg
 
 
 def build(config: RobotConfig) -> Output:
     """All files for one controller.
 
-    Raises DiagnosticError RG101 when a name or text of the configuration is too long for RAPID.
+    Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
+    RG105 (the first line of a cfg file is not known for this RobotWare).
     """
     templates = data_folder("templates")
     build_id = make_build_id(config, templates)
     renderer = Renderer(templates)
     renderer.add_filter("num", literal)
     system = layout.make_system(config, build_id)
+    parameters = cfg_files(config, system)
     files = [
         *(f for group in config.groups for f in _modules(config, group, build_id, renderer)),
-        _cfg("SYS.cfg", write_cfg(sys_cfg(system))),
-        _cfg("EIO.cfg", write_cfg(eio_cfg(system))),
+        *(_cfg(name, write_cfg(text)) for name, text in parameters),
     ]
-    if config.robotware[0] >= 7:
-        files.append(_cfg("SIO.cfg", write_cfg(layout.sio_cfg())))
     readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
     files.append(manifest_file(files, _head(config, build_id)))
@@ -82,14 +82,14 @@ def _modules(
         kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
         rendered = renderer.render(f"{module}.{kind}.j2", **context)
         path = f"HOME/{layout.module_file(config, group, module)}"
-        faults += lint(path, rendered.text, ascii_only=config.robotware[0] >= 7)
+        faults += lint(path, rendered.text)
         tasks = tuple(
             layout.task_name(config, group, role)
             for role in layout.roles(group)
             if module in role.modules
         )
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
-        data = rendered.text.encode("latin-1", errors="replace")
+        data = rendered.text.encode("ascii", errors="replace")
         files.append(OutputFile(path, data, "module", tasks, rendered.lines))
     if faults:
         raise DiagnosticError(faults)
@@ -97,7 +97,7 @@ def _modules(
 
 
 def _cfg(path: str, text: str) -> OutputFile:
-    return OutputFile(path, text.replace("\n", "\r\n").encode("latin-1"), "cfg")
+    return OutputFile(path, text.replace("\n", "\r\n").encode("ascii"), "cfg")
 
 
 def _head(config: RobotConfig, build_id: str) -> Members:

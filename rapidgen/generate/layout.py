@@ -1,4 +1,4 @@
-"""What goes where: tasks, their modules, and the System that SYS.cfg and EIO.cfg are written from.
+"""What goes where: tasks, their modules, and the System that the cfg files are written from.
 
 The structure (one reader, one supervisor, one state server and the motion task for each motion
 group) and its reasons are in docs/use/driver.md.
@@ -7,14 +7,10 @@ group) and its reasons are in docs/use/driver.md.
 from dataclasses import dataclass, replace
 
 from rapidgen.config.model import GroupConfig, Joint, RobotConfig
+from rapidgen.generate.status import STATUS_SIGNALS, StatusSignal
 from rapidgen.system import (
-    Attribute,
-    CfgText,
     EventRoutine,
-    Instance,
-    MechanicalUnitGroup,
     ModuleFile,
-    Section,
     SignalSpec,
     System,
     SystemOutput,
@@ -69,52 +65,10 @@ def modules(group: GroupConfig) -> tuple[str, ...]:
     return tuple(dict.fromkeys((*SYSTEM_MODULES, *(m for r in roles(group) for m in r.modules))))
 
 
-@dataclass(frozen=True, slots=True)
-class StatusSignal:
-    """A virtual output that shows a status of the controller to RAPID.
-
-    `function` is the RAPID function (without ROS_) that reads it. `per_group`: of one motion
-    task or mechanical unit.
-    """
-
-    base: str
-    status: str
-    function: str
-    text: str
-    argument: str = ""
-
-    @property
-    def per_group(self) -> bool:
-        """Whether every motion group has one of its own."""
-        return bool(self.argument)
-
-
-# The names are abb_driver's, so that a controller that ran it keeps its signals. [mem] marks
-# statuses whose cfg spelling is remembered only: the generated README says so.
-STATUS_SIGNALS = (
-    StatusSignal("signalMotorOn", "MotOnState", "motors_on", "Are the motors on?"),
-    StatusSignal("signalRobotEStop", "EmStop", "emergency_stop", "Is an emergency stop active?"),
-    StatusSignal(
-        "signalExecutionError",
-        "Error",
-        "controller_error",
-        "Has the controller stopped with an error?",
-    ),
-    StatusSignal(
-        "signalRobotNotMoving",
-        "MechUnitNotMoving",
-        "standing",
-        "Does the robot stand?",
-        argument="unit",
-    ),
-    StatusSignal(
-        "signalRosMotionTaskExecuting",
-        "TaskExecuting",
-        "executing",
-        "Is the program of the motion task running?",
-        argument="task",
-    ),
-)
+FOLDER = "rapidgen"
+"""Folder of the modules in HOME: one that no other driver uses."""
+EVENT_ORDER = 50
+"""-SeqNo of our event routines: a cell's own may come before them, and after."""
 
 
 def suffix(config: RobotConfig, group: GroupConfig) -> str:
@@ -133,23 +87,40 @@ def module_file(config: RobotConfig, group: GroupConfig, module: str) -> str:
     """Path of a module below HOME. Groups have a folder each: their PERS differ in name."""
     kind = "sys" if module in SYSTEM_MODULES else "mod"
     ending = f"{kind}x" if config.robotware[0] >= 7 else kind
-    return f"ROS{suffix(config, group)}/{module}.{ending}"
+    folder = FOLDER if len(config.groups) == 1 else f"{FOLDER}/{group.name}"
+    return f"{folder}/{module}.{ending}"
 
 
 def signal_name(config: RobotConfig, group: GroupConfig, signal: StatusSignal) -> str:
     """Name of a status signal, for a group where it has its own."""
-    return signal.base + (suffix(config, group) if signal.per_group else "")
+    return signal.base + (suffix(config, group) if signal.of else "")
+
+
+def open_signals(config: RobotConfig) -> frozenset[str]:
+    """Status signals whose system output no file of this RobotWare was seen to have."""
+    return frozenset(
+        signal_name(config, group, signal)
+        for group in config.groups
+        for signal in STATUS_SIGNALS
+        if signal.is_open(config.robotware[0])
+    )
 
 
 def make_system(config: RobotConfig, build_id: str) -> System:
     """The tasks with empty modules (`target` tells their files), signals and event routines."""
     return System(
         name=config.name,
-        tasks=tuple(_task(config, group, role) for group in config.groups for role in roles(group)),
+        tasks=tuple(
+            # As on a controller: its own motion tasks, and then those that were added.
+            sorted(
+                (_task(config, group, role) for group in config.groups for role in roles(group)),
+                key=lambda task: not task.motion,
+            )
+        ),
         signals=_signals(config),
         outputs=_outputs(config),
         events=tuple(
-            EventRoutine(routine, event, group.task)
+            EventRoutine(routine, event, group.task, order=EVENT_ORDER)
             for group in config.groups
             for event, routine in (
                 ("POWER_ON", "ROS_on_power"),
@@ -160,7 +131,6 @@ def make_system(config: RobotConfig, build_id: str) -> System:
             )
         )
         + _restarts(config),
-        groups=_unit_groups(config),
         robotware=config.robotware,
         build_id=build_id,
     )
@@ -171,7 +141,7 @@ def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
     if not config.commissioning:
         return ()
     return tuple(
-        EventRoutine("ROS_on_restart", event, task_name(config, group, role))
+        EventRoutine("ROS_on_restart", event, task_name(config, group, role), order=EVENT_ORDER)
         for group in config.groups
         for role in roles(group)
         if role.name in ("motion_server", "control")
@@ -214,15 +184,6 @@ def arm(group: GroupConfig, joint: Joint) -> str:
     return group.external_units[external.index(joint)]
 
 
-def sio_cfg() -> CfgText:
-    """The SIO domain of RobotWare 7: its firewall lets RAPID's sockets through.
-
-    [mem] Section and attributes are remembered, not seen; the generated README says so.
-    """
-    rule = Instance((Attribute("Name", ("RapidSockets",)), Attribute("EnablePublic")))
-    return CfgText("SIO", (7, 0), (Section("FIREWALL_MANAGER", (rule,)),))
-
-
 def _task(config: RobotConfig, group: GroupConfig, role: TaskRole) -> TaskSpec:
     motion = not role.task
     background: TaskType = "NORMAL" if config.commissioning else "SEMISTATIC"
@@ -238,40 +199,36 @@ def _task(config: RobotConfig, group: GroupConfig, role: TaskRole) -> TaskSpec:
         trust="SysFail" if motion else "NoSafety" if role.name == "state" else "SysStop",
         entry="main",
         motion=motion,
-        mechanical_unit_group=unit_group(group),
+        mechanical_unit_group=unit_group(group) if is_multimove(config) else "",
         modules=modules,
     )
 
 
+def is_multimove(config: RobotConfig) -> bool:
+    """Whether the controller has mechanical unit groups that its tasks name."""
+    return config.multimove or len(config.groups) > 1
+
+
 def _signals(config: RobotConfig) -> tuple[SignalSpec, ...]:
-    found: dict[str, SignalSpec] = {}
-    for group in config.groups:
-        for signal in STATUS_SIGNALS:
-            name = signal_name(config, group, signal)
-            found.setdefault(name, SignalSpec(name, "DO", "ReadOnly"))
-    return tuple(found.values())
+    # Levels that files show for a signal without a device that a system output drives: a backup
+    # of 6.13, a file that ABB ships for 7.
+    access = "All" if config.robotware[0] >= 7 else "ReadOnly"
+    names = (
+        signal_name(config, group, signal) for group in config.groups for signal in STATUS_SIGNALS
+    )
+    return tuple(SignalSpec(name, "DO", access) for name in dict.fromkeys(names))
 
 
 def _outputs(config: RobotConfig) -> tuple[SystemOutput, ...]:
     found: dict[str, SystemOutput] = {}
     for group in config.groups:
-        arguments = {"": "", "unit": group.mechanical_unit, "task": group.task}
         for signal in STATUS_SIGNALS:
             name = signal_name(config, group, signal)
-            found.setdefault(name, SystemOutput(signal.status, name, arguments[signal.argument]))
+            output = SystemOutput(
+                signal.status(config.robotware[0]),
+                name,
+                unit=group.mechanical_unit if signal.of == "unit" else "",
+                task=group.task if signal.of == "task" else "",
+            )
+            found.setdefault(name, output)
     return tuple(found.values())
-
-
-def _unit_groups(config: RobotConfig) -> tuple[MechanicalUnitGroup, ...]:
-    """Groups as MultiMove wants them; a controller with one robot has its own already."""
-    if len(config.groups) == 1 and not config.groups[0].external_units:
-        return ()
-    return tuple(
-        MechanicalUnitGroup(
-            unit_group(group),
-            group.mechanical_unit,
-            group.external_units,
-            f"motion_planner_{n}",
-        )
-        for n, group in enumerate(config.groups, 1)
-    )

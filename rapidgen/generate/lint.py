@@ -9,23 +9,22 @@ MAX_STRING = 80
 MAX_LINE = 160
 _TOKEN = re.compile(r'"((?:[^"\\]|""|\\\\|\\[0-9A-Fa-f]{2})*)"|![^\n]*|([A-Za-z]\w*)')
 _NOT_ASCII = re.compile(r"[^\t -\x7f]")
-_NOT_LATIN = re.compile(r"[^\t -\xff]")
 _ESCAPE = re.compile(r'""|\\\\|\\[0-9A-Fa-f]{2}')
 
 
-def lint(path: str, text: str, *, ascii_only: bool = False) -> list[Diagnostic]:
+def lint(path: str, text: str) -> list[Diagnostic]:
     """Faults of one rendered module: all RG101.
 
-    RobotWare 7 reads another encoding than 5 and 6 [mem]: ASCII is the same in both.
+    All text is ASCII: with another character, in a comment too, a controller (a virtual one of
+    6.15) did not load the module, and its task failed.
     """
     found = []
-    odd_character = _NOT_ASCII if ascii_only else _NOT_LATIN
     for number, line in enumerate(text.splitlines(), 1):
         if len(line) > MAX_LINE:
             found.append(_fault(path, number, 1, f"the line has {len(line)} characters"))
-        odd = odd_character.search(line)
+        odd = _NOT_ASCII.search(line)
         if odd is not None:
-            found.append(_fault(path, number, odd.start() + 1, f"{odd[0]!r} cannot be written"))
+            found.append(_fault(path, number, odd.start() + 1, f"{odd[0]!r} is not ASCII"))
         for token in _TOKEN.finditer(line):
             if token[2] and len(token[2]) > MAX_NAME:
                 label = f"the name '{token[2]}' has {len(token[2])} characters"
@@ -43,10 +42,11 @@ def _fault(path: str, line: int, column: int, label: str) -> Diagnostic:
         "RG101",
         Span(path, line, column),
         "the configuration does not fit into RAPID text",
-        "use shorter names of Latin-1 letters in the configuration",
+        "use shorter names of ASCII letters in the configuration",
         label=label,
         notes=(
             f"names have at most {MAX_NAME} characters, strings {MAX_STRING}, "
-            f"lines here {MAX_LINE}",
+            f"lines here {MAX_LINE}; with a character beyond ASCII, in a comment too, a controller "
+            "did not load the module",
         ),
     )

@@ -6,6 +6,7 @@ from rapidgen.generate import layout
 from rapidgen.generate.context import to_rapid
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.system import System
+from rapidgen.system.compose import SIGNALS_IN_SYS
 
 _TRUST = {"SysFail": "SysFail", "SysStop": "SysStop", "NoSafety": "None (no safety)"}
 
@@ -13,6 +14,7 @@ _TRUST = {"SysFail": "SysFail", "SysStop": "SysStop", "NoSafety": "None (no safe
 def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[str, object]:
     """What README.md.j2 is rendered from."""
     major, minor = config.robotware
+    opened = layout.open_signals(config)
     return {
         "name": config.name,
         "version": __version__,
@@ -20,6 +22,8 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "robotware": f"{major}.{minor:02d}",
         "major": major,
         "omnicore": major >= 7,
+        "collision_parameter": config.robotware >= (6, 4),
+        "address": _address(config),
         "multi": len(config.groups) > 1,
         "commissioning": config.commissioning,
         "call_main": config.call_main,
@@ -47,14 +51,34 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
             for task in system.tasks
         ],
         "signals": [
-            {"name": o.signal, "status": o.status, "argument": o.argument} for o in system.outputs
+            {
+                "name": o.signal,
+                "status": o.status,
+                "argument": o.unit or o.task,
+                "open": o.signal in opened,
+            }
+            for o in system.outputs
         ],
+        "opened": [f"{name}_open.cfg" for name in _open_files(config)],
         "events": [{"event": e.event, "routine": e.routine, "task": e.task} for e in system.events],
         "groups": [_group(config, n) for n in range(len(config.groups))],
         "folders": sorted(
             {m.target.rpartition("/")[0] for task in system.tasks for m in task.modules}
         ),
     }
+
+
+def _address(config: RobotConfig) -> str:
+    """How the first group is named on the command line."""
+    ports = config.groups[0].ports
+    return f"ROBOT:{ports.motion},{ports.state}"
+
+
+def _open_files(config: RobotConfig) -> tuple[str, ...]:
+    """Domains with rows that the controller may refuse."""
+    if not layout.open_signals(config):
+        return ()
+    return ("EIO", "SYS") if config.robotware[0] >= SIGNALS_IN_SYS else ("EIO",)
 
 
 def _group(config: RobotConfig, n: int) -> dict[str, object]:

@@ -304,7 +304,7 @@ class IOSystem:
                     71_101, "System output not simulated", entry.status, f"signal {entry.signal}"
                 )
             elif signal is not None:
-                yield _Output(status, entry.argument.lower(), signal)
+                yield _Output(status, (entry.unit or entry.task).lower(), signal)
 
     def _show(self, output: _Output) -> None:
         states = self._states.get(output.status)

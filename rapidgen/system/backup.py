@@ -10,7 +10,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
+from rapidgen.system.adding import faults_within
+from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
+from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.interpret import (
     ModuleEntry,
     crosses_of,
@@ -31,6 +34,8 @@ _VERSIONS = (
     re.compile(rb"RobotWare[^0-9\r\n]{0,40}(\d+)\.(\d+)", re.I),
     re.compile(rb">>PRODUCTS_ID:\s*\D{0,80}?(\d+)\.(\d+)", re.I),
 )
+_DEFAULT = (6, 0)
+"""Where neither the backup nor a header tells."""
 _INFO_FILES = ("BACKINFO/backinfo.txt", "BACKINFO/version.xml", "system.xml", "BACKINFO/system.xml")
 
 
@@ -70,14 +75,38 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         name=folder.resolve().name,
         tasks=tasks,
         signals=signals_of(eio_cfg),
-        outputs=outputs_of(eio_cfg),
-        inputs=inputs_of(eio_cfg),
+        outputs=outputs_of(eio_cfg, sys_cfg),
+        inputs=inputs_of(eio_cfg, sys_cfg),
         cross=crosses_of(eio_cfg),
         events=events_of(sys_cfg),
         groups=groups_of(sys_cfg),
         robotware=_robotware(info, sys_cfg, collected),
         home=home if home.is_dir() else None,
+        robot_types=_robot_types(folder),
     )
+
+
+def _robot_types(folder: Path) -> tuple[tuple[str, str], ...]:
+    path = inside(folder, "SYSPAR/MOC.cfg")
+    if not path.is_file():
+        return ()
+    robots = parse_cfg(read_limited(path), path=str(path)).instances("ROBOT")
+    return tuple((robot.text("Name"), robot.text("use_robot_type")) for robot in robots)
+
+
+def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:
+    """All domains of a backup, to load files onto; `notes` get what our rules say of them.
+
+    Raises DiagnosticError: RG701..RG706 for damaged or hostile content.
+    """
+    found = [
+        parse_cfg(read_limited(path), path=str(path))
+        for domain in DOMAINS
+        if (path := inside(folder, f"SYSPAR/{domain}.cfg")).is_file()
+    ]
+    cfg = ControllerCfg(robotware, tuple(found))
+    notes += faults_within(cfg)
+    return cfg
 
 
 def is_backup(folder: Path) -> bool:
@@ -118,13 +147,14 @@ def _robotware(info: bytes, cfg: CfgText, notes: list[Diagnostic]) -> tuple[int,
         match = pattern.search(info)
         if match and 5 <= int(match[1]) <= 9:
             return int(match[1]), int(match[2])
+    main = (cfg.version or _DEFAULT)[0]
     notes.append(
         error(
             "RG713",
             None,
-            f"the backup does not say its RobotWare; {cfg.version[0]}.0 is taken from SYS.cfg",
+            f"the backup does not say its RobotWare; {main}.0 is taken from SYS.cfg",
             "name it with --robotware",
             severity=Severity.WARNING,
         )
     )
-    return cfg.version[0], 0
+    return main, 0

@@ -3,7 +3,9 @@
 Layout as real controllers save it: a header line `DOMAIN:CFG_1.0:<major>:<minor>::`, `#` lines
 between sections, `SECTION:` on a line of its own, instances of `-Attribute value` pairs that a
 `\\` at the end of a line continues, text in double quotes, numbers bare, and a true boolean as a
-bare `-Flag` (a false one is left out).
+bare `-Flag` (a false one is left out). What controllers read is looser (files that ABB ships):
+no blank lines, any indentation, `# text` anywhere between lines, LF; RobotWare 7 ends a file with
+`#CTRL_SIGNATURE:...`. Names have no case.
 """
 
 import re
@@ -14,8 +16,9 @@ from rapidgen.diagnostics import DiagnosticError, Span, refusal
 
 Scalar = str | int | float
 
-_HEADER = re.compile(r"([A-Za-z]+):CFG_1\.0:(\d+):(\d+)::\s*$")
-_SECTION = re.compile(r"\s*([A-Za-z][A-Za-z0-9_]*):\s*$")
+_HEADER = re.compile(r"([A-Za-z]+):CFG_1\.0:(?:(\d+):(\d+))?:{1,2}\s*$")
+# MMC.cfg of all backups: `MMC_MC1 = MMC_PALETTE:`.
+_SECTION = re.compile(r"\s*(?:[A-Za-z]\w*\s*=\s*)?([A-Za-z][A-Za-z0-9_]*):\s*$")
 _TOKEN = re.compile(r'\s*(?:(-[A-Za-z_][A-Za-z0-9_]*)(?=\s|$)|"([^"]*)"|([^\s"]+))')
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?$")
 _LINE_END = re.compile(r"\r\n|\n|\r")
@@ -71,14 +74,15 @@ class CfgText:
     """One cfg file."""
 
     domain: str
-    version: tuple[int, int]
+    version: tuple[int, int] | None
+    """Digits of the header; ABB's own examples (DAP on a 7.6) have none."""
     sections: tuple[Section, ...]
     path: str = ""
 
     def instances(self, name: str) -> Iterator[Instance]:
-        """Instances of every section with this name, in order."""
+        """Instances of every section with this name (in any case), in order."""
         for section in self.sections:
-            if section.name == name:
+            if section.name.casefold() == name.casefold():
                 yield from section.instances
 
 
@@ -112,7 +116,7 @@ def parse_cfg(data: bytes | str, *, path: str = "") -> CfgText:
             raise _unreadable(path, number, "expected a section ('NAME:') or '-Attribute value'")
     return CfgText(
         header[1].upper(),
-        (int(header[2]), int(header[3])),
+        (int(header[2]), int(header[3])) if header[2] else None,
         tuple(Section(name, tuple(instances)) for name, instances in sections),
         path,
     )
@@ -123,7 +127,8 @@ def write_cfg(cfg: CfgText) -> str:
 
     Raises DiagnosticError RG703 for a text that the format cannot hold (quote, line end).
     """
-    out = [f"{cfg.domain}:CFG_1.0:{cfg.version[0]}:{cfg.version[1]}::"]
+    digits = f"{cfg.version[0]}:{cfg.version[1]}" if cfg.version is not None else ""
+    out = [f"{cfg.domain}:CFG_1.0:{digits}::"]
     for section in cfg.sections:
         out += ["#", f"{section.name}:"]
         for instance in section.instances:

@@ -6,16 +6,25 @@ from rapidgen.system.cfg import Attribute, CfgText, Instance, Scalar, Section
 from rapidgen.system.interpret import DEFAULT_QUEUE
 from rapidgen.system.model import (
     CrossConnection,
+    EventRoutine,
     MechanicalUnitGroup,
     ModuleFile,
     SignalSpec,
     System,
     TaskSpec,
 )
+from rapidgen.system.releases import digits
+
+SIGNALS_IN_SYS = 7
+"""RobotWare from which SYSSIG_OUT and SYSSIG_IN are in SYS instead of EIO."""
 
 
-def sys_cfg(system: System) -> CfgText:
-    """The SYS domain: tasks, their modules, event routines and mechanical unit groups."""
+def sys_cfg(system: System, *, on_top: bool = False) -> CfgText:
+    """The SYS domain: tasks, their modules, event routines and mechanical unit groups.
+
+    From RobotWare 7 on system outputs and inputs are here, too (files that ABB ships). `on_top`:
+    to be loaded into a controller, whose motion tasks and mechanical units are its own.
+    """
     modules: dict[str, list[str]] = {}
     files: dict[str, ModuleFile] = {}
     for task in system.tasks:
@@ -23,8 +32,10 @@ def sys_cfg(system: System) -> CfgText:
             if module.target:
                 modules.setdefault(module.target, []).append(task.name)
                 files[module.target] = module
+    tasks = (task for task in system.tasks if not (on_top and task.motion))
     sections = [
-        _section("CAB_TASKS", map(_task, system.tasks)),
+        *(_system_signals(system, "Name") if system.robotware[0] >= SIGNALS_IN_SYS else ()),
+        _section("CAB_TASKS", map(_task, tasks)),
         _section(
             "CAB_TASK_MODULES",
             (
@@ -33,62 +44,68 @@ def sys_cfg(system: System) -> CfgText:
                 for instance in _module(files[target], tasks)
             ),
         ),
-        _section(
-            "CAB_EXEC_HOOKS",
-            (
-                _instance(
-                    ("Routine", e.routine),
-                    ("Shelf", e.event),
-                    *((("Task", e.task),) if e.task else ()),
-                    *((("AllMotionTask",),) if e.all_motion_tasks else ()),
-                )
-                for e in system.events
-            ),
-        ),
-        _section("MECHANICAL_UNIT_GROUP", map(_unit_group, system.groups)),
+        _section("CAB_EXEC_HOOKS", map(_event, system.events)),
+        _section("MECHANICAL_UNIT_GROUP", () if on_top else map(_unit_group, system.groups)),
     ]
-    return CfgText("SYS", (system.robotware[0], 0), tuple(s for s in sections if s.instances))
+    return _text("SYS", system, sections)
 
 
 def eio_cfg(system: System) -> CfgText:
-    """The EIO domain: signals, system outputs and inputs, cross connections."""
+    """The EIO domain: signals, system outputs and inputs (to RobotWare 6), cross connections."""
     unit = "Unit" if system.robotware[0] <= 5 else "Device"
     sections = [
         _section("EIO_SIGNAL", (_signal(signal, unit) for signal in system.signals)),
-        _section(
-            "SYSSIG_OUT",
-            (
-                _instance(
-                    ("Status", o.status),
-                    ("Signal", o.signal),
-                    *((("Arg2", o.argument),) if o.argument else ()),
-                )
-                for o in system.outputs
-            ),
-        ),
-        _section(
-            "SYSSIG_IN",
-            (
-                _instance(
-                    ("Action", i.action),
-                    ("Signal", i.signal),
-                    *((("Arg1", i.argument),) if i.argument else ()),
-                )
-                for i in system.inputs
-            ),
-        ),
+        *(_system_signals(system, "Signal") if system.robotware[0] < SIGNALS_IN_SYS else ()),
         _section("EIO_CROSS", map(_cross, system.cross)),
     ]
-    minor = 1 if system.robotware[0] == 6 else 0
-    return CfgText("EIO", (system.robotware[0], minor), tuple(s for s in sections if s.instances))
+    return _text("EIO", system, sections)
+
+
+def _text(domain: str, system: System, sections: Iterable[Section]) -> CfgText:
+    version = digits(domain, system.robotware)
+    return CfgText(domain, version, tuple(s for s in sections if s.instances))
+
+
+def _system_signals(system: System, key: str) -> Iterable[Section]:
+    """SYSSIG_OUT and SYSSIG_IN; `key` is the attribute that names the signal."""
+    outputs = (
+        _instance(
+            ("Status", o.status),
+            (key, o.signal),
+            *((("Arg1", o.unit),) if o.unit else ()),
+            *((("Arg2", o.task),) if o.task else ()),
+        )
+        for o in system.outputs
+    )
+    inputs = (
+        _instance(
+            (key, i.signal),
+            ("Action", i.action),
+            *((("Arg1", i.argument),) if i.argument else ()),
+            *((("Arg7", i.task),) if i.task else ()),
+        )
+        for i in system.inputs
+    )
+    return _section("SYSSIG_OUT", outputs), _section("SYSSIG_IN", inputs)
+
+
+def _event(event: EventRoutine) -> Instance:
+    return _instance(
+        ("Routine", event.routine),
+        ("Shelf", event.event),
+        *((("Task", event.task),) if event.task else ()),
+        *((("AllTask",),) if event.all_tasks else ()),
+        *((("AllMotionTask",),) if event.all_motion_tasks else ()),
+        *((("SeqNo", event.order),) if event.order else ()),
+    )
 
 
 def _task(task: TaskSpec) -> Instance:
     attributes: list[tuple[str, *tuple[Scalar, ...]]] = [("Name", task.name)]
     if task.type != "SEMISTATIC":
         attributes.append(("Type", task.type))
-    attributes.append(("BindRef", 0))
-    attributes.append(("Entry", task.entry))
+    if task.entry.casefold() != "main":
+        attributes.append(("Entry", task.entry))
     if task.mechanical_unit_group:
         attributes.append(("UseMechanicalUnitGroup", task.mechanical_unit_group))
     if task.trust != "SysFail":

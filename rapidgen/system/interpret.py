@@ -109,6 +109,8 @@ def events_of(cfg: CfgText) -> tuple[EventRoutine, ...]:
             instance.text("Shelf"),
             instance.text("Task"),
             instance.flag("AllMotionTask") or instance.flag("AllMotionTasks"),
+            instance.flag("AllTask"),
+            int(instance.number("SeqNo")),
         )
         for instance in cfg.instances("CAB_EXEC_HOOKS")
     )
@@ -153,22 +155,30 @@ def signals_of(cfg: CfgText) -> tuple[SignalSpec, ...]:
     return tuple(found)
 
 
-def outputs_of(cfg: CfgText) -> tuple[SystemOutput, ...]:
-    """SYSSIG_OUT in order; the argument is `-Arg2` (a task) or else `-Arg1`."""
+def outputs_of(*cfgs: CfgText) -> tuple[SystemOutput, ...]:
+    """SYSSIG_OUT in order: in EIO with -Signal, on RobotWare 7 in SYS with -Name."""
     return tuple(
         SystemOutput(
             instance.text("Status"),
-            instance.text("Signal"),
-            instance.text("Arg2") or instance.text("Arg1"),
+            instance.text("Signal") or instance.text("Name"),
+            instance.text("Arg1"),
+            instance.text("Arg2"),
         )
+        for cfg in cfgs
         for instance in cfg.instances("SYSSIG_OUT")
     )
 
 
-def inputs_of(cfg: CfgText) -> tuple[SystemInput, ...]:
-    """SYSSIG_IN in order."""
+def inputs_of(*cfgs: CfgText) -> tuple[SystemInput, ...]:
+    """SYSSIG_IN in order, where `outputs_of` finds SYSSIG_OUT."""
     return tuple(
-        SystemInput(instance.text("Action"), instance.text("Signal"), instance.text("Arg1"))
+        SystemInput(
+            instance.text("Action"),
+            instance.text("Signal") or instance.text("Name"),
+            instance.text("Arg1"),
+            instance.text("Arg7"),
+        )
+        for cfg in cfgs
         for instance in cfg.instances("SYSSIG_IN")
     )
 

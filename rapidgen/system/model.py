@@ -86,7 +86,10 @@ class SystemOutput:
 
     status: str
     signal: str
-    argument: str = ""
+    unit: str = ""
+    """Mechanical unit that the status is of (-Arg1)."""
+    task: str = ""
+    """Task that the status is of (-Arg2)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +99,9 @@ class SystemInput:
     action: str
     signal: str
     argument: str = ""
+    """-Arg1, such as CONT or CYCLE of Start."""
+    task: str = ""
+    """-Arg7, which RobotWare 7 has in PpToMain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +123,9 @@ class EventRoutine:
     event: str
     task: str = ""
     all_motion_tasks: bool = False
+    all_tasks: bool = False
+    order: int = 0
+    """-SeqNo: of the routines of one event those with lower numbers come first."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,3 +145,5 @@ class System:
     """Folder whose files HOME: starts with; it is copied, never written."""
     build_id: str = ""
     """BUILD_ID of a generated folder, else empty."""
+    robot_types: tuple[tuple[str, str], ...] = ()
+    """(mechanical unit, -use_robot_type of MOC), where a backup tells them."""

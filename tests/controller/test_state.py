@@ -53,7 +53,7 @@ def make(text=LOOP, **options):
         outputs=(
             SystemOutput("MotorOn", "doMotors"),
             SystemOutput("EmStop", "doStop"),
-            SystemOutput("TaskExecuting", "doRuns", "T_ROB1"),
+            SystemOutput("TaskExecuting", "doRuns", task="T_ROB1"),
             SystemOutput("ExecError", "doError"),
         ),
         inputs=(SystemInput("Start", "diStart"), SystemInput("Stop", "diStop")),

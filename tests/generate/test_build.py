@@ -53,7 +53,7 @@ def test_files_and_sums(output):
         assert listed[file.path]["size"] == len(file.data)
     for name in ("common", "messages", "socket", "motionServer", "stateServer", "motion"):
         assert any(re.search(rf"/ROS_{name}\.(mod|sys)$", path) for path in listed)
-    assert listed["HOME/ROS/ROS_common.sys"]["task"] == [
+    assert listed["HOME/rapidgen/ROS_common.sys"]["task"] == [
         "T_ROB1",
         "T_ROS_RECV",
         "T_ROS_SUP",
@@ -134,7 +134,7 @@ def test_lines_lead_to_their_template(output, tmp_path):
 
 def test_an_edited_module_has_no_map(output, tmp_path):
     write(output, tmp_path / "irb120")
-    path = tmp_path / "irb120/HOME/ROS/ROS_motion.mod"
+    path = tmp_path / "irb120/HOME/rapidgen/ROS_motion.mod"
     path.write_bytes(b"! edited\n" + path.read_bytes())
     motion = read_folder(tmp_path / "irb120").tasks[0].modules[1]
     assert motion.origin == ()
@@ -166,13 +166,13 @@ def test_write_compare_and_replace(output, tmp_path):
     assert [c.path for c in compare(output, folder)] == sorted(f.path for f in output.files)
     write(output, folder)
     assert compare(output, folder) == []
-    (folder / "HOME/ROS/old.mod").write_text("stale")
+    (folder / "HOME/rapidgen/old.mod").write_text("stale")
     # It is an earlier build's own: the manifest lists it.
     manifest = json.loads((folder / "manifest.json").read_bytes())
-    manifest["files"].append({"path": "HOME/ROS/old.mod"})
+    manifest["files"].append({"path": "HOME/rapidgen/old.mod"})
     (folder / "manifest.json").write_text(json.dumps(manifest))
     (folder / "SYS.cfg").write_text("edited")
-    changed = ["HOME/ROS/old.mod", "SYS.cfg", "manifest.json"]
+    changed = ["HOME/rapidgen/old.mod", "SYS.cfg", "manifest.json"]
     assert [c.path for c in compare(output, folder)] == changed
     write(output, folder)
     assert compare(output, folder) == []

@@ -23,7 +23,13 @@ CASES = [
 
 def overrides_for(generation):
     kind = "irc5" if generation < 7 else "omnicore"
-    return [f"controller.robotware={VERSIONS[generation]}", f"controller.type={kind}"]
+    # No file of RobotWare 8 was seen: it is for its controller to say how they begin.
+    digits = [f"controller.cfg_header.{d}={generation}:0" for d in ("SYS", "EIO", "SIO")]
+    return [
+        f"controller.robotware={VERSIONS[generation]}",
+        f"controller.type={kind}",
+        *(digits if generation == 8 else ()),
+    ]
 
 
 @pytest.mark.parametrize(("name", "generation"), CASES)
@@ -56,8 +62,8 @@ def test_files_of_a_generation(generation, tmp_path):
     output = build(config)
     paths = {f.path: f for f in output.files}
     end = "x" if generation == 7 else ""
-    assert f"HOME/ROS/ROS_common.sys{end}" in paths
-    assert f"HOME/ROS/ROS_motion.mod{end}" in paths
+    assert f"HOME/rapidgen/ROS_common.sys{end}" in paths
+    assert f"HOME/rapidgen/ROS_motion.mod{end}" in paths
     assert ("SIO.cfg" in paths) == (generation == 7)
     for cfg in ("SYS.cfg", "EIO.cfg"):
         assert parse_cfg(paths[cfg].data).version[0] == generation

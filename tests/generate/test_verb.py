@@ -31,7 +31,7 @@ def test_list_writes_nothing(here, capsys):
     assert main(["build", "irb120", "--list", "-o", "x"]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[-1] == "manifest.json"
-    assert "HOME/ROS/ROS_motion.mod" in lines
+    assert "HOME/rapidgen/ROS_motion.mod" in lines
     assert os.listdir(here) == []
 
 
@@ -53,12 +53,12 @@ def test_a_file_that_no_build_made_is_not_taken_away(here, capsys):
     assert main(["build", "irb120", "-o", "x"]) == 0
     # A file of an earlier build is the build's own, though this one does not write it.
     assert main(["build", "irb120", "-o", "x", "--set", "ports.control=0"]) == 0
-    assert not (here / "x/HOME/ROS/ROS_control.mod").exists()
-    own = here / "x/HOME/ROS/my_calibration.mod"
+    assert not (here / "x/HOME/rapidgen/ROS_control.mod").exists()
+    own = here / "x/HOME/rapidgen/my_calibration.mod"
     own.write_text("MODULE my_calibration\nENDMODULE\n")
     assert main(["build", "irb120", "-o", "x"]) == 2
     assert "error[RG102]" in (shown := capsys.readouterr().err)
-    assert "HOME/ROS/my_calibration.mod" in shown
+    assert "HOME/rapidgen/my_calibration.mod" in shown
     assert own.exists()
     own.unlink()
     (here / "x/manifest.json").write_text("{")

@@ -117,7 +117,7 @@ def test_backup(backup):
     assert [n.code for n in notes] == ["RG710"]
     program = SignalSpec("goProgram", "GO", device="d651", size=8, bits=tuple(range(8, 16)))
     assert system.signals == (program,)
-    assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", "T_ROB1"),)
+    assert system.outputs == (SystemOutput("TaskExecuting", "goProgram", task="T_ROB1"),)
     assert system.cross == (CrossConnection("", "doA", (("diB", True), ("diC", False)), ("OR",)),)
     assert system.events == (EventRoutine("OnStart", "START", "T_ROB1"),)
     assert read_system(backup) == system
@@ -229,20 +229,26 @@ def test_a_damaged_manifest(tmp_path, manifest):
 
 def test_a_generated_folder_must_be_whole(tmp_path):
     manifest = {
-        "format": 1, "robotware": [6, 15], "name": "x", "build_id": "0", "files": [], "lines": {},
+        "format": 1, "robotware": [6, 15], "name": "x", "build_id": "0", "lines": {},
+        "files": [{"path": "SYS.cfg", "kind": "cfg"}, {"path": "EIO.cfg", "kind": "cfg"}],
+        "configuration": {
+            "groups": [{"task": "T_ROB1", "mechanical_unit": "ROB_1", "external_units": []}]
+        },
     }  # fmt: skip
     put(tmp_path / "manifest.json", json.dumps(manifest))
     put(tmp_path / "EIO.cfg", "EIO:CFG_1.0:6:1::\n")
     put(
         tmp_path / "SYS.cfg",
-        'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n -Name "T_ROB1"\n#\nCAB_TASK_MODULES:\n\n'
+        'SYS:CFG_1.0:6:0::\n#\nCAB_TASKS:\n\n -Name "T_A"\n#\nCAB_TASK_MODULES:\n\n'
         ' -File "HOME:/a.sys" -Task "T_ROB1"\n',
     )
     with pytest.raises(DiagnosticError) as caught:
         read_folder(tmp_path)
     assert code_of(caught) == ["RG710"]
     put(tmp_path / "HOME/a.sys", MODULE % b"Aye")
-    assert [m.name for m in read_folder(tmp_path).tasks[0].modules] == ["Aye"]
+    robot, added = read_folder(tmp_path).tasks
+    assert (robot.name, robot.motion, [m.name for m in robot.modules]) == ("T_ROB1", True, ["Aye"])
+    assert (added.name, added.type) == ("T_A", "SEMISTATIC")
 
 
 def test_model_to_text_and_back():
@@ -254,7 +260,10 @@ def test_model_to_text_and_back():
             TaskSpec("T_LOG", "STATIC", "NoSafety"),
         ),
         signals=(SignalSpec("doA", "DO", "ReadOnly"), SignalSpec("goB", "GO", size=8, default=3)),
-        outputs=(SystemOutput("MotorOn", "doA"), SystemOutput("TaskExecuting", "doA", "T_ROB1")),
+        outputs=(
+            SystemOutput("MotorOn", "doA"),
+            SystemOutput("TaskExecuting", "doA", task="T_ROB1"),
+        ),
         inputs=(SystemInput("Start", "diA", "CONT"),),
         cross=(CrossConnection("c", "doA", (("diA", True), ("diB", False)), ("AND",)),),
         events=(EventRoutine("OnStop", "STOP", "T_ROB1"),),
@@ -294,3 +303,11 @@ def test_shared_and_installed_modules(backup):
         ("HOME:/Shared.sys", (), True, False),
         ("HOME:/tools.sys", ("T_ROB1",), False, True),
     ]
+
+
+def test_a_backup_tells_its_robots(backup):
+    put(
+        backup / "SYSPAR/MOC.cfg",
+        'MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n -name "ROB_1" -use_robot_type "ROB1_120_0.58_3"\n',
+    )
+    assert read_backup(backup).robot_types == (("ROB_1", "ROB1_120_0.58_3"),)

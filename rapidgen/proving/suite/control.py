@@ -320,9 +320,6 @@ def _instructions_fail(bench: Bench) -> None:
         ("CopyRawBytes", "ERR_OUTOFBND"),
         ("StopMove", "ERR_PATH_STOP"),
     ):
-        if error == "ERR_OUTOFBND" and bench.setting.dialect.unhandled_error == "stop":
-            # There it does not pass through routines without a handler: the task ends.
-            continue
         control, link = bench.control(), bench.motion()
         points = bench.wave(30)
         bench.sets_off(link, points)

@@ -1,6 +1,7 @@
 """Each joint by itself, in streams and away from zero; each signal by itself."""
 
-from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
+from rapidgen.generate.layout import signal_name
+from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import RawLink, point_frame

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import NamedTuple, TypeVar
 
-from rapidgen.generate.layout import STATUS_SIGNALS, signal_name
+from rapidgen.generate.layout import signal_name
+from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench

@@ -35,11 +35,13 @@ class EventRoutines:
         """Executing what a stop or the power-up brought, while the program stands."""
 
     def names(self, event: EventName) -> Iterator[str]:
-        """Names of the routines of an event (CAB_EXEC_HOOKS)."""
+        """Names of the routines of an event (CAB_EXEC_HOOKS), lower -SeqNo first."""
         task = self._task
-        for entry in task.controller.system.events:
-            mine = entry.task.lower() == task.name.lower() or (
-                entry.all_motion_tasks and task.spec.motion
+        for entry in sorted(task.controller.system.events, key=lambda entry: entry.order):
+            mine = (
+                entry.all_tasks
+                or entry.task.lower() == task.name.lower()
+                or (entry.all_motion_tasks and task.spec.motion)
             )
             if mine and entry.event.upper().replace("_", "") == event.replace("_", ""):
                 yield entry.routine

@@ -227,7 +227,7 @@ def test_a_loop_of_cross_connections_is_refused(plant):
 def test_system_outputs(plant):
     _, io = plant(
         outputs=(
-            SystemOutput("TaskExecuting", "do1", "T_ROB1"),
+            SystemOutput("TaskExecuting", "do1", task="T_ROB1"),
             SystemOutput("TaskExecuting", "do2"),
             SystemOutput("Mechanical Unit Not Moving", "do3"),
             SystemOutput("Motors On State", "do4"),

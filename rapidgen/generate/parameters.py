@@ -1,0 +1,88 @@
+"""The cfg files of a build: what is loaded on top of what a controller has.
+
+Rows that no controller's file was seen to have go into files of their own, `*_open.cfg`: a
+controller may refuse them as a whole, and the driver serves and stops without them.
+"""
+
+from dataclasses import replace
+
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import refusal
+from rapidgen.generate.layout import open_signals
+from rapidgen.system import Attribute, CfgText, Instance, Section, System, eio_cfg, sys_cfg
+from rapidgen.system.releases import known_digits
+
+_FIREWALL_SINCE = 7
+_SERVICE_PORT = "192.168.125.1"
+
+
+def cfg_files(config: RobotConfig, system: System) -> tuple[tuple[str, CfgText], ...]:
+    """Name and content of each file, in the order of loading.
+
+    Raises DiagnosticError RG105 when the first line of a file is not known for this RobotWare.
+    """
+    opened = open_signals(config)
+    sure = replace(
+        system,
+        signals=tuple(s for s in system.signals if s.name not in opened),
+        outputs=tuple(o for o in system.outputs if o.signal not in opened),
+    )
+    unsure = System(
+        system.name,
+        (),
+        signals=tuple(s for s in system.signals if s.name in opened),
+        outputs=tuple(o for o in system.outputs if o.signal in opened),
+        robotware=system.robotware,
+    )
+    texts = [
+        ("EIO.cfg", eio_cfg(sure)),
+        ("SYS.cfg", sys_cfg(sure, on_top=True)),
+        ("EIO_open.cfg", eio_cfg(unsure)),
+        ("SYS_open.cfg", sys_cfg(unsure, on_top=True)),
+    ]
+    if config.robotware[0] >= _FIREWALL_SINCE:
+        texts.append(("SIO.cfg", _firewall(config)))
+    return tuple(
+        (name, replace(text, version=_digits(config, text.domain)))
+        for name, text in texts
+        if text.sections
+    )
+
+
+def _firewall(config: RobotConfig) -> CfgText:
+    """RAPID's sockets through the firewall of RobotWare 7, whose WAN counts as a public net.
+
+    The instance is there on every controller: loading replaces it (files that ABB ships, backups
+    of 7.5 and 7.6).
+    """
+    public = config.bind not in ("service", _SERVICE_PORT)
+    rule = Instance(
+        (
+            Attribute("Name", ("RapidSockets",)),
+            Attribute("EnableOnPrivateNet"),
+            *((Attribute("EnableOnPublicNet"),) if public else ()),
+        )
+    )
+    return CfgText("SIO", (7, 0), (Section("FIREWALL_MANAGEMENT", (rule,)),))
+
+
+def _digits(config: RobotConfig, domain: str) -> tuple[int, int]:
+    """Digits of a file's first line: those given, else those of the release."""
+    given = {name: (major, minor) for name, major, minor in config.cfg_header}
+    found = given.get(domain) or known_digits(domain, config.robotware)
+    if found is None:
+        major, minor = config.robotware
+        raise refusal(
+            "RG105",
+            None,
+            f"the first line of {domain}.cfg is not known for RobotWare {major}.{minor:02d}",
+            f"it is the first line of SYSPAR/{domain}.cfg in a backup of the controller (or save "
+            f"the parameters from RobotStudio, Controller, Configuration): if that reads "
+            f"'{domain}:CFG_1.0:{major}:0::', write "
+            f'`controller: {{cfg_header: {{{domain}: "{major}:0"}}}}`',
+            notes=(
+                "a file with other digits is refused by the controller (event 120003)",
+                "known without it: 5.15, 5.61, and every RobotWare 6 and 7",
+            ),
+        )
+    return found

@@ -1,0 +1,75 @@
+"""Virtual outputs that show a status of the controller to RAPID, and how a release spells it.
+
+docs/rapid/cfg.md has the source of each row.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class StatusSignal:
+    """A signal and the system output that drives it."""
+
+    base: str
+    """Its name; abb_driver's, so that a controller that ran it keeps its signals."""
+    function: str
+    """The RAPID function (without ROS_) that reads it."""
+    text: str
+    spelled: Mapping[int, str]
+    """Status in SYSSIG_OUT, from which RobotWare on."""
+    seen: frozenset[int]
+    """Generations of which somebody's cfg file has the status so; the others are open."""
+    of: Literal["", "unit", "task"] = ""
+    """What it is the status of: the controller, or a group's mechanical unit or motion task."""
+
+    def status(self, generation: int) -> str:
+        """How RobotWare of a generation spells it."""
+        return self.spelled[max(since for since in self.spelled if since <= generation)]
+
+    def is_open(self, generation: int) -> bool:
+        """Whether no file of that generation was seen with it."""
+        return generation not in self.seen
+
+
+STATUS_SIGNALS = (
+    StatusSignal(
+        "signalMotorOn",
+        "motors_on",
+        "Are the motors on?",
+        {5: "MotOnState", 7: "MotorOn"},
+        frozenset({6, 7}),
+    ),
+    StatusSignal(
+        "signalRobotEStop",
+        "emergency_stop",
+        "Is an emergency stop active?",
+        {5: "EmStop"},
+        frozenset({6}),
+    ),
+    StatusSignal(
+        "signalExecutionError",
+        "controller_error",
+        "Has the program of the motion task stopped with an error?",
+        {5: "Error"},
+        frozenset({6, 7}),
+        of="task",
+    ),
+    StatusSignal(
+        "signalRobotNotMoving",
+        "standing",
+        "Does the robot stand?",
+        {5: "MechUnitNotMoving"},
+        frozenset({6}),
+        of="unit",
+    ),
+    StatusSignal(
+        "signalRosMotionTaskExecuting",
+        "executing",
+        "Is the program of the motion task running?",
+        {5: "TaskExecuting"},
+        frozenset({5, 6}),
+        of="task",
+    ),
+)

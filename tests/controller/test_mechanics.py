@@ -1,0 +1,115 @@
+"""Which robot moves which task: by mechanical unit, by name, by the type that a backup tells."""
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.controller.mechanics import groups_for, mechanics, model_of
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.system.model import MechanicalUnitGroup, System, TaskSpec
+
+
+def yumi(right, left, *, grouped=True):
+    """HONG: the right arm's task comes first, tasks and groups differ in case."""
+    tasks = (
+        TaskSpec(right, motion=True, mechanical_unit_group="rob_R" if grouped else ""),
+        TaskSpec(left, motion=True, mechanical_unit_group="rob_L" if grouped else ""),
+    )
+    groups = (
+        MechanicalUnitGroup("rob_r", "ROB_R", ("ROB_R_7",), "motion_planner_1"),
+        MechanicalUnitGroup("rob_l", "ROB_L", ("ROB_L_7",), "motion_planner_2"),
+    )
+    return System("yumi", tasks, groups=groups if grouped else ())
+
+
+def given(groups):
+    return {group.task: group.name for group in groups}
+
+
+@pytest.mark.parametrize(
+    "system",
+    [
+        yumi("T_ROB_R", "T_ROB_L"),
+        yumi("T_ROB_R_MAIN_CTRL", "T_ROB_L_MAIN_CTRL"),
+        yumi("T_ROB_R", "T_ROB_L", grouped=False),
+    ],
+)
+def test_the_arms_of_a_yumi_keep_their_tasks(system):
+    right, left = (task.name for task in system.tasks)
+    groups = groups_for(system, load_config("irb14000"))
+    assert given(groups) == {right: "rob_r", left: "rob_l"}
+    assert [group.mechanical_unit for group in groups] == ["ROB_R", "ROB_L"]
+
+
+def two_robots(*types):
+    """EBRUUN 6.06: the second robot's task comes first."""
+    tasks = (
+        TaskSpec("T_ROB2", motion=True, mechanical_unit_group="rob2"),
+        TaskSpec("T_ROB1", motion=True, mechanical_unit_group="rob1"),
+    )
+    groups = (MechanicalUnitGroup("rob1", "ROB_1"), MechanicalUnitGroup("rob2", "ROB_2"))
+    return System("two", tasks, groups=groups, robot_types=types)
+
+
+def test_a_copy_has_the_unit_of_its_task():
+    groups = groups_for(two_robots(), load_config("irb120"))
+    assert [(g.task, g.mechanical_unit, g.name) for g in groups] == [
+        ("T_ROB2", "ROB_2", "rob2"),
+        ("T_ROB1", "ROB_1", "rob1"),
+    ]
+
+
+def test_what_nothing_names_goes_by_order():
+    tasks = (TaskSpec("T_A", motion=True), TaskSpec("T_B", motion=True))
+    groups = groups_for(System("two", tasks), load_config("irb14000"))
+    assert given(groups) == {"T_A": "rob_l", "T_B": "rob_r"}
+
+
+@pytest.mark.parametrize(
+    ("robot_type", "model"),
+    [
+        ("ROB1_120_0.58_3", "irb120"),
+        ("ROB1_1200_0.9_5_TypeB", "irb1200"),
+        ("ROB_R_14000_05_05_TYPEA", "irb14000"),
+        ("ROB1_910SC_0.55_3", "irb910sc"),
+        ("ROB1_15000_0_95_5", "crb15000"),
+        ("ROB2_4600_2.55_40", "irb4600"),
+        ("ROB1_360_1.6_6", ""),
+        ("Gantry21_X_Y_Z_NOTCP", ""),
+        ("", ""),
+    ],
+)
+def test_types_of_backups(robot_type, model):
+    assert model_of(robot_type) == model
+
+
+def test_a_backup_moves_its_own_robots():
+    system = two_robots(("ROB_1", "ROB1_120_0.58_3"), ("ROB_2", "ROB2_4600_2.05_60"))
+    groups, notes = mechanics(system)
+    assert {group.task: group.model for group in groups} == {
+        "T_ROB1": "irb120",
+        "T_ROB2": "irb4600",
+    }
+    assert notes == ()
+
+
+def test_another_variant_is_told():
+    system = two_robots(("ROB_1", "ROB1_120_0.58_3"), ("ROB_2", "ROB2_4600_2.55_40"))
+    (note,) = mechanics(system)[1]
+    assert note.code == "RG432"
+    assert "2.55_40" in note.message
+    assert "60/2.05" in note.message
+
+
+def test_an_unknown_type_asks_for_a_robot():
+    system = two_robots(("ROB_1", "ROB1_360_1.6_6"), ("ROB_2", "ROB2_360_1.6_6"))
+    with pytest.raises(DiagnosticError) as caught:
+        mechanics(system)
+    assert [found.code for found in caught.value.diagnostics] == ["RG432"]
+    assert [group.model for group in mechanics(system, "irb1200")[0]] == ["irb1200", "irb1200"]
+
+
+def test_nothing_that_tells_is_told():
+    system = System("loose", (TaskSpec("T_ROB1", motion=True),))
+    groups, (note,) = mechanics(system)
+    assert [group.model for group in groups] == ["irb120"]
+    assert note.code == "RG432"
