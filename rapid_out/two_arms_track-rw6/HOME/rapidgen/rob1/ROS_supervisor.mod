@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "7dd4a4fabde1";
+    CONST string ROS_BUILD_SUPERVISOR := "ad33f0b58358";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -81,7 +81,6 @@ MODULE ROS_supervisor
         ENDIF
         asked := ROS_control_asked_1;
         IF asked <> ROS_control_done_1 THEN
-            ! The control server has stopped the robot by itself if there was something to stop.
             IF ROS_active() OR IsStopMoveAct(\FromNonMoveTask) halt ROS_control_reason_1;
             ROS_not_ready_1 := obstacle();
             ROS_control_done_1 := asked;
@@ -148,7 +147,6 @@ MODULE ROS_supervisor
 
         stop_robot;
         ROS_latched_1 := TRUE;
-        ROS_take_back_1 := FALSE;
         told := FALSE;
         bells := 0;
         IF under_way() THEN
@@ -159,8 +157,7 @@ MODULE ROS_supervisor
         ENDIF
         ROS_paused_1 := -1;
         ROS_abort_1 := ROS_next(ROS_abort_1);
-        ClkReset since_halt;
-        ClkStart since_halt;
+        set_back since_halt;
         ring;
         ! Whoever stands beside the robot learns of all other reasons in another way.
         IF lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
@@ -174,20 +171,13 @@ MODULE ROS_supervisor
                 tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
                 RETURN;
             ENDIF
-            IF IsStopMoveAct(\FromNonMoveTask) AND (NOT stop_asked()) THEN
-                ! A StopMove of the control server that only its own task can take back. Nothing
-                ! is left of the path, and nothing new is let in before it has.
-                ROS_take_back_1 := TRUE;
-                RETURN;
-            ENDIF
-            ROS_take_back_1 := FALSE;
             ROS_latched_1 := FALSE;
             RETURN;
         ENDIF
         IF ROS_executing() = ROS_TRI_FALSE THEN
             ! It cannot answer, nor hear a bell: the time for that begins when it runs.
-            ClkReset since_halt;
-            ClkStart since_halt;
+            set_back since_halt;
+            set_back since_bell;
             RETURN;
         ENDIF
         IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
@@ -195,12 +185,21 @@ MODULE ROS_supervisor
         ELSE
             tell "ROS: the motion task does not answer", "The robot stays stopped.";
         ENDIF
-        IF bells < MOST_BELLS AND ClkRead(since_bell) > 0.25 ring;
+        ! Clocks count 49 days: they are not read for long.
+        IF bells < MOST_BELLS THEN
+            IF ClkRead(since_bell) > 0.25 ring;
+        ENDIF
+    ENDPROC
+
+    LOCAL PROC set_back(VAR clock one)
+        ClkReset one;
+        ClkStart one;
     ENDPROC
 
     ! Say once what is wrong, when the program has run for two seconds since the halt.
     LOCAL PROC tell(string title, string what)
-        IF told OR ClkRead(since_halt) <= 2 RETURN;
+        IF told RETURN;
+        IF ClkRead(since_halt) <= 2 RETURN;
         ErrWrite \W, title, what \RL2:="Start the program of T_ROB1 from main.";
         told := TRUE;
     ENDPROC
@@ -250,8 +249,7 @@ MODULE ROS_supervisor
 
     LOCAL PROC ring()
         bells := bells + 1;
-        ClkReset since_bell;
-        ClkStart since_bell;
+        set_back since_bell;
         ROS_bell_1 := ROS_next(ROS_bell_1);
     ENDPROC
 
