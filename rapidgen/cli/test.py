@@ -46,6 +46,13 @@ def test(
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
     ] = None,
     overrides: options.Overrides = None,
+    backup: Annotated[
+        Path | None,
+        typer.Option(
+            help="Prove the driver that is built for the controller of this backup.",
+            metavar="FOLDER",
+        ),
+    ] = None,
 ) -> int:
     """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
 
@@ -57,6 +64,8 @@ def test(
     from rapidgen.proving.run import prove
 
     model = load_config(config, overrides=overrides or ())
+    if backup is not None:
+        model = _fitted(model, backup)
     if replay is not None:
         return _replay(model, replay, trace)
     _check_names(case or [])
@@ -77,6 +86,17 @@ def test(
         write_html(report, html)
     _show(report, uncovered)
     return 0 if report.passed else 1
+
+
+def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
+    """The driver for a cell: its names, release, main; its own programs do not run."""
+    from rapidgen.generate import build
+    from rapidgen.generate.cell import fit, read_cell
+
+    cell = read_cell(backup)
+    fitted = fit(model, cell)
+    build(fitted, cell)
+    return fitted
 
 
 def _check_names(names: list[str]) -> None:

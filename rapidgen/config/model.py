@@ -131,6 +131,8 @@ class GroupConfig:
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
+    unit_group: str = field(default="", metadata=SPARSE)
+    """Name of the mechanical unit group, where a backup tells another than the unit's."""
 
 
 @dataclass(frozen=True, slots=True)
