@@ -16,7 +16,7 @@ from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
-from rapidgen.generate.parameters import cfg_files
+from rapidgen.generate.parameters import OPEN_FILES, cfg_files
 from rapidgen.generate.readme import readme_context
 from rapidgen.generate.render import Renderer
 from rapidgen.system import ModuleFile, System, expand_lines, write_cfg
@@ -40,7 +40,7 @@ def build(config: RobotConfig) -> Output:
     ]
     readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
-    files.append(manifest_file(files, _head(config, build_id)))
+    files.append(manifest_file(files, _head(config, build_id, files)))
     return Output(config.name, build_id, tuple(files))
 
 
@@ -100,13 +100,15 @@ def _cfg(path: str, text: str) -> OutputFile:
     return OutputFile(path, text.replace("\n", "\r\n").encode("ascii"), "cfg")
 
 
-def _head(config: RobotConfig, build_id: str) -> Members:
+def _head(config: RobotConfig, build_id: str, files: list[OutputFile]) -> Members:
     return {
         "format": 1,
         "rapidgen": __version__,
         "name": config.name,
         "build_id": build_id,
         "robotware": list(config.robotware),
+        # What a controller may refuse as a whole.
+        "optional": [f.path for f in files if f.path in OPEN_FILES],
         "groups": {
             group.name: {
                 "task": group.task,
