@@ -1,9 +1,10 @@
 """Another driver on the same controller: which cfg instances have to go before ours is loaded.
 
 abb_driver's modules have names of ours (ROS_common, ROS_socket, ROS_messages, ROS_motion, ...),
-and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]; two modules
-of one name in a task make it unusable [VC 6.15: 40160]. The same is true of a driver that was
-copied there by hand. Its files are never touched.
+and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]. Which of two
+modules of one name a task gets nobody has told; that both give it their data is 40160 and a task
+that does not run [VC 6.15]. The same is true of a driver that was copied there by hand. Its files
+are never touched.
 """
 
 import re
