@@ -110,6 +110,31 @@ def find_neighbour(
     return Neighbour(tuple(instances), tuple(dict.fromkeys(files)))
 
 
+def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple[str, ...]:
+    """Modules with names of ours that a backup holds as its programs: RAPID/TASKn/PROGMOD, SYSMOD.
+
+    They were in the tasks' memory when it was made [backup 6.06], and are what it restores, not
+    the files in HOME. Raises TransportFault.
+    """
+    found = []
+    for folder in _folders(transport, "", "rapid"):
+        for task in _folders(transport, folder, "task"):
+            for kind in _folders(transport, task, ""):
+                for entry in transport.entries(kind):
+                    stem = entry.name.rpartition(".")[0].casefold()
+                    if stem in modules and entry.folder is not True:
+                        found.append(f"{kind}/{entry.name}")
+    return tuple(found)
+
+
+def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
+    return [
+        f"{place}/{entry.name}".lstrip("/")
+        for entry in transport.entries(place)
+        if entry.folder is not False and entry.name.casefold().startswith(beginning)
+    ]
+
+
 def _is_other(row: Instance, source: bytes | None, mine: Beside) -> bool:
     """Whether a row of CAB_TASK_MODULES loads abb_driver, or a name of ours into a task of ours."""
     found = MODULE.search(source or b"")
