@@ -107,6 +107,11 @@ def steps_beside(neighbour: Neighbour) -> tuple[ManualStep, ...]:
         *steps,
         ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True),
         ManualStep(
+            "pendant",
+            "unload what of its modules is still in a task (Program Editor > Modules), ROS_motion "
+            "with its main above all",
+        ),
+        ManualStep(
             "you", "plan again (over FTP and SFTP with a new backup: --backup); its files stay"
         ),
     )
