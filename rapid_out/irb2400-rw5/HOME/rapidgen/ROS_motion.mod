@@ -1,0 +1,408 @@
+MODULE ROS_motion
+    ! The motion task: the only one that moves.
+    !
+    ! Robot "irb2400-rw5", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds take no trajectory.
+    !
+    ! It takes points out of the ring and gives them to the path planner, nothing else: every
+    ! check was made before a point was put in. A point whose successor is there is passed
+    ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
+
+    CONST string ROS_BUILD_MOTION := "c31cfc3df16a";
+
+    ! With \T in the move the speed is only formal.
+    LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
+    LOCAL CONST zonedata CORNER := z5;
+    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
+    ! this of each one's acceleration (deg/s^2, mm/s^2), lasts this long at least (s), and is not
+    ! smaller than this (mm, deg).
+    LOCAL CONST num TURN_1 := 150;
+    LOCAL CONST num TURN_2 := 150;
+    LOCAL CONST num TURN_3 := 150;
+    LOCAL CONST num TURN_4 := 360;
+    LOCAL CONST num TURN_5 := 360;
+    LOCAL CONST num TURN_6 := 450;
+    LOCAL CONST num SHORTEST_CORNER := 0.025;
+    LOCAL CONST num SMALLEST_CORNER := 0.3;
+    LOCAL CONST num SMALLEST_TURN := 0.03;
+    ! mm/s of a TCP that moves no more than its place is known.
+    LOCAL CONST num RESTING := 0.1;
+    ! TASK: another group may have one of the same name.
+    TASK PERS tooldata torch := [TRUE,[[0,0,310],[0.92387956,0,0.38268343,0]],[3.4,[0,0,120],[1,0,0,0],0.02,0.02,0.005]];
+    TASK PERS wobjdata table := [FALSE,TRUE,"",[[900,0,450],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+
+    LOCAL VAR intnum bell;
+    LOCAL VAR intnum speed_bell;
+    ! Percent of the programmed speed, as it was set last.
+    LOCAL VAR num percent := 0;
+    ! Leaves a move whose path is gone, by a long jump out of the trap.
+    LOCAL VAR errnum path_gone := -1;
+    ! Main moves, or is about to: there the trap may end what it does.
+    LOCAL VAR bool in_move := FALSE;
+    LOCAL VAR bool cleared := FALSE;
+    ! StartMove was refused because the robot stands too far from its path.
+    LOCAL VAR bool far_off := FALSE;
+    LOCAL VAR ROS_point point;
+    ! The place of the point before it, and the corner at it.
+    LOCAL VAR jointtarget before;
+    LOCAL VAR zonedata bend;
+    ! Trajectory under way here, and the point of it that comes next.
+    LOCAL VAR num session := -1;
+    LOCAL VAR num expected := 1;
+    ! The newest trajectory that gets no more points, as main saw it last.
+    LOCAL VAR num closed := 0;
+    ! Why a move failed.
+    LOCAL VAR num fault := 0;
+
+    PROC main()
+        ROS_run;
+    ENDPROC
+
+    ! Serve the ring for ever.
+    PROC ROS_run()
+        ROS_start_task ROS_shown_motion,
+            ROS_BUILD_MOTION = ROS_BUILD_ID;
+        in_move := FALSE;
+        IF path_gone = -1 BookErrNo path_gone;
+        answer ROS_REASON_PROGRAM_STOPPED;
+        ! After PP to main no order is left, after a return of main there is one.
+        IDelete bell;
+        CONNECT bell WITH on_bell;
+        IPers ROS_bell, bell;
+        IDelete speed_bell;
+        CONNECT speed_bell WITH on_bell;
+        IPers ROS_speed_asked, speed_bell;
+        percent := 0;
+        set_speed;
+        WHILE TRUE DO
+            ! Read before the head of the ring: no point comes after this.
+            closed := ROS_closed;
+            IF ROS_abort <> ROS_abort_done THEN
+                answer ROS_halt_reason;
+            ELSEIF fault <> ROS_REASON_NONE THEN
+                give_up;
+            ELSEIF ROS_head <> ROS_tail THEN
+                next_point;
+            ELSEIF closed = ROS_session AND ROS_active() THEN
+                finish;
+            ELSE
+                wait_for_points;
+            ENDIF
+        ENDWHILE
+    ENDPROC
+
+    ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
+    ! left the old path, and then go on with it.
+    PROC ROS_on_stop()
+        interrupted ROS_REASON_PROGRAM_STOPPED;
+    ENDPROC
+
+    PROC ROS_on_start()
+        interrupted ROS_REASON_PROGRAM_STOPPED;
+    ENDPROC
+
+    PROC ROS_on_power()
+        interrupted ROS_REASON_POWER_FAILURE;
+    ENDPROC
+
+    ! Nothing of what was ordered so far will move the robot, whose path is gone; `reason` tells
+    ! why.
+    LOCAL PROC drop_points(num reason)
+        IF ROS_active() THEN
+            IF ROS_halted = ROS_session reason := ROS_halt_reason;
+            ROS_dead_reason := reason;
+            ROS_dead := ROS_session;
+        ENDIF
+        ROS_tail := ROS_head;
+    ENDPROC
+
+    ! The program was stopped or started in the middle of a trajectory. Main may still wait in a
+    ! move of it, or be about to begin one; so the robot stays stopped, by this task too, until
+    ! main has answered the supervisor, who is told.
+    LOCAL PROC interrupted(num reason)
+        IF NOT ROS_active() RETURN;
+        ROS_interrupts := ROS_next(ROS_interrupts);
+        stop_robot;
+        clear_path;
+        ! Asked for only now: signals may come later than the stop that they belong to.
+        drop_points ROS_cause(reason);
+    ENDPROC
+
+    ! Do what the supervisor asks for. Only main does: it is in no move then.
+    LOCAL PROC answer(num reason)
+        VAR num asked;
+
+        ! Read first: a request that comes meanwhile is not answered by this.
+        asked := ROS_abort;
+        clear_path;
+        IF NOT cleared THEN
+            ! Unanswered: while there may be a path, nobody lets the robot move.
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
+        drop_points reason;
+        start_robot;
+        IF IsStopMoveAct(\FromMoveTask) THEN
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
+        ! A fault of the trajectory that ends here must not end the next one.
+        fault := ROS_REASON_NONE;
+        ROS_abort_done := asked;
+    ENDPROC
+
+    ! The ring is empty. In the middle of a trajectory the robot stands at the last point that
+    ! came, since that had no successor.
+    LOCAL PROC wait_for_points()
+        IF ROS_active() AND session = ROS_session ROS_starved := session;
+        IF ROS_active() OR ROS_phase = ROS_TRAJ_RECEIVING THEN
+            ! Points will be here soon.
+            WaitTime 0.008;
+        ELSE
+            WaitUntil ROS_phase = ROS_TRAJ_RECEIVING OR ROS_head <> ROS_tail
+                OR ROS_abort <> ROS_abort_done \PollRate:=0.04;
+        ENDIF
+    ENDPROC
+
+    ! All points of the trajectory were executed: it is done, or it was cut behind them.
+    LOCAL PROC finish()
+        IF ROS_closed_code = ROS_REASON_NONE THEN
+            ROS_done := closed;
+        ELSE
+            ROS_dead_reason := ROS_closed_code;
+            ROS_dead := closed;
+        ENDIF
+    ENDPROC
+
+    LOCAL PROC next_point()
+        VAR num next;
+        VAR num arrived;
+        VAR num passed;
+        VAR bool first;
+        VAR bool waited;
+
+        before := point.target;
+        point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
+        next := ROS_next(ROS_tail);
+        IF point.session <> ROS_session OR point.session = ROS_dead THEN
+            ! Left over from a trajectory that was halted.
+            ROS_tail := next;
+            RETURN;
+        ENDIF
+        first := (point.session <> session);
+        IF first begin_session;
+        IF point.index <> expected THEN
+            fault := ROS_REASON_INTERNAL;
+            RETURN;
+        ENDIF
+        passed := ROS_planned;
+        arrived := expected;
+        expected := (expected + 1) MOD ROS_INDEX_WRAP;
+        ROS_starved := -1;
+        ROS_tail := next;
+        ROS_planned := arrived;
+        IF point.dwell THEN
+            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited
+                \PollRate:=0.04;
+        ELSEIF point.duration = 0 THEN
+            ! The robot stands there already.
+        ELSEIF first OR stops_before(next) THEN
+            move fine;
+        ELSE
+            shape_corner next;
+            move bend;
+            ! The robot is now somewhere before this point, and has passed the one before.
+            arrived := passed;
+        ENDIF
+        IF fault <> ROS_REASON_NONE OR ROS_abort <> ROS_abort_done RETURN;
+        ROS_reached := arrived;
+    ERROR (path_gone)
+        ! The trap comes here: nothing was reached.
+        in_move := FALSE;
+        RETURN;
+    ENDPROC
+
+    ! A move whose path was cleared never returns on some controllers; so the trap leaves it. A
+    ! request that comes before `in_move` is seen here, one that comes later by the trap.
+    LOCAL PROC move(zonedata zone)
+        in_move := TRUE;
+        IF ROS_abort = ROS_abort_done
+            MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=table;
+        in_move := FALSE;
+    ERROR
+        in_move := FALSE;
+        fault := ROS_REASON_MOTION_ERROR;
+        IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC begin_session()
+        session := point.session;
+        expected := 1;
+        ROS_planned := 0;
+        ROS_reached := 0;
+        ROS_started := session;
+        IDisable;
+        set_speed;
+        IEnable;
+    ENDPROC
+
+    ! TRUE if the robot has to stop at a point: its successor is not here yet, or is a dwell.
+    LOCAL FUNC bool stops_before(num next)
+        IF next = ROS_head RETURN TRUE;
+        RETURN ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
+    ENDFUNC
+
+    ! The zone in which the axes change their speeds from those of the way to the point to those
+    ! of the way to its successor. On its faster side the TCP is in it for half of the time that
+    ! this takes, on the other for longer. Angles and external axes count where the TCP rests; where
+    ! it moves they must not shrink its zone.
+    LOCAL PROC shape_corner(num next)
+        VAR ROS_point after;
+        VAR num needed := SHORTEST_CORNER;
+        VAR num arriving;
+        VAR num leaving;
+        ! 0: as fast on both sides, 1: at rest on one.
+        VAR num uneven := 0;
+        ! Speeds of all axes of a kind together.
+        VAR num turning := 0;
+
+        bend := CORNER;
+        after := ROS_ring{next MOD ROS_RING_SIZE + 1};
+        ! It may be a first point, of another trajectory, at which the robot stands.
+        IF after.duration <= 0 RETURN;
+        arriving := tcp_speed(before, point.target, point.duration);
+        leaving := tcp_speed(point.target, after.target, after.duration);
+        IF arriving + leaving > RESTING uneven := Abs(leaving - arriving) / (arriving + leaving);
+        IF arriving < leaving arriving := leaving;
+        turn (after.target.robax.rax_1 - point.target.robax.rax_1) / after.duration,
+            (point.target.robax.rax_1 - before.robax.rax_1) / point.duration, TURN_1, uneven, needed, turning;
+        turn (after.target.robax.rax_2 - point.target.robax.rax_2) / after.duration,
+            (point.target.robax.rax_2 - before.robax.rax_2) / point.duration, TURN_2, uneven, needed, turning;
+        turn (after.target.robax.rax_3 - point.target.robax.rax_3) / after.duration,
+            (point.target.robax.rax_3 - before.robax.rax_3) / point.duration, TURN_3, uneven, needed, turning;
+        turn (after.target.robax.rax_4 - point.target.robax.rax_4) / after.duration,
+            (point.target.robax.rax_4 - before.robax.rax_4) / point.duration, TURN_4, uneven, needed, turning;
+        turn (after.target.robax.rax_5 - point.target.robax.rax_5) / after.duration,
+            (point.target.robax.rax_5 - before.robax.rax_5) / point.duration, TURN_5, uneven, needed, turning;
+        turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
+            (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
+        bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
+        ! As in the predefined zones.
+        bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
+        bend.pzone_eax := bend.pzone_ori;
+        IF arriving > RESTING RETURN;
+        bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
+    ENDPROC
+
+    ! The time `needed` for a corner is long enough for one axis, and `sum` has its speed, too. In
+    ! an uneven corner, as wide on both sides but longer on one, it has to change more.
+    LOCAL PROC turn(num leaving, num arriving, num acceleration, num uneven, INOUT num needed, INOUT num sum)
+        VAR num faster;
+        VAR num change;
+
+        faster := Abs(arriving);
+        IF faster < Abs(leaving) faster := Abs(leaving);
+        change := Abs(leaving - arriving) + uneven * faster;
+        IF change > acceleration * needed needed := change / acceleration;
+        sum := sum + faster;
+    ENDPROC
+
+    LOCAL FUNC num between(num least, num wanted, num most)
+        IF wanted < least RETURN least;
+        IF wanted < most RETURN wanted;
+        RETURN most;
+    ENDFUNC
+
+    ! mm/s of the TCP on the way from one point to the next. Where that cannot be told a corner is as
+    ! large as it may be.
+    LOCAL FUNC num tcp_speed(jointtarget from_point, jointtarget to_point, num seconds)
+        VAR robtarget start;
+        VAR robtarget end_point;
+
+        start := CalcRobT(from_point, torch \WObj:=table);
+        end_point := CalcRobT(to_point, torch \WObj:=table);
+        RETURN Distance(start.trans, end_point.trans) / seconds;
+    ERROR
+        SkipWarn;
+        RETURN 9E9;
+    ENDFUNC
+
+    ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client
+    ! has asked for less.
+    LOCAL PROC set_speed()
+        VAR num asked;
+        VAR num wanted := 100;
+
+        asked := ROS_speed_asked;
+        IF ROS_speed_of = ROS_session AND ROS_active() wanted := ROS_speed_wanted;
+        IF wanted <> percent THEN
+            SpeedRefresh wanted;
+            percent := wanted;
+        ENDIF
+        ROS_speed_done := asked;
+    ERROR
+        ! Not answered: whoever asked is told that it was not done.
+        SkipWarn;
+        RETURN;
+    ENDPROC
+
+    ! This task itself ends the trajectory.
+    LOCAL PROC give_up()
+        ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
+            \RL2:="At point " + ValToStr(ROS_planned - 1) + ".";
+        stop_robot;
+        clear_path;
+        IF NOT cleared THEN
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
+        drop_points fault;
+        start_robot;
+        fault := ROS_REASON_NONE;
+    ENDPROC
+
+    LOCAL PROC stop_robot()
+        StopMove;
+    ERROR
+        ! It is stopped already.
+        SkipWarn;
+        TRYNEXT;
+    ENDPROC
+
+    ! Take back this task's own stop, when nothing is left of the path; that of the supervisor
+    ! stays. A robot that came to rest too far from the path that it left is not started by
+    ! StartMove; StopMoveReset takes back the stop, and nothing moves.
+    LOCAL PROC start_robot()
+        far_off := FALSE;
+        IF IsStopMoveAct(\FromMoveTask) StartMove;
+        IF far_off StopMoveReset;
+    ERROR
+        SkipWarn;
+        far_off := (ERRNO = ERR_PATHDIST);
+        TRYNEXT;
+    ENDPROC
+
+    ! `cleared`: the robot stands, and nothing is left of its path.
+    LOCAL PROC clear_path()
+        cleared := FALSE;
+        WaitRob \ZeroSpeed;
+        ClearPath;
+        cleared := TRUE;
+    ERROR
+        SkipWarn;
+        RETURN;
+    ENDPROC
+
+    ! The supervisor has stopped the robot and wants the path to be dropped. Main may be waiting
+    ! in a move, which may never return when its path is gone: it is left. Main then answers.
+    LOCAL TRAP on_bell
+        IF ROS_speed_asked <> ROS_speed_done set_speed;
+        IF ROS_abort = ROS_abort_done RETURN;
+        clear_path;
+        IF in_move RAISE path_gone;
+    ERROR
+        RAISE;
+    ENDTRAP
+ENDMODULE

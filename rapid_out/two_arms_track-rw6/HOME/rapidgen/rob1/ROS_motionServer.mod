@@ -1,0 +1,253 @@
+MODULE ROS_motionServer
+    ! The motion server: the port for trajectories and STOP.
+    !
+    ! Robot "two_arms_track-rw6", motion group rob1, T_ROB1. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds take no trajectory.
+    !
+    ! A trajectory comes whole, as points -1, 1, 2, ..., -3 (ROS_download), or in batches without
+    ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
+    ! this task never waits for room: it reads, and feeds the ring in between.
+
+    CONST string ROS_BUILD_MOTION_SERVER := "c133daf12e96";
+
+    LOCAL CONST num PORT := 11000;
+    ! s between two looks for bytes while the ring is being fed
+    LOCAL CONST num LOOK_PERIOD := 0.008;
+    ! s of silence after which a newer client is served, and while a stream is under way, whose
+    ! batches may come far apart
+    LOCAL CONST num PATIENCE := 1;
+    LOCAL CONST num STREAM_PATIENCE := 5;
+
+    LOCAL VAR socketdev server;
+    LOCAL VAR socketdev client_1;
+    LOCAL VAR socketdev client_2;
+    ! The other socket already holds the next client.
+    LOCAL VAR bool taken_over := FALSE;
+    LOCAL VAR bool linked := FALSE;
+    LOCAL VAR rawbytes answer;
+    ! Of the message at hand: what it asks for, its reply code, and the number of a point.
+    LOCAL VAR num comm_type := 0;
+    LOCAL VAR num reply_code := 0;
+    LOCAL VAR bool requested := FALSE;
+    LOCAL VAR num sequence := 0;
+
+    PROC main()
+        ROS_start_task ROS_shown_motion_server_1,
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
+            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
+            ROS_BUILD_ACCEPTANCE = ROS_BUILD_ID AND
+            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND
+            ROS_BUILD_STREAM = ROS_BUILD_ID AND
+            ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
+        ROS_read_limits \tell;
+        ! Counters start where those that answer them stand.
+        ROS_head_1 := ROS_tail_1;
+        ROS_closed_1 := -1;
+        ROS_phase_1 := ROS_TRAJ_NONE;
+        ROS_phase_of_1 := ROS_trajectory_1;
+        ROS_end_session ROS_REASON_CLIENT_LOST;
+        ROS_listen server, PORT;
+        WHILE TRUE DO
+            serve client_1, client_2;
+            lost_client;
+            serve client_2, client_1;
+            lost_client;
+        ENDWHILE
+    ENDPROC
+
+    ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`.
+    LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
+        VAR num received;
+        VAR num quiet := 0;
+        VAR num silence := PATIENCE;
+
+        IF NOT taken_over THEN
+            WHILE NOT welcome(client, WAIT_MAX) DO
+                ! A stranger, or the server socket broke and was opened again.
+            ENDWHILE
+        ENDIF
+        taken_over := FALSE;
+        linked := TRUE;
+        ROS_begin_frames;
+        WHILE linked AND (NOT taken_over) DO
+            IF ROS_is_feeding() THEN
+                ROS_feed;
+                received := short_look(client);
+                quiet := quiet + LOOK_PERIOD;
+            ELSE
+                silence := PATIENCE;
+                IF ROS_is_streaming() silence := STREAM_PATIENCE;
+                received := ROS_receive(client, ROS_chunk, silence);
+                quiet := silence;
+            ENDIF
+            IF received <> 0 THEN
+                quiet := 0;
+            ELSEIF quiet >= PATIENCE THEN
+                quiet := 0;
+                ! Silent: a newer client, if there is one, is served instead. It may be the same
+                ! one, whose old link is dead without a word.
+                taken_over := welcome(newcomer, 0.001);
+            ENDIF
+            IF received > 0 THEN
+                take_chunk client, received;
+            ELSEIF received < 0 THEN
+                linked := FALSE;
+            ENDIF
+        ENDWHILE
+        SocketClose client;
+    ERROR
+        ! Nothing that a client sends may end this task.
+        ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
+        SocketClose client;
+        RETURN;
+    ENDPROC
+
+    LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
+        TEST ROS_accept(server, client, seconds)
+        CASE ROS_ACCEPT_CLIENT:
+            RETURN TRUE;
+        CASE ROS_ACCEPT_BROKEN:
+            ROS_listen server, PORT;
+            RETURN FALSE;
+        DEFAULT:
+            RETURN FALSE;
+        ENDTEST
+    ENDFUNC
+
+    ! The robot does not go on for a client that is gone, and half a trajectory is none.
+    LOCAL PROC lost_client()
+        ROS_lose_download;
+        ROS_lose_stream;
+        ROS_end_session ROS_REASON_CLIENT_LOST;
+    ENDPROC
+
+    ! While the ring is being fed, look for bytes without waiting for them.
+    LOCAL FUNC num short_look(VAR socketdev client)
+        VAR num waiting;
+
+        waiting := ROS_peek(client);
+        IF waiting > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
+        IF waiting = 0 WaitTime LOOK_PERIOD;
+        RETURN waiting;
+    ENDFUNC
+
+    LOCAL PROC take_chunk(VAR socketdev client, num received)
+        ROS_take_bytes received;
+        WHILE linked DO
+            TEST ROS_next_frame()
+            CASE ROS_FRAME_IN_CHUNK:
+                take_message client, ROS_chunk, ROS_frame_at;
+            CASE ROS_FRAME_IN_PART:
+                take_message client, ROS_part, 1;
+            CASE ROS_FRAME_BROKEN:
+                broken_framing;
+            DEFAULT:
+                RETURN;
+            ENDTEST
+        ENDWHILE
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! The message that begins at byte `at` of `data`.
+    LOCAL PROC take_message(VAR socketdev client, VAR rawbytes data, num at)
+        UnpackRawBytes data, at + 8, comm_type \IntX:=DINT;
+        UnpackRawBytes data, at + 12, reply_code \IntX:=DINT;
+        IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT AND ROS_frame_length = ROS_LEN_JOINT_TRAJ_PT THEN
+            UnpackRawBytes data, at + 16, sequence \IntX:=DINT;
+            IF ROS_receiving AND sequence = ROS_count AND comm_type = ROS_COMM_TOPIC
+                AND reply_code = ROS_REPLY_NONE THEN
+                ! The usual case first.
+                ROS_add_point data, at, sequence;
+            ELSEIF knows_kind() THEN
+                take_point client, data, at;
+            ENDIF
+        ELSEIF ROS_frame_type = ROS_MSG_POINTS THEN
+            IF NOT knows_kind() RETURN;
+            ROS_take_batch data, at;
+            IF requested answer_batch client;
+        ELSE
+            take_other client;
+        ENDIF
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! TRUE for a topic or a request without a reply code. Anything else breaks the framing.
+    LOCAL FUNC bool knows_kind()
+        requested := (comm_type = ROS_COMM_REQUEST);
+        IF reply_code = ROS_REPLY_NONE AND (requested OR comm_type = ROS_COMM_TOPIC) RETURN TRUE;
+        broken_framing;
+        RETURN FALSE;
+    ENDFUNC
+
+    ! Where the next message begins is not known any more, so nothing behind it can be trusted.
+    LOCAL PROC broken_framing()
+        IF ROS_receiving THEN
+            ROS_refuse_download ROS_REASON_FRAMING, ROS_count, FALSE;
+        ELSE
+            ROS_report ROS_REASON_FRAMING, -1;
+        ENDIF
+        linked := FALSE;
+    ENDPROC
+
+    ! A message that brings no points.
+    LOCAL PROC take_other(VAR socketdev client)
+        IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT THEN
+            ! A point of another size: what else would be wrong?
+            broken_framing;
+        ELSEIF ROS_frame_type = ROS_MSG_PING THEN
+            IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_SUCCESS;
+        ELSE
+            ROS_report ROS_REASON_UNKNOWN_MESSAGE, -1;
+            IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_FAILURE;
+        ENDIF
+    ENDPROC
+
+    LOCAL PROC take_point(VAR socketdev client, VAR rawbytes data, num at)
+        IF sequence = ROS_SEQ_STOP THEN
+            stop_now client;
+            RETURN;
+        ENDIF
+        ROS_take_point data, at, sequence;
+        IF requested answer_point client;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC reply(VAR socketdev client, num type, num code)
+        ROS_pack_reply answer, type, code;
+        linked := ROS_send(client, answer);
+    ENDPROC
+
+    ! A request is answered by what has become of the trajectory so far.
+    LOCAL PROC answer_point(VAR socketdev client)
+        IF ROS_phase_1 = ROS_TRAJ_REFUSED THEN
+            ROS_pack_refused answer, ROS_refusal_1, ROS_refused_at_1;
+        ELSEIF ROS_phase_1 = ROS_TRAJ_MOVING AND sequence = ROS_SEQ_END THEN
+            ROS_pack_accepted answer, ROS_trajectory_1;
+        ELSE
+            ROS_pack_reply answer, ROS_MSG_JOINT_TRAJ_PT, ROS_REPLY_SUCCESS;
+        ENDIF
+        linked := ROS_send(client, answer);
+    ENDPROC
+
+    LOCAL PROC answer_batch(VAR socketdev client)
+        ROS_pack_batch_reply answer;
+        linked := ROS_send(client, answer);
+    ENDPROC
+
+    ! STOP: the reply comes when the robot has been told to stop, not when it stands. Points
+    ! of this trajectory that are still under way count as sent without a start.
+    LOCAL PROC stop_now(VAR socketdev client)
+        VAR num code := ROS_REPLY_SUCCESS;
+
+        ROS_forget_download;
+        ROS_forget_trajectory ROS_REASON_STOPPED;
+        ROS_end_session ROS_REASON_STOPPED;
+        IF NOT ROS_answered() code := ROS_REPLY_FAILURE;
+        IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
+    ENDPROC
+ENDMODULE

@@ -1,0 +1,427 @@
+MODULE ROS_control
+    ! The control server: STOP and all that must not wait, on a connection of its own.
+    !
+    ! Robot "two_arms_track-rw6", motion group rob2, T_ROB2. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds take no trajectory.
+    !
+    ! STOP, PAUSE, SPEED, HEARTBEAT and SIGNAL, which no point delays. On STOP and on a missing
+    ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
+    ! starts it again. It may hang in a send.
+
+    CONST string ROS_BUILD_CONTROL := "c133daf12e96";
+
+    LOCAL CONST num PORT := 11011;
+    ! s between two looks at what the robot does, and for new clients.
+    LOCAL CONST num LOOK_PERIOD := 0.1;
+    ! s: the longest time between heartbeats.
+    LOCAL CONST num LONGEST := 3600;
+
+    LOCAL VAR socketdev server;
+    LOCAL VAR socketdev client_1;
+    LOCAL VAR socketdev client_2;
+    ! The other socket already holds the next client.
+    LOCAL VAR bool taken_over := FALSE;
+    LOCAL VAR bool linked := FALSE;
+    LOCAL VAR clock since_look;
+
+    ! The message at hand, by itself.
+    LOCAL VAR rawbytes request;
+    LOCAL VAR rawbytes answer;
+
+    ! s in which the next heartbeat must come, 0: none is awaited.
+    LOCAL VAR num heartbeat := 0;
+    LOCAL VAR clock since_heartbeat;
+    ! The newest trajectory whose early end was told.
+    LOCAL VAR num told_dead := 0;
+    LOCAL VAR ROS_progress newest;
+
+    ! Signals that the configuration exposes. They are tied to their names when the task starts;
+    ! one that the controller does not have is refused, the others work.
+    LOCAL CONST string NAME_1 := "clamp_close";
+    LOCAL VAR signaldo signal_1;
+    LOCAL VAR bool has_1 := FALSE;
+    LOCAL CONST string NAME_2 := "part_present";
+    LOCAL VAR signaldi signal_2;
+    LOCAL VAR bool has_2 := FALSE;
+    LOCAL VAR bool link_ok := FALSE;
+
+    PROC main()
+        ROS_start_task ROS_shown_control_2,
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
+            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
+            ROS_BUILD_CONTROL = ROS_BUILD_ID;
+        ROS_read_limits;
+        ROS_speed_of_2 := -1;
+        link_signals;
+        ROS_listen server, PORT;
+        WHILE TRUE DO
+            serve client_1, client_2;
+            lost_client;
+            serve client_2, client_1;
+            lost_client;
+        ENDWHILE
+    ENDPROC
+
+    ! Serve the client on `client` until it is gone, or until a newer one has come on `newcomer`:
+    ! whoever may stop the robot must be able to, whatever another client does.
+    LOCAL PROC serve(VAR socketdev client, VAR socketdev newcomer)
+        VAR num received;
+
+        IF NOT taken_over THEN
+            WHILE NOT welcome(client, WAIT_MAX) DO
+                ! A stranger, or the server socket broke and was opened again.
+            ENDWHILE
+        ENDIF
+        taken_over := FALSE;
+        linked := TRUE;
+        told_dead := ROS_dead_2;
+        set_back since_look;
+        ROS_begin_frames;
+        WHILE linked AND (NOT taken_over) DO
+            received := ROS_receive(client, ROS_chunk, patience());
+            IF received > 0 THEN
+                take_chunk client, received;
+            ELSEIF received < 0 THEN
+                linked := FALSE;
+            ENDIF
+            IF linked AND is_late() THEN
+                heartbeat := 0;
+                ask_stop ROS_REASON_CLIENT_LOST;
+            ENDIF
+            IF linked tell_end client;
+            IF linked AND ClkRead(since_look) >= LOOK_PERIOD THEN
+                set_back since_look;
+                taken_over := welcome(newcomer, 0.001);
+            ENDIF
+        ENDWHILE
+        SocketClose client;
+    ERROR
+        ! Nothing that a client sends may end this task.
+        ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
+        SocketClose client;
+        RETURN;
+    ENDPROC
+
+    ! A clock counts 49 days: none is read that nobody has set back for long.
+    LOCAL PROC set_back(VAR clock one)
+        ClkReset one;
+        ClkStart one;
+    ENDPROC
+
+    LOCAL FUNC bool is_late()
+        IF heartbeat = 0 RETURN FALSE;
+        RETURN ClkRead(since_heartbeat) > heartbeat;
+    ENDFUNC
+
+    LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
+        TEST ROS_accept(server, client, seconds)
+        CASE ROS_ACCEPT_CLIENT:
+            RETURN TRUE;
+        CASE ROS_ACCEPT_BROKEN:
+            ROS_listen server, PORT;
+            RETURN FALSE;
+        DEFAULT:
+            RETURN FALSE;
+        ENDTEST
+    ENDFUNC
+
+    ! A client whose heartbeats are awaited is gone, or was replaced.
+    LOCAL PROC lost_client()
+        IF heartbeat > 0 ask_stop ROS_REASON_CLIENT_LOST;
+        heartbeat := 0;
+    ENDPROC
+
+    ! s to wait for bytes: never beyond the next heartbeat.
+    LOCAL FUNC num patience()
+        VAR num left;
+
+        IF heartbeat = 0 RETURN LOOK_PERIOD;
+        left := heartbeat - ClkRead(since_heartbeat);
+        IF left > LOOK_PERIOD RETURN LOOK_PERIOD;
+        ! Also one that is due is looked for: it may be here already.
+        IF left < 0.002 RETURN 0.002;
+        RETURN left;
+    ENDFUNC
+
+    LOCAL PROC take_chunk(VAR socketdev client, num received)
+        ROS_take_bytes received;
+        WHILE linked DO
+            TEST ROS_next_frame()
+            CASE ROS_FRAME_IN_CHUNK:
+                take_request client, ROS_chunk, ROS_frame_at;
+            CASE ROS_FRAME_IN_PART:
+                take_request client, ROS_part, 1;
+            CASE ROS_FRAME_BROKEN:
+                linked := FALSE;
+            DEFAULT:
+                RETURN;
+            ENDTEST
+        ENDWHILE
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! The message that begins at byte `at` of `data`. Anything but a request of the right length
+    ! breaks the link, unless its type is not known.
+    LOCAL PROC take_request(VAR socketdev client, VAR rawbytes data, num at)
+        VAR num comm;
+        VAR num wanted := 0;
+
+        ClearRawBytes request;
+        CopyRawBytes data, at, request, 1 \NoOfBytes:=ROS_frame_length + 4;
+        UnpackRawBytes request, 9, comm \IntX:=DINT;
+        linked := (comm = ROS_COMM_REQUEST);
+        TEST ROS_frame_type
+        CASE ROS_MSG_JOINT_TRAJ_PT:
+            IF is_whole(ROS_LEN_JOINT_TRAJ_PT) take_stop client;
+        CASE ROS_MSG_PAUSE:
+            IF is_whole(ROS_LEN_PAUSE) take_pause client;
+        CASE ROS_MSG_SPEED:
+            IF is_whole(ROS_LEN_SPEED) take_speed client;
+        CASE ROS_MSG_HEARTBEAT:
+            IF is_whole(ROS_LEN_HEARTBEAT) take_heartbeat client;
+        CASE ROS_MSG_SIGNAL:
+            IF is_whole(ROS_LEN_SIGNAL) take_signal client;
+        CASE ROS_MSG_HELLO:
+            linked := ROS_take_hello(request, ROS_frame_length + 4, answer, wanted);
+            IF linked send_answer client;
+        CASE ROS_MSG_PING:
+            IF linked confirm client;
+        DEFAULT:
+            IF linked THEN
+                ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
+                send_answer client;
+            ENDIF
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL FUNC bool is_whole(num length)
+        linked := linked AND ROS_frame_length = length;
+        RETURN linked;
+    ENDFUNC
+
+    LOCAL PROC send_answer(VAR socketdev client)
+        linked := ROS_send(client, answer);
+    ENDPROC
+
+    LOCAL PROC confirm(VAR socketdev client)
+        ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_SUCCESS;
+        send_answer client;
+    ENDPROC
+
+    ! Answer that it was done, or why not.
+    LOCAL PROC report(VAR socketdev client, num reason)
+        IF reason = ROS_REASON_NONE THEN
+            confirm client;
+            RETURN;
+        ENDIF
+        ROS_pack_header answer, ROS_HEADER_BYTES + 4, ROS_frame_type, ROS_COMM_REPLY, ROS_REPLY_FAILURE;
+        PackRawBytes reason, answer, 17 \IntX:=DINT;
+        send_answer client;
+    ENDPROC
+
+    ! STOP is the only point that comes here. The reply comes when the stop is sure to last.
+    LOCAL PROC take_stop(VAR socketdev client)
+        VAR num sequence;
+
+        UnpackRawBytes request, 17, sequence \IntX:=DINT;
+        linked := (sequence = ROS_SEQ_STOP);
+        IF NOT linked RETURN;
+        ask_stop ROS_REASON_STOPPED;
+        IF answered(ROS_control_asked_2, ROS_control_done_2) THEN
+            confirm client;
+        ELSE
+            ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
+            send_answer client;
+        ENDIF
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! Ask the supervisor for a halt: it stops the robot.
+    LOCAL PROC ask_stop(num reason)
+        ROS_control_reason_2 := reason;
+        ROS_control_asked_2 := ROS_next(ROS_control_asked_2);
+    ENDPROC
+
+    ! TRUE when all that was `asked` is `done`, FALSE if it is not within a second.
+    LOCAL FUNC bool answered(PERS num asked, PERS num done)
+        FOR try FROM 1 TO 250 DO
+            IF done = asked RETURN TRUE;
+            WaitTime 0.004;
+        ENDFOR
+        RETURN FALSE;
+    ENDFUNC
+
+    LOCAL PROC take_pause(VAR socketdev client)
+        VAR num paused;
+
+        UnpackRawBytes request, 17, paused \IntX:=DINT;
+        IF paused <> 0 AND paused <> 1 THEN
+            report client, ROS_REASON_BAD_VALUE;
+            RETURN;
+        ENDIF
+        ROS_pause_wanted_2 := (paused = 1);
+        ROS_pause_asked_2 := ROS_next(ROS_pause_asked_2);
+        IF answered(ROS_pause_asked_2, ROS_pause_done_2) THEN
+            report client, ROS_pause_refused_2;
+        ELSE
+            report client, ROS_REASON_INTERNAL;
+        ENDIF
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! The motion task is asked directly: it is the only one that can.
+    LOCAL PROC take_speed(VAR socketdev client)
+        VAR num percent;
+
+        UnpackRawBytes request, 17, percent \Float4;
+        IF NOT (1 <= percent AND percent <= 100) THEN
+            report client, ROS_REASON_BAD_VALUE;
+        ELSEIF NOT ROS_active() THEN
+            report client, ROS_REASON_IDLE;
+        ELSE
+            ROS_speed_wanted_2 := percent;
+            ROS_speed_of_2 := ROS_session_2;
+            ROS_speed_asked_2 := ROS_next(ROS_speed_asked_2);
+            IF answered(ROS_speed_asked_2, ROS_speed_done_2) THEN
+                confirm client;
+            ELSE
+                report client, ROS_REASON_INTERNAL;
+            ENDIF
+        ENDIF
+    ERROR
+        RAISE;
+    ENDPROC
+
+    LOCAL PROC take_heartbeat(VAR socketdev client)
+        VAR num seconds;
+
+        UnpackRawBytes request, 17, seconds \Float4;
+        IF NOT (0 <= seconds AND seconds <= LONGEST) THEN
+            report client, ROS_REASON_BAD_VALUE;
+            RETURN;
+        ENDIF
+        heartbeat := seconds;
+        set_back since_heartbeat;
+        ROS_look newest;
+        ROS_pack_header answer, 20, ROS_MSG_HEARTBEAT, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
+        PackRawBytes newest.trajectory, answer, 17 \IntX:=DINT;
+        PackRawBytes newest.state, answer, 21 \IntX:=DINT;
+        send_answer client;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! STOPPED: where the robot stands after a trajectory has ended early and its path is gone.
+    LOCAL PROC tell_end(VAR socketdev client)
+        VAR num trajectory;
+        VAR num reached := 0;
+        VAR jointtarget joints;
+
+        trajectory := ROS_dead_2;
+        IF trajectory = told_dead RETURN;
+        told_dead := trajectory;
+        IF ROS_started_2 = trajectory reached := ROS_reached_2;
+        joints := CJointT();
+        ROS_form answer, ROS_LEN_STOPPED, ROS_MSG_STOPPED;
+        PackRawBytes trajectory, answer, 17 \IntX:=DINT;
+        PackRawBytes reached, answer, 21 \IntX:=DINT;
+        PackRawBytes ROS_dead_reason_2 MOD 100, answer, 25 \IntX:=DINT;
+        PackRawBytes joints.robax.rax_1 / ROS_DEG, answer, 29 \Float4;
+        PackRawBytes joints.robax.rax_2 / ROS_DEG, answer, 33 \Float4;
+        PackRawBytes joints.robax.rax_3 / ROS_DEG, answer, 37 \Float4;
+        PackRawBytes joints.robax.rax_4 / ROS_DEG, answer, 41 \Float4;
+        PackRawBytes joints.robax.rax_5 / ROS_DEG, answer, 45 \Float4;
+        PackRawBytes joints.robax.rax_6 / ROS_DEG, answer, 49 \Float4;
+        send_answer client;
+    ENDPROC
+
+    ! SIGNAL: read one, or write it first.
+    LOCAL PROC take_signal(VAR socketdev client)
+        VAR num index;
+        VAR num write;
+        VAR num value;
+        VAR num fault;
+
+        UnpackRawBytes request, 17, index \IntX:=DINT;
+        UnpackRawBytes request, 21, write \IntX:=DINT;
+        UnpackRawBytes request, 25, value \Float4;
+        IF write <> 0 AND write <> 1 THEN
+            fault := ROS_REASON_BAD_VALUE;
+        ELSE
+            fault := ROS_REASON_NONE;
+            IF write = 1 fault := write_signal(index, value);
+            IF fault = ROS_REASON_NONE fault := read_signal(index, value);
+        ENDIF
+        IF fault <> ROS_REASON_NONE THEN
+            report client, fault;
+            RETURN;
+        ENDIF
+        ROS_pack_header answer, 20, ROS_MSG_SIGNAL, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
+        PackRawBytes index, answer, 17 \IntX:=DINT;
+        PackRawBytes value, answer, 21 \Float4;
+        send_answer client;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! Write a signal that the configuration lets be written. Gives why not, 0: done.
+    LOCAL FUNC num write_signal(num index, num value)
+        IF NOT (-ROS_FINITE <= value AND value <= ROS_FINITE) RETURN ROS_REASON_BAD_VALUE;
+        TEST index
+        CASE 0:
+            IF NOT has_1 RETURN ROS_REASON_NO_SIGNAL;
+            IF value <> 0 AND value <> 1 RETURN ROS_REASON_BAD_VALUE;
+            SetDO signal_1, value;
+        CASE 1:
+            RETURN ROS_REASON_READ_ONLY;
+        DEFAULT:
+            RETURN ROS_REASON_NO_SIGNAL;
+        ENDTEST
+        RETURN ROS_REASON_NONE;
+    ERROR
+        ! Its unit is not there, or the value is too large for it.
+        SkipWarn;
+        IF ERRNO = ERR_NORUNUNIT RETURN ROS_REASON_NO_SIGNAL;
+        RETURN ROS_REASON_BAD_VALUE;
+    ENDFUNC
+
+    ! Read a signal into `value`. Gives why not, 0: done.
+    LOCAL FUNC num read_signal(num index, INOUT num value)
+        TEST index
+        CASE 0:
+            IF NOT has_1 RETURN ROS_REASON_NO_SIGNAL;
+            value := DOutput(signal_1);
+        CASE 1:
+            IF NOT has_2 RETURN ROS_REASON_NO_SIGNAL;
+            value := DInput(signal_2);
+        DEFAULT:
+            RETURN ROS_REASON_NO_SIGNAL;
+        ENDTEST
+        RETURN ROS_REASON_NONE;
+    ERROR
+        ! Its unit is not there.
+        SkipWarn;
+        RETURN ROS_REASON_NO_SIGNAL;
+    ENDFUNC
+
+    LOCAL PROC link_signals()
+        link_ok := TRUE;
+        AliasIO NAME_1, signal_1;
+        has_1 := link_ok;
+        link_ok := TRUE;
+        AliasIO NAME_2, signal_2;
+        has_2 := link_ok;
+    ERROR
+        ! No such signal on this controller.
+        SkipWarn;
+        link_ok := FALSE;
+        TRYNEXT;
+    ENDPROC
+ENDMODULE

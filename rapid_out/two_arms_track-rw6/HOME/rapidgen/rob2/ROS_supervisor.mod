@@ -1,0 +1,285 @@
+MODULE ROS_supervisor
+    ! The supervisor: stops the robot, and is the only one that starts it again.
+    !
+    ! Robot "two_arms_track-rw6", motion group rob2, T_ROB2. Written by rapidgen 0.1.0.
+    ! Do not edit: change the configuration and build again. Modules of different
+    ! builds take no trajectory.
+    !
+    ! A halt: StopMove, which stays in force (latched); then the motion task is asked to drop
+    ! its path; when it has, StartMove on the empty path. Whatever goes wrong on the way leaves
+    ! the robot standing. It halts on request, and when something happened after
+    ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
+    ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
+
+    CONST string ROS_BUILD_SUPERVISOR := "c133daf12e96";
+
+    LOCAL VAR intnum asked_to_stop;
+    LOCAL VAR intnum asked_to_look;
+    LOCAL VAR intnum asked_by_control;
+    LOCAL VAR intnum asked_to_pause;
+    LOCAL VAR num mode := 0;
+    LOCAL VAR clock since_bell;
+    LOCAL VAR clock since_halt;
+    ! Bells since the halt, and how many of them at most: a program that does not hear them
+    ! would end with too many of them waiting.
+    LOCAL VAR num bells := 0;
+    LOCAL CONST num MOST_BELLS := 12;
+    ! StartMove was refused because the robot stands too far from its path.
+    LOCAL VAR bool far_off := FALSE;
+    ! It was said why the robot stays stopped.
+    LOCAL VAR bool told := FALSE;
+    ! Rounds for which the tasks have shown different builds.
+    LOCAL VAR num rounds_mixed := 0;
+
+    PROC main()
+        ROS_start_task ROS_shown_supervisor_2,
+            ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
+        ! What was under way when this task ended is over.
+        IF ROS_active() OR (ROS_paused_2 >= 0 AND IsStopMoveAct(\FromNonMoveTask))
+            halt ROS_REASON_POWER_FAILURE;
+        ROS_paused_2 := -1;
+        mode := OpMode();
+        IDelete asked_to_stop;
+        CONNECT asked_to_stop WITH on_request;
+        IPers ROS_stop_asked_2, asked_to_stop;
+        IDelete asked_to_look;
+        CONNECT asked_to_look WITH on_request;
+        IPers ROS_look_asked_2, asked_to_look;
+        IDelete asked_by_control;
+        CONNECT asked_by_control WITH on_request;
+        IPers ROS_control_asked_2, asked_by_control;
+        IDelete asked_to_pause;
+        CONNECT asked_to_pause WITH on_request;
+        IPers ROS_pause_asked_2, asked_to_pause;
+        WHILE TRUE DO
+            ! A trap must not come between a test here and what follows from it.
+            IDisable;
+            answer;
+            watch;
+            watch_builds;
+            IF ROS_latched_2 release;
+            ROS_not_ready_2 := obstacle();
+            IEnable;
+            WaitTime 0.1;
+        ENDWHILE
+    ENDPROC
+
+    LOCAL TRAP on_request
+        answer;
+    ENDTRAP
+
+    ! Answer requests of the servers. Interrupts of quick requests may fall into one, so the
+    ! counters are compared, not the interrupts counted. Stops come first.
+    LOCAL PROC answer()
+        VAR num asked;
+
+        asked := ROS_stop_asked_2;
+        IF asked <> ROS_stop_done_2 THEN
+            halt ROS_stop_reason_2;
+            ROS_not_ready_2 := obstacle();
+            ROS_stop_done_2 := asked;
+        ENDIF
+        asked := ROS_control_asked_2;
+        IF asked <> ROS_control_done_2 THEN
+            IF ROS_active() OR IsStopMoveAct(\FromNonMoveTask) halt ROS_control_reason_2;
+            ROS_not_ready_2 := obstacle();
+            ROS_control_done_2 := asked;
+        ENDIF
+        asked := ROS_pause_asked_2;
+        IF asked <> ROS_pause_done_2 THEN
+            IF ROS_pause_wanted_2 THEN
+                ROS_pause_refused_2 := pause();
+            ELSE
+                ROS_pause_refused_2 := go_on();
+            ENDIF
+            ROS_pause_done_2 := asked;
+        ENDIF
+        asked := ROS_look_asked_2;
+        IF asked <> ROS_look_done_2 THEN
+            IF ROS_latched_2 release;
+            ROS_not_ready_2 := obstacle();
+            ROS_look_done_2 := asked;
+        ENDIF
+    ENDPROC
+
+    ! End what is under way when it must not go on by itself.
+    LOCAL PROC watch()
+        VAR num reason;
+
+        reason := ROS_cause(ROS_REASON_NONE);
+        IF reason = ROS_REASON_NONE THEN
+            IF OpMode() <> mode reason := ROS_REASON_MODE_CHANGED;
+            IF ROS_executing() = ROS_TRI_FALSE reason := ROS_REASON_PROGRAM_STOPPED;
+        ENDIF
+        mode := OpMode();
+        IF reason > 0 THEN
+            ! What is being received now does not move later, either.
+            ROS_hindrance_2 := reason;
+            ROS_hindered_2 := ROS_trajectory_2;
+            IF under_way() halt reason;
+        ENDIF
+        IF ROS_interrupts_seen_2 <> ROS_interrupts_2 THEN
+            ROS_interrupts_seen_2 := ROS_interrupts_2;
+            halt ROS_REASON_PROGRAM_STOPPED;
+        ENDIF
+        ! The paused trajectory has ended by itself: nothing is left to be paused.
+        IF ROS_paused_2 >= 0 AND (NOT ROS_active()) halt ROS_REASON_STOPPED;
+    ENDPROC
+
+    ! TRUE while there is a trajectory that was not halted.
+    LOCAL FUNC bool under_way()
+        RETURN ROS_active() AND ROS_halted_2 <> ROS_session_2;
+    ENDFUNC
+
+    ! Say so when tasks of different builds have run side by side for two seconds.
+    LOCAL PROC watch_builds()
+        IF ROS_build_fault() <> ROS_REASON_BUILD_MISMATCH THEN
+            rounds_mixed := 0;
+            RETURN;
+        ENDIF
+        rounds_mixed := rounds_mixed + 1;
+        IF rounds_mixed = 20 ErrWrite "ROS: tasks of different builds", "No trajectory is taken."
+            \RL2:="Load all modules of one build and restart.";
+    ENDPROC
+
+    LOCAL PROC halt(num reason)
+        VAR bool lost := FALSE;
+
+        stop_robot;
+        ROS_latched_2 := TRUE;
+        told := FALSE;
+        bells := 0;
+        IF under_way() THEN
+            ! The first reason counts.
+            ROS_halt_reason_2 := reason;
+            ROS_halted_2 := ROS_session_2;
+            lost := (reason = ROS_REASON_CLIENT_LOST);
+        ENDIF
+        ROS_paused_2 := -1;
+        ROS_abort_2 := ROS_next(ROS_abort_2);
+        set_back since_halt;
+        ring;
+        ! Whoever stands beside the robot learns of all other reasons in another way.
+        IF lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
+    ENDPROC
+
+    ! Let the robot move again, once nothing is left of the old path.
+    LOCAL PROC release()
+        IF ROS_abort_done_2 = ROS_abort_2 THEN
+            IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
+            IF NOT released() THEN
+                tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
+                RETURN;
+            ENDIF
+            ROS_latched_2 := FALSE;
+            RETURN;
+        ENDIF
+        IF ROS_executing() = ROS_TRI_FALSE THEN
+            ! It cannot answer, nor hear a bell: the time for that begins when it runs.
+            set_back since_halt;
+            set_back since_bell;
+            RETURN;
+        ENDIF
+        IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
+            tell "ROS: the robot stays stopped", "The motion task cannot take back its stop.";
+        ELSE
+            tell "ROS: the motion task does not answer", "The robot stays stopped.";
+        ENDIF
+        ! Clocks count 49 days: they are not read for long.
+        IF bells < MOST_BELLS THEN
+            IF ClkRead(since_bell) > 0.25 ring;
+        ENDIF
+    ENDPROC
+
+    LOCAL PROC set_back(VAR clock one)
+        ClkReset one;
+        ClkStart one;
+    ENDPROC
+
+    ! Say once what is wrong, when the program has run for two seconds since the halt.
+    LOCAL PROC tell(string title, string what)
+        IF told RETURN;
+        IF ClkRead(since_halt) <= 2 RETURN;
+        ErrWrite \W, title, what \RL2:="Start the program of T_ROB2 from main.";
+        told := TRUE;
+    ENDPROC
+
+    ! Stop the robot on its path and keep that. Gives why not, 0: done.
+    LOCAL FUNC num pause()
+        IF NOT under_way() RETURN ROS_REASON_IDLE;
+        stop_robot;
+        IF NOT IsStopMoveAct(\FromNonMoveTask) RETURN ROS_REASON_INTERNAL;
+        ROS_paused_2 := ROS_session_2;
+        RETURN ROS_REASON_NONE;
+    ENDFUNC
+
+    ! Let a paused robot go on along its path, unless something has happened after which it
+    ! must not. Gives why not, 0: done.
+    LOCAL FUNC num go_on()
+        IF NOT under_way() RETURN ROS_REASON_IDLE;
+        watch;
+        IF NOT under_way() RETURN ROS_halt_reason_2;
+        IF ROS_paused_2 < 0 RETURN ROS_REASON_NONE;
+        IF stop_asked() RETURN ROS_REASON_STOPPED;
+        IF NOT started() RETURN ROS_REASON_INTERNAL;
+        ROS_paused_2 := -1;
+        ! A stop that came meanwhile is answered next, but this has taken it back.
+        IF stop_asked() stop_robot;
+        RETURN ROS_REASON_NONE;
+    ENDFUNC
+
+    LOCAL FUNC bool stop_asked()
+        RETURN ROS_stop_asked_2 <> ROS_stop_done_2 OR ROS_control_asked_2 <> ROS_control_done_2;
+    ENDFUNC
+
+    ! 0, why no trajectory may start, or -1: not yet.
+    LOCAL FUNC num obstacle()
+        VAR num fault;
+        VAR num reason;
+
+        fault := ROS_build_fault();
+        IF fault = ROS_REASON_BUILD_MISMATCH RETURN fault;
+        reason := ROS_cause(fault);
+        IF reason <> ROS_REASON_NONE RETURN reason;
+        IF ROS_executing() = ROS_TRI_FALSE RETURN ROS_REASON_NOT_EXECUTING;
+        IF ROS_latched_2 OR ROS_paused_2 >= 0 RETURN -1;
+        IF ROS_interrupts_seen_2 <> ROS_interrupts_2 RETURN -1;
+        RETURN ROS_REASON_NONE;
+    ENDFUNC
+
+    LOCAL PROC ring()
+        bells := bells + 1;
+        set_back since_bell;
+        ROS_bell_2 := ROS_next(ROS_bell_2);
+    ENDPROC
+
+    LOCAL PROC stop_robot()
+        StopMove;
+    ERROR
+        ! Nothing moves, or it is stopped already.
+        SkipWarn;
+        TRYNEXT;
+    ENDPROC
+
+    ! Take back the stop. FALSE: not now (motors off, program stopped), it stays in force.
+    LOCAL FUNC bool started()
+        far_off := FALSE;
+        IF IsStopMoveAct(\FromNonMoveTask) StartMove;
+        RETURN TRUE;
+    ERROR
+        SkipWarn;
+        far_off := (ERRNO = ERR_PATHDIST);
+        RETURN FALSE;
+    ENDFUNC
+
+    ! Take back the stop when nothing is left of the path. Where the robot came to rest too far
+    ! from it, which is of no interest any more, StopMoveReset does, and nothing moves.
+    LOCAL FUNC bool released()
+        IF started() RETURN TRUE;
+        IF far_off StopMoveReset;
+        RETURN far_off AND (NOT IsStopMoveAct(\FromNonMoveTask));
+    ERROR
+        SkipWarn;
+        RETURN FALSE;
+    ENDFUNC
+ENDMODULE
