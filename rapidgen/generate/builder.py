@@ -19,7 +19,7 @@ from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
-from rapidgen.generate.parameters import OPEN, cfg_files
+from rapidgen.generate.parameters import OPEN_FILES, cfg_files
 from rapidgen.generate.readme import readme_context
 from rapidgen.generate.render import Renderer
 from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cfg
@@ -48,8 +48,7 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     ]
     readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
-    optional = [name for name, _ in parameters if name.endswith(OPEN)]
-    files.append(manifest_file(files, _head(config, build_id, optional)))
+    files.append(manifest_file(files, _head(config, build_id, files)))
     output = Output(config.name, build_id, tuple(files))
     if cell is not None:
         make_system(config, output, under=of_backup(cell.cfg, cell.system))
@@ -62,7 +61,7 @@ def make_system(
     *,
     under: Under | None = None,
     without: Collection[str] = (),
-    open_words: bool = True,
+    open_words: bool = False,
 ) -> System:
     """The controller that the output makes, as `system.read_folder` without the disk."""
     modules = {}
@@ -128,13 +127,15 @@ def _cfg(path: str, text: str) -> OutputFile:
     return OutputFile(path, text.replace("\n", "\r\n").encode("ascii"), "cfg")
 
 
-def _head(config: RobotConfig, build_id: str, optional: list[str]) -> Members:
+def _head(config: RobotConfig, build_id: str, files: list[OutputFile]) -> Members:
     return {
         "format": 1,
         "rapidgen": __version__,
         "name": config.name,
         "build_id": build_id,
         "robotware": list(config.robotware),
+        # What a controller may refuse as a whole.
+        "optional": [f.path for f in files if f.path in OPEN_FILES],
         "groups": {
             group.name: {
                 "task": group.task,
@@ -152,5 +153,4 @@ def _head(config: RobotConfig, build_id: str, optional: list[str]) -> Members:
             for group in config.groups
         },
         "configuration": to_manifest(config),
-        **({"optional": list(optional)} if optional else {}),
     }

@@ -12,8 +12,7 @@ from rapidgen.generate.layout import open_signals
 from rapidgen.system import Attribute, CfgText, Instance, Section, System, eio_cfg, sys_cfg
 from rapidgen.system.releases import known_digits
 
-OPEN = "_open.cfg"
-"""End of the names of files that a controller may refuse."""
+OPEN_FILES = ("EIO_open.cfg", "SYS_open.cfg")
 _FIREWALL_SINCE = 7
 _SERVICE_PORT = "192.168.125.1"
 
@@ -39,8 +38,7 @@ def cfg_files(config: RobotConfig, system: System) -> tuple[tuple[str, CfgText],
     texts = [
         ("EIO.cfg", eio_cfg(sure)),
         ("SYS.cfg", sys_cfg(sure, on_top=True)),
-        ("EIO" + OPEN, eio_cfg(unsure)),
-        ("SYS" + OPEN, sys_cfg(unsure, on_top=True)),
+        *zip(OPEN_FILES, (eio_cfg(unsure), sys_cfg(unsure, on_top=True)), strict=True),
     ]
     if config.robotware[0] >= _FIREWALL_SINCE:
         texts.append(("SIO.cfg", _firewall(config)))
