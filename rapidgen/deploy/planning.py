@@ -10,7 +10,7 @@ from rapidgen.deploy.cfg import compare, keyed, names_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
-from rapidgen.deploy.steps import steps_of
+from rapidgen.deploy.steps import OPTIONAL, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
 from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
 from rapidgen.diagnostics import DiagnosticError
@@ -48,10 +48,13 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
     _check_robotware(texts, wanted, transport.shown)
     old_cfg = _old_cfg(changes)
     wanted_cfg = wanted.cfg if wanted else ()
+    seen = bool(texts) and transport.reach.writes_cfg
+    if seen:
+        # A system that starts from these files has nobody who could leave a row out.
+        wanted_cfg = tuple(t for t in wanted_cfg if t.path.rpartition("/")[2] not in OPTIONAL)
     present = texts if texts else old_cfg
     ours = names_of(keyed(old_cfg)) | frozenset(base.cfg_before)
     cfg = compare(keyed(wanted_cfg), keyed(present), ours)
-    seen = bool(texts) and transport.reach.writes_cfg
     originals = {
         r.path: f"{layout.home}{STATE}/backup/{r.stored}"
         for r in base.origin.values()

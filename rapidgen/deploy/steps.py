@@ -9,10 +9,12 @@ are loaded at a restart when the file is newer ([mem]). Nothing here restarts an
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rapidgen.deploy.cfg import CfgChange
+from rapidgen.deploy.cfg import CfgChange, keyed
 from rapidgen.deploy.driverset import STATE
 from rapidgen.system import CfgText
 
+OPTIONAL = ("EIO_open.cfg", "SYS_open.cfg")
+"""Files of a build that no controller's file was seen to agree with (docs/rapid/cfg.md)."""
 _LOAD = "Control Panel > Configuration > (topic) > File > Load parameters, replacing duplicates"
 
 
@@ -39,15 +41,17 @@ def steps_of(
     `written` that SYSPAR itself was changed, `touched` that any file was.
     """
     steps: list[ManualStep] = []
-    for domain in sorted({c.domain for c in cfg}) if not written else ():
-        counts = [
-            sum(1 for c in cfg if c.domain == domain and c.action == action)
-            for action in ("add", "change")
-        ]
-        if any(counts):
-            words = f"{counts[0]} instances to add, {counts[1]} to change"
-            file = f"HOME:/{STATE}/{domain}.cfg"
-            steps.append(ManualStep("pendant", f"load {file} ({words}): {_LOAD}"))
+    # Signals come before what names them.
+    for text in sorted(texts, key=lambda text: text.path) if not written else ():
+        own = {f"{section} {name}" for _, section, name in keyed([text])}
+        actions = [c.action for c in cfg if c.domain == text.domain and c.key in own]
+        added, changed = actions.count("add"), actions.count("change")
+        if added or changed:
+            words = f"{added} instances to add, {changed} to change"
+            file = text.path.rpartition("/")[2]
+            refused = "; it may be refused, then leave it out" if file in OPTIONAL else ""
+            what = f"load HOME:/{STATE}/{file} ({words}): {_LOAD}{refused}"
+            steps.append(ManualStep("pendant", what))
     gone = [c.key for c in cfg if c.action == "remove"] if not written else []
     if gone:
         what = "loading removes nothing: delete in Control Panel > Configuration: "
