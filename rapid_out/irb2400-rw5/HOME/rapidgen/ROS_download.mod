@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "ad078f3ec89c";
+    CONST string ROS_BUILD_DOWNLOAD := "0fbc8ed3564a";
 
     LOCAL CONST dnum NO_BITS := 0;
 

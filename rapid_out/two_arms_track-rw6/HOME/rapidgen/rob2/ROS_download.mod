@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "a9d5df931c2e";
+    CONST string ROS_BUILD_DOWNLOAD := "b46c3fa32c62";
 
     LOCAL CONST dnum NO_BITS := 0;
 
