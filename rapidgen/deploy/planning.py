@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Members
-from rapidgen.deploy.cfg import compare, keyed, name_of
+from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.mend import copies, mended
 from rapidgen.deploy.motion_tasks import entry_steps
@@ -58,10 +58,13 @@ def make_plan(
     _check_robotware(texts, wanted, transport.shown)
     old_cfg = _old_cfg(changes)
     wanted_cfg = wanted.cfg if wanted else ()
+    seen = bool(syspar) and transport.reach.writes_cfg
+    if seen:
+        # A system that starts from these files has nobody who could leave a row out.
+        wanted_cfg = tuple(text for text in wanted_cfg if not may_be_refused(text))
     present = texts if texts else old_cfg
     ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
     cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
-    seen = bool(syspar) and transport.reach.writes_cfg
     neighbour: Neighbour | None = None
     restored: tuple[str, ...] = ()
     if wanted is not None and verb == "deploy":

@@ -88,6 +88,7 @@ def group_context(
                 "known": f"has_{signal.function}",
                 "function": signal.function,
                 "text": signal.text,
+                "otherwise": "seen_executing()" if signal.by_routines else "ROS_TRI_UNKNOWN",
                 "doubted": signal.one_when_well and signal.is_open(config.robotware[0]),
             }
             for signal in STATUS_SIGNALS

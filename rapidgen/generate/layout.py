@@ -150,7 +150,12 @@ def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
 
 
 def unit_group(group: GroupConfig) -> str:
-    """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_L of ROB_L."""
+    """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_l of ROB_L."""
+    return _robot(group).lower()
+
+
+def _robot(group: GroupConfig) -> str:
+    """What the ARMs of a robot begin with: rob1 of ROB_1, rob_L of ROB_L."""
     head, _, tail = group.mechanical_unit.partition("_")
     return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
 
@@ -164,9 +169,9 @@ def arm(group: GroupConfig, joint: Joint) -> str:
     """
     kind, _, letter = joint.axis.partition("_")
     if kind == "rax":
-        return f"{unit_group(group)}_{letter}"
+        return f"{_robot(group)}_{letter}"
     if not group.external_units:
-        return f"{unit_group(group)}_{7 + 'abcdef'.index(letter)}"
+        return f"{_robot(group)}_{7 + 'abcdef'.index(letter)}"
     external = [j for j in group.joints if j.axis.startswith("eax_")]
     if len(external) != len(group.external_units):
         return ""

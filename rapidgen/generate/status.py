@@ -23,6 +23,8 @@ class StatusSignal:
     """Generations of which somebody's cfg file has the status so; the others are open."""
     one_when_well: bool = False
     """It is 1 while the robot waits for work: one that was never 1 may have nothing behind it."""
+    by_routines: bool = False
+    """Event routines of the motion task see its end, too."""
     of: Literal["", "unit", "task"] = ""
     """What it is the status of: the controller, or a group's mechanical unit or motion task."""
 
@@ -75,6 +77,7 @@ STATUS_SIGNALS = (
         {5: "TaskExecuting"},
         frozenset({5, 6}),
         one_when_well=True,
+        by_routines=True,
         of="task",
     ),
 )

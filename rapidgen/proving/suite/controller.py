@@ -125,11 +125,13 @@ def _without_signals(bench: Bench) -> None:
 @case("open-files", "signals that the controller refused, or that nothing drives")
 def _open_files(bench: Bench) -> None:
     """Status signals that no controller's file was seen to have, absent and without an output."""
-    opened = open_signals(bench.config) | {_standing(bench)}
-    absent = tuple(s for s in bench.system.signals if s.name not in opened)
-    driven = tuple(o for o in bench.system.outputs if o.signal not in opened)
-    for signals in (absent, bench.system.signals):
-        with bench.beside(replace(bench.system, signals=signals, outputs=driven)) as other:
+    opened = open_signals(bench.config) | {_name(bench, "standing")}
+    # What is open on RobotWare 7 the driver does without on every other, too.
+    absent = opened | {_name(bench, function) for function in ("executing", "emergency_stop")}
+    for without, undriven in ((absent, absent), (frozenset(), opened)):
+        signals = tuple(s for s in bench.system.signals if s.name not in without)
+        outputs = tuple(o for o in bench.system.outputs if o.signal not in undriven)
+        with bench.beside(replace(bench.system, signals=signals, outputs=outputs)) as other:
             _serves_and_stops(other)
 
 
@@ -147,12 +149,29 @@ def _serves_and_stops(bench: Bench) -> None:
     bench.rests(5, 1, "STOP was sent")
     bench.followed([p for p, _ in points], since=since)
     _is_over(bench, state, "STOP has ended a trajectory")
-    bench.sets_off(link, bench.wave(10), 0.3)
+    _stopped_meanwhile(bench, link)
+    bench.sets_off(bench.motion(), bench.wave(10), 0.3)
     bench.controller.perform("e-stop")
     bench.rests(10, 2, "an emergency stop")
     _back_to_work(bench)
     bench.stays(5, "the program was started again, nobody asked for motion")
     bench.moves_through(bench.motion(), bench.wave(3))
+
+
+def _stopped_meanwhile(bench: Bench, link: RawLink) -> None:
+    """What two clients send while the program is stopped is nothing, also when it starts."""
+    if bench.config.commissioning:
+        return
+    bench.controller.perform("stop")
+    bench.run(0.5)
+    data = bench.download(bench.wave(4))
+    link.send(data)
+    other = bench.motion()
+    other.send(data)
+    bench.stays(2, "the program is stopped")
+    bench.controller.perform("start")
+    bench.stays(4, "the program was started; what was sent before is nothing")
+    other.close(then=1.5)
 
 
 def _is_over(bench: Bench, state: RawLink, what: str) -> None:
@@ -167,18 +186,18 @@ def _standing_forgotten(bench: Bench) -> None:
     """Nothing drives it any more: STATUS believes it for ten seconds, or five messages."""
     state, period = bench.state(), bench.config.state_period
     bench.run(2 * period)
-    bench.controller.signals[_standing(bench)] = 0
+    bench.controller.signals[_name(bench, "standing")] = 0
     bench.run(1.5 * period)
     if bench.status(state, 2 + period).in_motion != 1:
         raise Broken("the controller says that the robot moves, STATUS does not")
     bench.run(max(10, 5 * period))
     _is_over(bench, state, "no axis has moved for ten seconds")
-    bench.controller.signals[_standing(bench)] = 1
+    bench.controller.signals[_name(bench, "standing")] = 1
 
 
-def _standing(bench: Bench) -> str:
-    (standing,) = (s for s in STATUS_SIGNALS if s.function == "standing")
-    return signal_name(bench.config, bench.group, standing)
+def _name(bench: Bench, function: str) -> str:
+    (found,) = (s for s in STATUS_SIGNALS if s.function == function)
+    return signal_name(bench.config, bench.group, found)
 
 
 @case("mixed-builds", "modules of different builds refuse to move", once=True)
