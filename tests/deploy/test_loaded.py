@@ -7,11 +7,12 @@ import pytest
 
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
-from rapidgen.deploy import from_files
+from rapidgen.deploy import from_files, make_plan
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.generate import build
 from rapidgen.system import read_system, write_cfg
 from rapidgen.system.base import Robot, base_system
+from tests.refusal import refused
 
 
 def delivered(folder, robotware, robots):
@@ -52,3 +53,20 @@ def test_deployed_booted_and_taken_off(kit, tmp_path, name, robots):
         assert {view.state for view in controller.tasks.values()} == {"running"}
     kit.deploy(FolderTransport(folder), None, verb="uninstall")
     assert files(folder) == before
+
+
+def test_a_motion_task_that_is_not_there_is_refused(tmp_path):
+    folder = delivered(tmp_path / "c", (6, 15), [Robot("T_ROB2", "ROB_2")])
+    wanted = made(load_config("irb120"))
+    assert refused(make_plan, FolderTransport(folder), wanted) == ["RG538"]
+
+
+def test_a_motion_task_that_starts_with_another_routine_is_a_step(tmp_path):
+    """As abb_driver's page advises: main renamed to ROS_main, Entry set to it."""
+    folder = delivered(tmp_path / "c", (6, 15), [Robot("T_ROB1", "ROB_1")])
+    path = folder / "SYSPAR/SYS.cfg"
+    path.write_text(path.read_text().replace('"NORMAL"', '"NORMAL" -Entry "ROS_main"'))
+    steps = make_plan(FolderTransport(folder), made(load_config("irb120"))).steps
+    assert "set Entry of T_ROB1 to main (it starts with ROS_main there)" in steps[0].what
+    own = made(load_config("irb120", overrides=("main=own",)))
+    assert not any("Entry" in step.what for step in make_plan(FolderTransport(folder), own).steps)

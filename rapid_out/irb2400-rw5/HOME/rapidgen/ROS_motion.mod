@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "c31cfc3df16a";
+    CONST string ROS_BUILD_MOTION := "7bf8b41e98e9";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -66,6 +66,7 @@ MODULE ROS_motion
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
+        ROS_stopped := FALSE;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -95,14 +96,17 @@ MODULE ROS_motion
     ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
     ! left the old path, and then go on with it.
     PROC ROS_on_stop()
+        ROS_stopped := TRUE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_start()
+        ROS_stopped := FALSE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_power()
+        ROS_stopped := TRUE;
         interrupted ROS_REASON_POWER_FAILURE;
     ENDPROC
 

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "c133daf12e96";
+    CONST string ROS_BUILD_MOTION := "9c6ec08dc947";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -63,6 +63,7 @@ MODULE ROS_motion
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
+        ROS_stopped_2 := FALSE;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -92,14 +93,17 @@ MODULE ROS_motion
     ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
     ! left the old path, and then go on with it.
     PROC ROS_on_stop()
+        ROS_stopped_2 := TRUE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_start()
+        ROS_stopped_2 := FALSE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_power()
+        ROS_stopped_2 := TRUE;
         interrupted ROS_REASON_POWER_FAILURE;
     ENDPROC
 
