@@ -14,7 +14,7 @@ from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
-from rapidgen.generate.cell import Cell, missing
+from rapidgen.generate.cell import Cell, in_the_way, missing
 from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
 from rapidgen.generate.numbers import literal
@@ -32,7 +32,8 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
 
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
     RG105 (the first line of a cfg file is not known for this RobotWare), RG110 (the cell has
-    something in another way), RG720..RG723 (it would not load the files).
+    something in another way), RG112 (its program has a name that ours needs), RG720..RG723 (it
+    would not load the files).
     """
     templates = data_folder("templates")
     build_id = make_build_id(config, templates)
@@ -51,7 +52,7 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     files.append(manifest_file(files, _head(config, build_id, files)))
     output = Output(config.name, build_id, tuple(files))
     if cell is not None:
-        make_system(config, output, under=of_backup(cell.cfg, cell.system))
+        in_the_way(make_system(config, output, under=of_backup(cell.cfg, cell.system)), output)
     return output
 
 
@@ -61,7 +62,7 @@ def make_system(
     *,
     under: Under | None = None,
     without: Collection[str] = (),
-    open_words: bool = False,
+    open_words: bool = True,
 ) -> System:
     """The controller that the output makes, as `system.read_folder` without the disk."""
     modules = {}

@@ -102,7 +102,7 @@ def onto(
     given: Iterable[Addition],
     load: Load,
     *,
-    open_words: bool = False,
+    open_words: bool = True,
     notes: list[Diagnostic] | None = None,
 ) -> System:
     """The controller with the files loaded onto it, in mode "add".

@@ -148,6 +148,16 @@ def test_a_module_in_the_program_is_refused(backup):
     assert fault.span.path == str(place)
 
 
+@pytest.mark.parametrize("name", ["ROS_run", "ROS_latched"])
+def test_a_name_of_the_program_is_in_the_way(backup, name):
+    """A Grinding.mod of 6.13 has a global `distance`, which hides a predefined function."""
+    path = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    path.write_text(
+        path.read_text().replace("MODULE theirs\n", f"MODULE theirs\n VAR num {name};\n")
+    )
+    assert {fault.code for fault in refused(backup)} == {"RG112"}
+
+
 GROUPS = """MECHANICAL_UNIT_GROUP:
   -Name "rob21" -Robot "ROB_1" -MechanicalUnit_1 "TRACK_1" -UseMotionPlanner "motion_planner_1"
 """

@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "c77230c9f415";
+    CONST string ROS_BUILD_DOWNLOAD := "74250229b435";
 
     LOCAL CONST dnum NO_BITS := 0;
 
