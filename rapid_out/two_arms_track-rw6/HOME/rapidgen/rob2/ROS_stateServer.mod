@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "fc80f307d0f2";
+    CONST string ROS_BUILD_STATE_SERVER := "856c54932cb2";
 
     LOCAL CONST num PORT := 11012;
     LOCAL CONST num PERIOD := 0.1;
@@ -109,6 +109,7 @@ MODULE ROS_stateServer
 
     LOCAL PROC wait_for_client()
         WHILE clients = 0 DO
+            IF ROS_standing() = ROS_TRI_TRUE belief := BELIEF_MAX;
             welcome WAIT_MAX;
         ENDWHILE
         ticks := 0;
