@@ -168,6 +168,13 @@ def missing(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> tuple[tuple[str
     return tuple(kept)
 
 
+def used_signals(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> dict[str, str]:
+    """Signals of the files that the cell has, with their types."""
+    names = (i.text("Name") for _, text in texts for i in text.instances("EIO_SIGNAL"))
+    found = {name: cell.cfg.signal(name) for name in names}
+    return {name: old.text("SignalType") for name, old in found.items() if old is not None}
+
+
 def _lacking(text: CfgText, section: Section, cell: Cell) -> Iterator[Instance]:
     for instance in section.instances:
         old = _existing(text, section, instance, cell)
