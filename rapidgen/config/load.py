@@ -12,6 +12,7 @@ from rapidgen.config.contradictions import contradictions
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import ChainLink, RobotConfig
+from rapidgen.config.open_lines import take_open
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
 
@@ -31,7 +32,11 @@ def load_config(
     result's `diagnostics`.
     """
     assembly = assemble(path_or_name, overrides)
+    assembly.root, open_lines = take_open(assembly.root)
     valid = validate(assembly.root)
+    if open_lines:
+        faults = assembly.found + valid.found
+        raise DiagnosticError(in_order(open_lines + faults), exit_code=2 if faults else 1)
     report = DraftFindings(assembly.root, valid.removed)
     report.found = assembly.found + valid.found
     groups = valid.configuration.groups

@@ -30,6 +30,10 @@ from rapidgen.diagnostics import (
     suggest,
 )
 
+_ROBOT_JOINTS = 4
+"""A macro with fewer joints is a part, not a robot."""
+_WORLD = "world"
+"""Where a macro's `parent` is unless given."""
 _NAMESPACE = "http://www.ros.org/wiki/xacro"
 
 
@@ -217,12 +221,14 @@ def _unknown_arguments(request: Request, known: set[str]) -> list[Diagnostic]:
 
 
 def _macro_only(request: Request, defined: tuple[Macro, ...]) -> Diagnostic:
-    shown = ", ".join(macro.shown for macro in defined)
+    shown = ", ".join(macro.shown for macro in defined[:6]) + (", ..." if len(defined) > 6 else "")
+    robots = [m.name for m in defined if m.joints >= _ROBOT_JOINTS]
     return error(
         "RG031",
         request.place,
         f"{request.path.name} only defines macros: {shown}",
-        f"give the top-level file, or add\n  urdf:\n    macro: {defined[0].name}",
+        "give the top-level file"
+        + (f", or add\n  urdf:\n    macro: {robots[0]}" if len(robots) == 1 else ""),
         label="expands to an empty robot",
     )
 
@@ -240,8 +246,10 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
         )
     given = dict(request.macro_arguments)
     names = {name for name, _ in macro.parameters}
-    if "prefix" in names:
-        given.setdefault("prefix", "")
+    for name, usual in (("prefix", ""), ("parent", _WORLD), ("name", "robot")):
+        if name in names:
+            given.setdefault(name, usual)
+    link = f'<link name="{_WORLD}"/>' if given.get("parent") == _WORLD else ""
     faults = [
         error(
             "RG056",
@@ -275,6 +283,6 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
     inner = '<origin xyz="0 0 0" rpy="0 0 0"/>' if blocks else ""
     return (
         f'<robot name="robot" xmlns:xacro="{_NAMESPACE}">'
-        f"<xacro:include filename={quoteattr(str(request.path.resolve()))}/>"
+        f"<xacro:include filename={quoteattr(str(request.path.resolve()))}/>{link}"
         f"<xacro:{macro.name}{attributes}>{inner}</xacro:{macro.name}></robot>"
     )

@@ -5,12 +5,13 @@ from itertools import dropwhile, pairwise
 from pathlib import Path
 
 from rapidgen.config import schema
+from rapidgen.config.axis_sets import ROBOT_AXES
 from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.model import ChainLink
 from rapidgen.config.urdf import crosscheck, limits
 from rapidgen.config.urdf.expand import Request, expand
 from rapidgen.config.urdf.graph import Graph, build_graph
-from rapidgen.config.urdf.mapping import ROBOT_AXES, infer, paste, unmapped
+from rapidgen.config.urdf.mapping import infer, paste, unmapped
 from rapidgen.config.urdf.packages import Packages
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, suggest
@@ -228,7 +229,7 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
                     after.span or place,
                     f"'{after.name}' cannot be {axis}: it does not hang on '{before.name}'",
                     "an axis on another branch or under the robot is external: eax_a..eax_f\n"
-                    + paste([j for j in graph.robot.joints if j.is_actuated]),
+                    + paste(graph, [j for j in graph.robot.joints if j.is_actuated]),
                 )
             )
     first = robot_axes[0] if robot_axes else None

@@ -25,6 +25,8 @@ class Macro:
 
     name: str
     parameters: tuple[tuple[str, bool], ...]
+    joints: int = 0
+    """How many joints it writes."""
 
     @property
     def shown(self) -> str:
@@ -72,10 +74,13 @@ def is_xacro(path: Path, text: str) -> bool:
 def macros(text: str) -> tuple[Macro, ...]:
     """Macros that a xacro text defines, in order."""
     found = []
-    for hit in _MACRO.finditer(_COMMENT.sub("", text)):
+    plain = _COMMENT.sub("", text)
+    for hit in _MACRO.finditer(plain):
+        end = plain.find("</xacro:macro", hit.end())
+        joints = plain.count("<joint", hit.end(), end if end >= 0 else len(plain))
         given = {m[1]: m[2] if m[2] is not None else m[3] for m in _ATTRIBUTE.finditer(hit[1])}
         if "name" in given:
-            found.append(Macro(given["name"], _parameters(given.get("params", ""))))
+            found.append(Macro(given["name"], _parameters(given.get("params", "")), joints))
     return tuple(found)
 
 
