@@ -28,6 +28,8 @@ Range: TypeAlias = tuple[float | None, float | None]
 _CLOSE = 0.6
 """deg or mm by which sources round a range"""
 _FASTER = 1.01
+_LONGEST_LINK, _LONGEST_ARM, _FARTHEST_BASE = 5.0, 10.0, 1000.0
+"""m; the longest arm of ABB reaches 4.2 (IRB 8700)"""
 _SAME_END = 0.005
 """m: flanges of one variant, as its sources have them"""
 
@@ -38,6 +40,7 @@ def contradictions(
     """RG047, RG048, RG049 and RG055 for a group; `names` may say the family."""
     if any(not joint.axis for joint in draft.joints):
         return
+    _lengths(draft, path, report)
     arm = _arm(draft)
     variant = of_model(draft.model, draft.name) if draft.model else None
     difference, is_named = None, True
@@ -66,6 +69,30 @@ def contradictions(
             known = variant.axis(joint.axis)
             if known:
                 _figures(joint, known, variant, draft, path, report)
+
+
+def _lengths(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
+    """RG062: no arm is that long; a chain in mm where m are meant is."""
+    robot = {joint.name for joint in draft.joints if joint.axis.startswith("rax")}
+    inside, total = False, 0.0
+    for number, step in enumerate(draft.chain):
+        length = math.dist(step.xyz, (0.0, 0.0, 0.0))
+        most = _LONGEST_LINK if inside else _FARTHEST_BASE
+        total += length if inside else 0.0
+        if not length <= most or not total <= _LONGEST_ARM:
+            where = f"'{step.joint}'" if step.joint else f"step {number + 1}"
+            at: KeyPath = (*path, "urdf", "file") if draft.urdf_chain else (*path, "chain", number)
+            report.error(
+                "RG062",
+                f"the chain is {length:.4g} m long before {where}"
+                if not length <= most
+                else f"the arm is {total:.4g} m long as far as {where}",
+                at,
+                "no robot is",
+                "lengths are m in a URDF and mm in a configuration",
+            )
+            return
+        inside = inside or step.joint in robot
 
 
 def _arm(draft: GroupDraft) -> Skeleton | None:

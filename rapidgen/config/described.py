@@ -9,6 +9,7 @@ from pathlib import Path
 from rapidgen.config import schema
 from rapidgen.config.contradictions import is_mirror
 from rapidgen.config.draft import JointDraft
+from rapidgen.config.few import few
 from rapidgen.config.library import Variant, family
 from rapidgen.config.model import ChainLink
 from rapidgen.config.open_lines import OPEN
@@ -92,7 +93,7 @@ def describe(
     if refused and refused[0].message.startswith("a delta"):
         faults = refused
     if faults or refused:
-        raise DiagnosticError(faults or refused)
+        raise DiagnosticError(few(faults or refused))
     _check_names(cell, answers)
     arms = _chosen(cell, answers)
     groups = [_group(cell, arm, arms, number, answers) for number, arm in enumerate(arms)]
@@ -190,7 +191,8 @@ def _group(cell: Cell, arm: Arm, arms: Sequence[Arm], number: int, answers: Answ
     if number == 0:
         tail += _positioners(cell)
     tip = cell.graph.tip_link(arm.joints[-1])
-    needs_tip = len(arms) > 1 or bool(arm.behind) or len(cell.arms) > 1
+    own = {line.name for line in lines} | set(answers.ignore)
+    needs_tip = any(j.is_actuated and j.name not in own for j in cell.graph.robot.joints)
     return GroupText(
         _name(arm, arms, number), [*head, *([f"tip: {tip}"] if needs_tip else [])], lines, tail
     )

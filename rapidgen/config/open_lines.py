@@ -6,7 +6,6 @@ from rapidgen.diagnostics import Diagnostic, error
 
 OPEN = '"???"'
 """As it is written: without quotes it would begin a key between braces."""
-_SHOWN = 20
 
 
 def take_open(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
@@ -39,7 +38,4 @@ def take_open(root: MappingNode) -> tuple[MappingNode, list[Diagnostic]]:
 
     made = walk(root, ())
     assert isinstance(made, MappingNode)
-    if len(found) > _SHOWN:
-        rest = f"and {len(found) - _SHOWN} more open lines"
-        found = [*found[:_SHOWN], error("RG022", found[_SHOWN].span, rest)]
     return made, found

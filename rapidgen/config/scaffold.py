@@ -87,6 +87,13 @@ def from_urdf(
     robot of ABB.
     """
     said = answers or Answers()
+    if not str(urdf).isprintable():
+        raise refusal(
+            "RG020",
+            None,
+            f"the name {urdf.name!a} has characters that are not printed",
+            "give the file another name",
+        )
     given = schema.UrdfKeys(
         file=_relative(urdf, folder),
         macro=macro,

@@ -9,9 +9,9 @@ from rapidgen.config.geometry import IDENTITY, Line, Vector, add, apply, from_rp
 from rapidgen.config.recognition import Alignment, align
 from rapidgen.config.urdf.graph import Graph
 from rapidgen.config.urdf.robot import UrdfJoint
-from rapidgen.diagnostics import Diagnostic, Span, error
+from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
-_SEVEN = ("rax_1", "rax_2", "eax_a", "rax_3", "rax_4", "rax_5", "rax_6")
+MOST_MOVING = 120
 _MAKERS = re.compile(
     r"(?<![a-z0-9])(kuka|kr_?\d+|iiwa|fanuc|lrmate|m\d+i[abd]|ur\d+e?|motoman|yaskawa|panda|fr3|franka|staubli|"
     r"tx2?_?\d+|kinova|gen3|jaco|xarm\d?|denso|vs_?\d{3}|nachi|comau|kawasaki|doosan|hyundai)(?![a-z0-9])",
@@ -59,6 +59,13 @@ def lines_of(graph: Graph, joints: Sequence[UrdfJoint]) -> list[Line]:
 def read_cell(graph: Graph, names: tuple[str, ...]) -> Cell:
     """The arms of a checked description, and the positioners beside them."""
     moving = [j for j in graph.robot.joints if j.is_actuated]
+    if len(moving) > MOST_MOVING:
+        raise refusal(
+            "RG043",
+            None,
+            f"{len(moving)} joints move by themselves; a cell has at most {MOST_MOVING}",
+            "give the description of the robot alone",
+        )
     arms: list[Arm] = []
     rest: list[tuple[UrdfJoint, ...]] = []
     for chain in graph.chains(moving):
@@ -138,6 +145,14 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
             "say its axes by hand: `joints:` with rax_1 to rax_4, ranges and speeds, "
             "and `keep: [rax_5, rax_6]`",
         )
+    elif mimic := _arms_mimic(cell):
+        yield error(
+            "RG042",
+            mimic.span or place,
+            f"joint '{mimic.name}' mimics '{mimic.mimic}' and is no axis of its own: too few are "
+            "left for an arm",
+            "take the <mimic> out where the joint is an axis",
+        )
     elif not cell.arms:
         count = sum(len(chain) for chain in cell.positioners)
         yield error(
@@ -151,6 +166,18 @@ def no_robot(cell: Cell, place: Span | None) -> Iterator[Diagnostic]:
             if count
             else "give the top-level file of the robot",
         )
+
+
+def _arms_mimic(cell: Cell) -> UrdfJoint | None:
+    """A turning joint that follows another one where an arm has too few of its own."""
+    graph = cell.graph
+    if any(arm.alignment or len(arm.joints) >= 6 or all(arm.axes) for arm in cell.arms):
+        return None
+    for joint in graph.robot.joints:
+        around = sum(j.is_actuated for j in graph.path_to(joint.child))
+        if joint.mimic and joint.kind != "prismatic" and around >= 2:
+            return joint
+    return None
 
 
 def _is_parallel(graph: Graph) -> bool:

@@ -9,6 +9,7 @@ from rapidgen.config.axis_sets import ROBOT_AXES
 from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.model import ChainLink
 from rapidgen.config.urdf import crosscheck, limits
+from rapidgen.config.urdf.arms import MOST_MOVING
 from rapidgen.config.urdf.expand import Request, expand
 from rapidgen.config.urdf.graph import Graph, build_graph
 from rapidgen.config.urdf.mapping import infer, paste, unmapped
@@ -50,6 +51,9 @@ def complete_from(
     if any(d.severity is Severity.ERROR for d in found):
         return found, description.inputs
     candidates, faults = _candidates(graph, given, elsewhere, place)
+    if len(candidates) > MOST_MOVING:
+        many = f"{len(candidates)} joints move by themselves"
+        faults.append(error("RG043", place, many, "name the arm's end with urdf.tip"))
     found += faults
     if not faults:
         found += _map(draft, graph, candidates, elsewhere, place)

@@ -152,13 +152,23 @@ def _shape(
             "name the others under urdf.ignore_joints, or map all:\n" + paste(graph, joints),
             label=", ".join(j.name for j in joints[:12]),
         )
-    if len(joints) == 4:
+    if len(joints) == 4 and not any(j.mimic for j in graph.path_to(joints[-1].child)):
         return error(
             "RG050",
             place,
             "four joints: a SCARA or a palletiser?",
             "a SCARA has rax_1, rax_2, rax_3, rax_4; a palletiser rax_1, rax_2, rax_3, rax_6:\n"
             + paste(graph, joints),
+        )
+    mimics = [j for j in graph.path_to(joints[-1].child) if j.mimic]
+    if mimics and len(joints) < 6:
+        return error(
+            "RG042",
+            mimics[0].span or place,
+            f"joint '{mimics[0].name}' mimics '{mimics[0].mimic}' and is no axis of its own: "
+            f"{len(joints)} joints are left for the axes of the arm",
+            "take the <mimic> out where the joint is an axis",
+            label="not an axis",
         )
     if len(joints) < 6 or len(chains) > 1:
         return error(

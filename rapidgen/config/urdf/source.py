@@ -5,13 +5,14 @@ xacro input is code (it reads files and the environment); plain URDF is only dat
 """
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from xml.parsers import expat
 
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MAX_BYTES = 20_000_000
-_DOCTYPE = re.compile(r"<!\s*(DOCTYPE|ENTITY)", re.IGNORECASE)
 _ARG = re.compile(r"""<xacro:arg\s[^>]*?name\s*=\s*["']([^"']+)["']""")
 _ARG_USE = re.compile(r"""\$\(arg\s+([^)\s]+)\s*\)|\barg\(\s*["']([^"']+)["']""")
 _MACRO = re.compile(r"<xacro:macro\s([^>]*)>", re.DOTALL)
@@ -38,6 +39,8 @@ class Macro:
 def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
     """Text and bytes of an XML file; raises DiagnosticError (RG060)."""
     try:
+        if path.exists() and not path.is_file():
+            raise refusal("RG060", place, f"{path} is no file", "give the path of a file")
         with path.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
@@ -53,9 +56,8 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
         raise refusal(
             "RG060", place, f"{path} is not UTF-8 text", "save the file as UTF-8"
         ) from None
-    hit = _DOCTYPE.search(_COMMENT.sub(lambda m: " " * len(m[0]), text))
-    if hit or "\x00" in text:
-        line = text.count("\n", 0, hit.start()) + 1 if hit else 1
+    line = _doctype(text)
+    if line:
         raise refusal(
             "RG060",
             Span(str(path), line, 1),
@@ -64,6 +66,26 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
             label="refused",
         )
     return text, data
+
+
+class _Declared(Exception):
+    """A document type; nothing behind it is read."""
+
+
+def _doctype(text: str) -> int:
+    """Line of a document type; 0: there is none before the root."""
+
+    def declared(*_: object) -> None:
+        raise _Declared
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = declared
+    try:
+        with suppress(expat.ExpatError):  # said where the text is read
+            parser.Parse(text.encode(), True)
+    except _Declared:
+        return parser.CurrentLineNumber
+    return 0
 
 
 def is_xacro(path: Path, text: str) -> bool:
