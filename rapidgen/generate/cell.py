@@ -39,7 +39,7 @@ def read_cell(folder: Path | str) -> Cell:
     notes: list[Diagnostic] = []
     system = read_backup(folder, notes=notes)
     cfg = backup_cfg(Path(folder), system.robotware, notes)
-    return Cell(system, cfg, tuple(notes))
+    return Cell(system, cfg, tuple(dict.fromkeys(notes)))
 
 
 # -- the configuration ----------------------------------------------------------------------------

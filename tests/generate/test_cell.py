@@ -3,6 +3,7 @@
 import pytest
 
 from rapidgen.config import from_manifest, load_config
+from rapidgen.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, write
 from rapidgen.generate.cell import fit, read_cell
@@ -86,6 +87,16 @@ def test_the_result_loads_and_only_adds(backup, tmp_path):
     assert (system.home_below, system.home) == (backup / "HOME", tmp_path / "out/HOME")
     config = from_manifest(read_manifest(tmp_path / "out")["configuration"])
     assert config.groups[0].task == "T_MOVE"
+
+
+def test_home_is_the_cells_and_ours_over_it(backup, tmp_path):
+    (backup / "HOME/theirs.txt").write_text("kept")
+    write(built(backup)[1], tmp_path / "out")
+    with VirtualController.from_folder(tmp_path / "out", backup=backup) as controller:
+        home = controller.files.path("HOME:")
+        assert (home / "theirs.txt").read_text() == "kept"
+        assert (home / "rapidgen/ROS_motion.mod").is_file()
+        assert "T_MOVE" in controller.rapid_tasks
 
 
 def test_a_build_for_a_cell_boots_without_it(backup, tmp_path):

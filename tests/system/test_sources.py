@@ -382,3 +382,10 @@ def test_a_file_that_may_be_refused(tmp_path):
     assert read_folder(tmp_path, without=("SYS_open.cfg",)).outputs == ()
     taken = read_folder(tmp_path, open_words=True).outputs
     assert [(o.status, o.signal) for o in taken] == [("EmStop", "doA")]
+
+
+def test_a_damaged_moc_is_a_note(backup):
+    put(backup / "SYSPAR/MOC.cfg", "MOC:CFG_1.0:6:0::\nROBOT:\n what is this\n")
+    notes = []
+    assert read_backup(backup, notes=notes).robot_types == ()
+    assert ("RG702", Severity.WARNING) in [(note.code, note.severity) for note in notes]
