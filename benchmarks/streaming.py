@@ -38,7 +38,7 @@ from rapidgen.wire.simple_message.bulk import encode_points
 from rapidgen.wire.simple_message.spec import StreamFlag
 from tests.foreign.abb_driver import read_system
 
-BATCH = 30
+BATCH = 35
 RING = 127
 SOCKETS = {"ros_receive", "ros_send", "ros_peek", "ros_accept"}
 
@@ -91,7 +91,7 @@ def per_point(config: RobotConfig, scale: float, *, foreign: Path | None = None)
     if foreign is None:
         policy = replace(config.trajectory, ring=512, preload=10, min_segment=0.01)
         bench = booted(replace(config, trajectory=policy), costs=costs)
-        frames = batches(300, duration=0.02)
+        frames = batches(9 * BATCH, duration=0.02)
         client = bench.motion()
         client.send(frames[0])
         reply(client)
@@ -187,7 +187,7 @@ def stopping(config: RobotConfig, seed: int) -> float:
     client, own = bench.motion(), bench.control()
     for _ in range(3):
         watcher = bench.state()
-        watcher.send(struct.pack("<4i5i", 32, 1300, 2, 0, 2, 0, 1, 0, 1 + 16 + 32))
+        watcher.send(struct.pack("<4i5i", 32, 1300, 2, 0, 3, 0, 1, 0, 1 + 16 + 32))
     frames = batches(1500)
     client.send(frames[0])
     reply(client)

@@ -20,6 +20,7 @@ MODULE ROS_probe
 
     PROC main()
         ask_num_rounding;
+        ask_dnum_whole;
         ask_for_loop;
         ask_integer_division;
         ask_negative_mod;
@@ -53,6 +54,20 @@ MODULE ROS_probe
             answer "num_rounding=store";
         ELSE
             answer "num_rounding=operation";
+        ENDIF
+    ENDPROC
+
+    ! Does a dnum count whole numbers behind 2^52?
+    LOCAL PROC ask_dnum_whole()
+        VAR dnum large := 4503599627370496;
+        VAR dnum one := 1;
+        VAR dnum more;
+
+        more := large + one;
+        IF more - large = one THEN
+            answer "dnum_whole=53";
+        ELSE
+            answer "dnum_whole=52";
         ENDIF
     ENDPROC
 

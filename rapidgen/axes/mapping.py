@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from rapidgen.config.model import GroupConfig, Joint
+from rapidgen.config.model import GroupConfig, Joint, KeptAxis
 
 ABSENT = 9e9
 """RAPID's value of an external axis that is not connected."""
@@ -24,11 +24,12 @@ class JointMap:
 
     joints: tuple[Joint, ...]
     coupling: float = 0.0
+    kept: tuple[KeptAxis, ...] = ()
 
     @classmethod
     def of(cls, group: GroupConfig) -> "JointMap":
         """The map of one motion group."""
-        return cls(group.joints, group.coupling)
+        return cls(group.joints, group.coupling, group.kept)
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -94,8 +95,10 @@ class JointMap:
         return tuple(j.sign * v for j, v in zip(self.joints, values, strict=True))
 
     def to_rapid(self, controller: Sequence[float]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-        """`robax` and `extax` in deg and mm; unused robot axes 0, unused external axes 9E9."""
+        """`robax` and `extax` in deg and mm; external axes without a joint are 9E9."""
         slots = [0.0] * 6 + [ABSENT] * 6
+        for axis in self.kept:
+            slots[_ROBOT_AXES.index(axis.axis)] = axis.value * _DEG
         for (slot, unit), value in zip(self._slots, controller, strict=True):
             slots[slot] = value * unit
         return tuple(slots[:6]), tuple(slots[6:])

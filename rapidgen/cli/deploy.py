@@ -22,6 +22,7 @@ def deploy(
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
     parallel: options.Parallel = 8,
+    backup: options.LoadedCfg = None,
 ) -> int:
     """Put the driver on one or several controllers: backup, upload, verify, switch.
 
@@ -37,17 +38,21 @@ def deploy(
         check_plans,
         plan_all,
         refuse_conflicts,
+        save_neighbours,
         wanted_set,
     )
     from rapidgen.deploy.target import Access
 
     wanted = wanted_set(config, overrides or ())
     access = Access(user, secrets, identity, known_hosts, ask=True)
-    job = FleetJob("deploy", parse_targets(to), access, lambda _: wanted, overwrite, parallel)
+    targets = parse_targets(to)
+    job = FleetJob("deploy", targets, access, lambda _: wanted, overwrite, parallel, backup)
     plans = plan_all(job)
     show_plans(plans)
     if plan is not None:
         check_plans(plan, plans)
+    for path in save_neighbours(plans, Path(".rapidgen") / "before"):
+        typer.echo(f"kept a copy of what loads the other driver: {path}", err=True)
     refuse_conflicts(job, plans)
     if all(made.is_empty for made in plans):
         return 0

@@ -23,6 +23,7 @@ def doctor(
     secrets: options.Secrets = None,
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
+    backup: options.LoadedCfg = None,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array.")] = False,
 ) -> int:
     """Look at a controller: reach, ports, names, RobotWare, disk, what runs.
@@ -45,6 +46,7 @@ def doctor(
         wanted_set(config, overrides or ()),
         hello=_hello,
         robot_host=host,
+        backup=backup,
     )
     if as_json:
         typer.echo(json.dumps([asdict(check) for check in checks], indent=2))

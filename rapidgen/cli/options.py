@@ -45,6 +45,13 @@ KnownHosts = Annotated[
     str, typer.Option(help="Host keys for sftp://; default ~/.ssh.", metavar="FILE")
 ]
 Parallel = Annotated[int, typer.Option(min=1, max=64, help="Controllers at a time.")]
+LoadedCfg = Annotated[
+    Path | None,
+    typer.Option(
+        help="A backup of this controller: says what is loaded, where that is not seen.",
+        metavar="FOLDER",
+    ),
+]
 Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
 ]

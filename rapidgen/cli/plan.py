@@ -24,6 +24,7 @@ def plan(
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
     parallel: options.Parallel = 8,
+    backup: options.LoadedCfg = None,
 ) -> int:
     """Show what `deploy` would do: files, cfg instances, restarts.
 
@@ -40,9 +41,15 @@ def plan(
     try:
         wanted = wanted_set(config, overrides or ())
         access = Access(user, secrets, identity, known_hosts, ask=True)
-        plans = plan_all(
-            FleetJob("deploy", parse_targets(to), access, lambda _: wanted, parallel=parallel)
+        job = FleetJob(
+            "deploy",
+            parse_targets(to),
+            access,
+            lambda _: wanted,
+            parallel=parallel,
+            backup=backup,
         )
+        plans = plan_all(job)
         if out is not None:
             write_plans(out, plans)
     except DiagnosticError as error:

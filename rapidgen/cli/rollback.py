@@ -23,6 +23,7 @@ def rollback(
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
     parallel: options.Parallel = 8,
+    backup: options.LoadedCfg = None,
 ) -> int:
     """Go back to the set before the last deployment, or to backup ID. Undoes a run that was cut.
 
@@ -58,6 +59,7 @@ def rollback(
         lambda transport: earlier_set(transport, name, number),
         overwrite,
         parallel,
+        backup,
     )
     plans = plan_all(job)
     show_plans(plans)

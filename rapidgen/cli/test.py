@@ -30,6 +30,13 @@ def test(
     quick: Annotated[
         bool, typer.Option("--quick", help="Only the default of every assumption.")
     ] = False,
+    together: Annotated[
+        int, typer.Option(help="Any N assumptions meet in some setting.", min=1, max=3, metavar="N")
+    ] = 2,
+    assume: Annotated[
+        list[str] | None,
+        typer.Option(help="Only this setting (repeatable).", metavar="NAME=ANSWER,..."),
+    ] = None,
     replay: Annotated[
         int | None,
         typer.Option(help="One schedule again, exactly; its story on stdout.", metavar="SEED"),
@@ -41,6 +48,7 @@ def test(
     uncovered: Annotated[
         bool, typer.Option("--uncovered", help="List the lines of RAPID that no case reaches.")
     ] = False,
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")] = False,
     junit: Annotated[Path | None, typer.Option(help="Write JUnit XML.", metavar="FILE")] = None,
     html: Annotated[
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
@@ -56,12 +64,16 @@ def test(
 ) -> int:
     """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
 
-    Runs on the virtual controller; every assumption about real controllers is also tried the
-    other way round. Exit code 1 when something did not hold.
+    Runs on the virtual controller; what is assumed about real controllers is also tried the
+    other way round, any two assumptions together. Exit code 1 when something did not hold.
     """
+    import json
+
     from rapidgen.config import load_config
+    from rapidgen.proving.report import as_json as report_as_json
     from rapidgen.proving.report import write_html, write_junit
     from rapidgen.proving.run import prove
+    from rapidgen.proving.settings import assumed
 
     model = load_config(config, overrides=overrides or ())
     if backup is not None:
@@ -69,6 +81,8 @@ def test(
     if replay is not None:
         return _replay(model, replay, trace)
     _check_names(case or [])
+    assuming = [text for given in assume or () for text in given.split(",")]
+    assumed(assuming)
     for path in (junit, html):
         _check_writable(path)
     with _Progress() as progress:
@@ -77,14 +91,18 @@ def test(
             seeds=seeds,
             jobs=jobs,
             only=case or (),
-            every_setting=not quick,
+            strength=0 if quick else together,
+            assuming=assuming,
             progress=progress,
         )
     if junit is not None:
         write_junit(report, junit)
     if html is not None:
         write_html(report, html)
-    _show(report, uncovered)
+    if as_json:
+        typer.echo(json.dumps(report_as_json(report), indent=1))
+    else:
+        _show(report, uncovered)
     return 0 if report.passed else 1
 
 
@@ -160,7 +178,7 @@ def _show(report: "Proof", uncovered: bool) -> None:
     from rich.console import Console
     from rich.table import Table
 
-    from rapidgen.proving.report import missed
+    from rapidgen.proving.report import complaint, missed
 
     console = Console(highlight=False)
     table = Table("group", "held", "of", "answers", box=None)
@@ -181,8 +199,7 @@ def _show(report: "Proof", uncovered: bool) -> None:
             console.print(f"not reached: {path}: {lines}", markup=False, soft_wrap=True)
     for outcome in report.outcomes:
         if not outcome.passed:
-            setting = f" [{outcome.setting}]" if outcome.setting else ""
-            console.print(f"failed: {outcome.case}{setting}: {outcome.detail}", markup=False)
+            console.print(f"failed: {complaint(outcome)}", markup=False)
     for finding in report.findings:
         console.print(f"failed: --replay {finding.seed}: {finding.detail}", markup=False)
     verdict = "everything held" if report.passed else "something did not hold"

@@ -21,6 +21,7 @@ def uninstall(
     identity: options.Identity = "",
     known_hosts: options.KnownHosts = "",
     parallel: options.Parallel = 8,
+    backup: options.LoadedCfg = None,
 ) -> int:
     """Go back to the state before the first deployment.
 
@@ -43,7 +44,8 @@ def uninstall(
 
     name = config_name(config)
     access = Access(user, secrets, identity, known_hosts, ask=True)
-    job = FleetJob("uninstall", parse_targets(to), access, lambda _: None, overwrite, parallel)
+    targets = parse_targets(to)
+    job = FleetJob("uninstall", targets, access, lambda _: None, overwrite, parallel, backup)
     plans = plan_all(job)
     check_names(plans, name)
     show_plans(plans)

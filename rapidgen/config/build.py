@@ -4,6 +4,7 @@ import math
 from pathlib import Path
 
 from rapidgen.config import model, schema
+from rapidgen.config.axis_sets import kept_axes
 from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
@@ -139,6 +140,7 @@ def _group(
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = joints_of(keys, draft, path, report)
+    kept = kept_axes(draft, dict(keys.keep.items()), path, report)
     names = {joint.name for joint in draft.joints}
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
@@ -179,6 +181,7 @@ def _group(
         positioners=tuple(
             model.Positioner(unit, tuple(chain)) for unit, chain in draft.positioners.items()
         ),
+        kept=kept,
     )
 
 

@@ -28,6 +28,8 @@ class JointDraft:
     offset: float = 0.0
     source: str = ""
     unsure: tuple[str, ...] = ()
+    described: tuple[float, float] | None = None
+    """The range that the URDF has."""
 
 
 @dataclass(slots=True)
@@ -42,6 +44,15 @@ class GroupDraft:
     coupling: float | None = None
     known: dict[tuple[str, str], float] = field(default_factory=dict)
     """Figures of the shipped model by (axis, "lower" or "upper" or "speed")."""
+    external_units: tuple[str, ...] = ()
+    urdf_chain: list[ChainLink] = field(default_factory=list)
+    """The chain of the URDF, where one is read."""
+    names: tuple[str, ...] = ()
+    """What the description and its file are called."""
+    keep: tuple[float, ...] = ()
+    """Where the axes without a joint stand (rad), in their order."""
+    ignored: tuple[str, ...] = ()
+    """Joints of the URDF that move by themselves, are part of the arm and drive no axis."""
 
 
 class DraftFindings:

@@ -8,6 +8,7 @@ from pathlib import Path
 from rapidgen.config import schema
 from rapidgen.config.assemble import Assembly, Basis, assemble
 from rapidgen.config.build import build
+from rapidgen.config.contradictions import contradictions
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import ChainLink, RobotConfig
@@ -42,12 +43,23 @@ def load_config(
         if given:
             others = {j.name for other in drafts if other is not draft for j in other.joints}
             _read_urdf(draft, given, others, [Path(p) for p in package_paths], assembly, report)
+        contradictions(draft, ("groups", draft.name), draft.names, report)
         _report_unsure(draft, groups[draft.name], report)
     config = build(valid.configuration, drafts, assembly.path, report)
     found = tuple(in_order(report.found))
     if config is None:
         raise DiagnosticError(found)
     return replace(config, inputs=tuple(assembly.inputs), diagnostics=found)
+
+
+def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:
+    """The groups of a shipped model as its file has them."""
+    assembly = assemble(name, ())
+    valid = validate(assembly.root)
+    return [
+        (_draft(group, keys, assembly.bases.get(group)), keys)
+        for group, keys in valid.configuration.groups.items()
+    ]
 
 
 def in_order(found: list[Diagnostic]) -> list[Diagnostic]:
@@ -99,7 +111,9 @@ def _draft(name: str, keys: schema.GroupKeys, basis: Basis | None) -> GroupDraft
     chain = [_link(step) for step in keys.chain]
     carriers = {unit: [_link(step) for step in steps] for unit, steps in keys.positioners.items()}
     model, known = (basis.model, basis.known) if basis else ("", {})
-    return GroupDraft(name, model, joints, chain, carriers, keys.coupling, known)
+    units = tuple(keys.external_units)
+    keep = tuple(math.radians(value or 0.0) for _, value in sorted(keys.keep.items()))
+    return GroupDraft(name, model, joints, chain, carriers, keys.coupling, known, units, keep=keep)
 
 
 def _link(step: schema.ChainStepKeys) -> ChainLink:

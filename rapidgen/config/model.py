@@ -40,6 +40,18 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
+class KeptAxis:
+    """A robot axis that no joint drives: it is held where it stands when motion is accepted.
+
+    `must_stand`: only if it stands at `value` (rad); else 0 is just what a simulation assumes.
+    """
+
+    axis: str
+    value: float = 0.0
+    must_stand: bool = False
+
+
+@dataclass(frozen=True, slots=True)
 class ChainLink:
     """One step of the kinematic chain: fixed transform to the joint, then the joint's axis.
 
@@ -131,6 +143,8 @@ class GroupConfig:
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
+    kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
+    """Robot axes without a joint."""
     unit_group: str = field(default="", metadata=SPARSE)
     """Name of the mechanical unit group, where a backup tells another than the unit's."""
 

@@ -7,7 +7,7 @@ said by `build.py`.
 
 import re
 from dataclasses import dataclass, field, fields
-from typing import Annotated, Any, ClassVar, Literal
+from typing import Annotated, Any, ClassVar, Literal, get_args
 
 from rapidgen.config.rules import Rule
 from rapidgen.config.tree import Number
@@ -17,12 +17,14 @@ Axis = Literal[
     "rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6",
     "eax_a", "eax_b", "eax_c", "eax_d", "eax_e", "eax_f",
 ]
+RobotAxis = Literal["rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6"]
 Figure = Literal["lower", "upper", "speed", "acceleration", "axis", "sign", "offset"]
 Zone = Literal[
     "fine", "z0", "z1", "z5", "z10", "z15", "z20", "z30",
     "z40", "z50", "z60", "z80", "z100", "z150", "z200",
 ]
 # fmt: on
+ROBOT_AXES = list(get_args(RobotAxis))
 Identifier = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}$")]
 GroupName = Annotated[str, Rule(pattern=r"^[a-z][a-z0-9_]{0,11}$")]
 ConfigName = Annotated[str, Rule(pattern=r"^[A-Za-z][A-Za-z0-9_-]{0,39}$")]
@@ -45,6 +47,11 @@ def _robotware(value: object) -> object:
     if not (5, 15) <= version < (9, 0):
         raise ValueError("RobotWare 5.15 to 8 is supported")
     return version
+
+
+def _keep(value: object) -> object:
+    """[rax_5] to {rax_5: None}; {rax_5: 30} stays."""
+    return dict.fromkeys(value) if isinstance(value, list) else value
 
 
 RobotWare = Annotated[
@@ -239,6 +246,24 @@ class GroupKeys(_Part):
     joints: Annotated[
         dict[str, JointKeys],
         Rule("Joint name: its axis. The order is the order on the wire; at most 10."),
+    ] = field(default_factory=dict)
+    keep: Annotated[
+        dict[RobotAxis, float | None],
+        Rule(
+            "Robot axes without a joint: `[rax_5]` is held where it stands when a trajectory is "
+            "accepted; `{rax_5: 30}` is refused unless it stands there, deg.",
+            before=_keep,
+            json={
+                "anyOf": [
+                    {"type": "array", "items": {"enum": ROBOT_AXES}},
+                    {
+                        "type": "object",
+                        "propertyNames": {"enum": ROBOT_AXES},
+                        "additionalProperties": {"type": "number"},
+                    },
+                ]
+            },
+        ),
     ] = field(default_factory=dict)
     acceleration_time: Annotated[
         float,

@@ -15,7 +15,8 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
-from rapidgen.deploy.plan import FileChange, Plan
+from rapidgen.deploy.neighbour import Neighbour
+from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.state import Journal, encode, journal_json, manifest_json
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, refused
@@ -39,12 +40,15 @@ def apply(
 ) -> None:
     """Do exactly what `plan` says; nothing when it is empty.
 
-    Raises DiagnosticError: RG520, RG521 (conflicts), RG522 (the controller moved on), RG527
-    (cut while switching); TransportFault before that: then nothing old was changed.
+    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537 (conflicts), RG522
+    (the controller moved on), RG527 (cut while switching); TransportFault before that: then
+    nothing old was changed.
     """
-    if plan.conflicts and not overwrite:
-        raise DiagnosticError(conflicts_of(plan), exit_code=1)
-    if make_plan(transport, plan.wanted, verb=plan.verb).fingerprint != plan.fingerprint:
+    conflicts = conflicts_of(plan, overwrite=overwrite)
+    if conflicts:
+        raise DiagnosticError(conflicts, exit_code=1)
+    now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
+    if now_there.fingerprint != plan.fingerprint:
         raise moved_on(plan.target)
     if plan.is_empty:
         return
@@ -64,9 +68,58 @@ def apply(
         raise _cut(plan, fault) from fault
 
 
-def conflicts_of(plan: Plan) -> list[Diagnostic]:
-    """RG520 and RG521 for everything that only `overwrite` replaces."""
-    return [_conflict(change) for change in plan.conflicts]
+def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
+    """RG520, RG521, RG531: only `overwrite` replaces that; the others: nothing does."""
+    found = [] if overwrite else [_conflict(change) for change in plan.conflicts]
+    if plan.damaged and not overwrite:
+        found.insert(0, error("RG531", None, plan.damaged, DAMAGED))
+    if plan.neighbour is not None:
+        found.append(_beside(plan, plan.neighbour))
+    if plan.in_memory:
+        found.append(
+            error(
+                "RG537",
+                None,
+                f"{plan.target} is a backup that holds {len(plan.in_memory)} modules with names of "
+                "ours as its programs: it would restore those",
+                "delete them from the backup (its HOME and SYSPAR load ours), or deploy to HOME of "
+                "the controller itself",
+                notes=plan.in_memory,
+            )
+        )
+    found += [
+        error(
+            "RG535",
+            None,
+            f"{change.key.partition(' ')[2]} is {change.note}",
+            "rename the signal on the controller, or whatever uses it",
+        )
+        for change in plan.cfg
+        if change.action == "clash"
+    ]
+    return found
+
+
+def _beside(plan: Plan, other: Neighbour) -> Diagnostic:
+    help = "its modules have names of ours, and both serve the same ports: " + "; ".join(
+        f"({n}) {step.what}" for n, step in enumerate(plan.steps, 1)
+    )
+    if other.instances:
+        return error(
+            "RG534",
+            None,
+            f"another driver is loaded on {plan.target}, abb_driver or an earlier one",
+            help,
+            notes=tuple(f"{n.domain}: {n.shown}" for n in other.instances),
+        )
+    return error(
+        "RG534",
+        None,
+        f"another driver lies in {plan.target}, and what is loaded is not seen",
+        "where it is not loaded, say so with a backup of the controller: --backup FOLDER; else "
+        + help,
+        notes=tuple(f"HOME:/{path}" for path in other.files),
+    )
 
 
 def moved_on(target: str) -> DiagnosticError:
@@ -207,11 +260,11 @@ def _finish(work: Work, journal: Journal | None) -> None:
     elif journal is not None and journal.new is not None:
         kept = (str(past.id) for past in journal.new.history)
         delete_backups(work, keep=frozenset({"origin", *kept}))
+    delete_empty_folders(work)
     for name in ("switching", "journal.a", "journal.b"):
         delete_all(work, [f"{folder}/{name}"])
     if work.plan.wanted is None:
         delete_folder(work, folder)
-    delete_empty_folders(work)
 
 
 def _clean(work: Work) -> None:

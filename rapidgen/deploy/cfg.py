@@ -1,8 +1,10 @@
 """cfg instances: what has to be added, changed or taken away, and merging them into SYSPAR.
 
-Loading parameters on a controller adds instances and replaces those of the same name; it never
-removes one. Instances without a name (CAB_TASK_MODULES, SYSSIG_OUT, ...) are told apart by the
-attributes that make them what they are.
+Loading parameters on a controller adds instances, and replaces those of the same name or refuses
+them (120006 [real 6.03]); it never removes one. Instances without a name (CAB_TASK_MODULES,
+SYSSIG_OUT, ...) are told apart by the attributes that make them what they are; names compare
+without case [backup 6.06]. Motion tasks, unit groups and the firewall's rules are the controller's
+own: they get back what they had, and are never taken away.
 """
 
 from collections.abc import Iterable, Mapping
@@ -15,11 +17,20 @@ from rapidgen.system import Attribute, CfgText, Instance, Section
 _KEYS: dict[str, tuple[str, ...]] = {
     "CAB_TASK_MODULES": ("File", "Task"),
     "CAB_EXEC_HOOKS": ("Routine", "Shelf", "Task"),
-    # The signal is in -Signal to RobotWare 6 and in -Name from 7 on.
     "SYSSIG_OUT": ("Status", "Signal", "Name", "Arg1", "Arg2"),
     "SYSSIG_IN": ("Signal", "Name", "Action"),
     "EIO_CROSS": ("Res",),
 }
+_OWN = ("MECHANICAL_UNIT_GROUP", "FIREWALL_MANAGEMENT")
+"""The firewall's rules are delivered with the controller, closed [backup 7.5, 7.6]."""
+_THEIRS = ("name", "type", "motiontask")
+"""What a motion task of a controller has without any driver [eight backups, RW 5.15 to 6.13]."""
+
+
+CfgAction = Literal["add", "change", "same", "use", "clash", "restore", "leave", "remove"]
+"""`use`: somebody else's signal of the same kind, or output that drives it, is there and stays;
+`clash`: one of another kind; `restore`: gets back what it had before the first deployment;
+`leave`: the controller's own, no longer in our files."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,44 +39,76 @@ class CfgChange:
 
     domain: str
     key: str
-    action: Literal["add", "change", "same", "remove"]
+    action: CfgAction
+    note: str = ""
+    """What differs, where a person has to see to it."""
+    named: bool = True
+    """Whether loading can tell which instance it replaces."""
 
 
-Keyed = dict[tuple[str, str, str], Instance]
-"""(domain, section, key) to instance."""
+Key = tuple[str, str, str]
+Keyed = dict[Key, Instance]
+"""(domain, section, what it is, without case) to instance."""
 
 
 def keyed(texts: Iterable[CfgText]) -> Keyed:
     """All instances by what makes them what they are; of duplicates the last, as in loading."""
     return {
-        (text.domain, section.name, _key(section.name, instance)): instance
+        (text.domain, section.name, shown_key(section.name, instance).casefold()): instance
         for text in texts
         for section in text.sections
         for instance in section.instances
     }
 
 
-def names_of(keys: Iterable[tuple[str, str, str]]) -> frozenset[str]:
-    """Keys as one text each, the way a manifest holds them."""
-    return frozenset(" ".join(key) for key in keys)
+def may_be_refused(text: CfgText) -> bool:
+    """Whether it is a file of instances that no controller has answered: all of it is optional."""
+    return text.path.casefold().endswith("_open.cfg")
 
 
-def compare(wanted: Keyed, present: Keyed, ours: frozenset[str]) -> tuple[CfgChange, ...]:
-    """Changes from `present` to `wanted`; what is only in `ours` (deployed before) goes."""
+def name_of(key: Key) -> str:
+    """A key as one text, the way a manifest holds it; without case."""
+    return " ".join(key).casefold()
+
+
+def compare(
+    wanted: Keyed, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+) -> tuple[CfgChange, ...]:
+    """Changes from `present` to `wanted`; what is only in `ours` (deployed before) goes.
+
+    `before` has the instances from before the first deployment, as far as they were seen.
+    """
     found = []
     for key, instance in wanted.items():
-        other = present.get(key)
-        if other is None:
-            action: Literal["add", "change", "same"] = "add"
+        action, note = _toward(key, instance, present, ours, before)
+        found.append(_change(key, instance, action, note))
+    for key, instance in present.items():
+        name = name_of(key)
+        if key in wanted or name not in ours:
+            continue
+        old = before.get(name)
+        if old is not None:
+            same = _equal(instance_from(old), instance)
+            found.append(_change(key, instance, "same" if same else "restore"))
+        elif stays(key, instance, before, uninstall=not wanted):
+            words = [a for a in instance.attributes if a.name.casefold() not in _THEIRS]
+            found.append(_change(key, instance, "leave", attributes_text(words)))
         else:
-            action = "same" if _equal(instance, other) else "change"
-        found.append(CfgChange(key[0], f"{key[1]} {key[2]}", action))
-    found += [
-        CfgChange(key[0], f"{key[1]} {key[2]}", "remove")
-        for key in present
-        if key not in wanted and " ".join(key) in ours
-    ]
+            found.append(_change(key, instance, "remove"))
     return tuple(found)
+
+
+def without_used(
+    wanted: Keyed, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+) -> Keyed:
+    """`wanted`, with what somebody else has defined to the same end as it is."""
+    found = {}
+    for key, instance in wanted.items():
+        if _toward(key, instance, present, ours, before)[0] != "use":
+            found[key] = instance
+        elif key in present:
+            found[key] = present[key]
+    return found
 
 
 def merged(
@@ -81,16 +124,18 @@ def merged(
     for section in present.sections:
         kept = []
         for instance in section.instances:
-            key = (domain, section.name, _key(section.name, instance))
+            key = (domain, section.name, shown_key(section.name, instance).casefold())
             if key in left:
                 new = left.pop(key)
                 kept.append(instance if _equal(instance, new) else new)
             elif key in wanted:
                 continue  # a duplicate of one that is in place already
-            elif " ".join(key) in ours:
-                old = before.get(" ".join(key))
+            elif name_of(key) in ours:
+                old = before.get(name_of(key))
                 if old is not None:
                     kept.append(instance_from(old))
+                elif stays(key, instance, before, uninstall=not wanted):
+                    kept.append(instance)
             else:
                 kept.append(instance)
         kept += (
@@ -105,12 +150,35 @@ def merged(
     return CfgText(domain, present.version, tuple(s for s in sections if s.instances), present.path)
 
 
-def remember(wanted: Keyed, present: Keyed, before: Mapping[str, Json]) -> Members:
-    """`before` with an entry for each wanted instance: what was there first, or None."""
+def stays(key: Key, instance: Instance, before: Mapping[str, Json], *, uninstall: bool) -> bool:
+    """Whether it is the controller's own and nothing says that a deployment brought it."""
+    return is_delivered(key[1], instance) and not (uninstall and name_of(key) in before)
+
+
+def is_delivered(section: str, instance: Instance) -> bool:
+    """Whether a controller has such an instance before anybody adds one."""
+    return section in _OWN or (section == "CAB_TASKS" and instance.flag("MotionTask"))
+
+
+def attributes_text(attributes: Iterable[Attribute]) -> str:
+    """Attributes the way a cfg file has them, on one line."""
+    return " ".join(
+        " ".join([f"-{a.name}", *(f'"{v}"' if isinstance(v, str) else str(v) for v in a.values)])
+        for a in attributes
+    )
+
+
+def remember(
+    wanted: Keyed, present: Keyed, before: Mapping[str, Json], ours: frozenset[str]
+) -> Members:
+    """`before` with an entry for each wanted instance: what was there first, or None.
+
+    Of one that is ours without an entry nobody saw what was there first.
+    """
     result = dict(before)
     for key in wanted:
-        name = " ".join(key)
-        if name not in result:
+        name = name_of(key)
+        if name not in result and name not in ours:
             old = present.get(key)
             result[name] = _to_json(old) if old is not None else None
     return result
@@ -121,7 +189,49 @@ def _last(text: CfgText, section: Section) -> bool:
     return [s for s in text.sections if s.name == section.name][-1] is section
 
 
-def _key(section: str, instance: Instance) -> str:
+def _toward(
+    key: Key, instance: Instance, present: Keyed, ours: frozenset[str], before: Mapping[str, Json]
+) -> tuple[CfgAction, str]:
+    """What becomes of a wanted instance, and why where a person has to know."""
+    other = present.get(key)
+    if other is None:
+        return _driven(key, instance, present, ours)
+    old = before.get(name_of(key))
+    theirs = name_of(key) not in ours or (old is not None and _equal(instance_from(old), other))
+    if key[1] == "EIO_SIGNAL" and theirs:
+        kind, needed = other.text("SignalType"), instance.text("SignalType")
+        if kind.casefold() != needed.casefold():
+            return "clash", f"{kind or 'of no type'} there, the driver needs {needed}"
+        return ("same" if _equal(instance, other) else "use"), "somebody else's, of the same kind"
+    return ("same" if _equal(instance, other) else "change"), ""
+
+
+def _driven(
+    key: Key, instance: Instance, present: Keyed, ours: frozenset[str]
+) -> tuple[CfgAction, str]:
+    """A new system output, where somebody else's may drive the same signal already."""
+    if key[1] != "SYSSIG_OUT":
+        return "add", ""
+    signal = _signal(instance)
+    for name, other in present.items():
+        if name[1] == key[1] and _signal(other) == signal and name_of(name) not in ours:
+            if other.text("Status").casefold() == instance.text("Status").casefold():
+                return "use", f"somebody else's: {shown_key(key[1], other)}"
+            return "clash", f"driven by {other.text('Status')} there"
+    return "add", ""
+
+
+def _signal(output: Instance) -> str:
+    return (output.text("Signal") or output.text("Name")).casefold()
+
+
+def _change(key: Key, instance: Instance, action: CfgAction, note: str = "") -> CfgChange:
+    shown = f"{key[1]} {shown_key(key[1], instance)}"
+    return CfgChange(key[0], shown, action, note, bool(instance.text("Name")))
+
+
+def shown_key(section: str, instance: Instance) -> str:
+    """What tells an instance from the others of its section."""
     names = _KEYS.get(section)
     if names is None:
         name = instance.text("Name")

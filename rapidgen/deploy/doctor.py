@@ -2,28 +2,31 @@
 
 import re
 import socket
+from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Literal
 
 from rapidgen._json import members, whole
-from rapidgen.deploy.cfg import keyed
+from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import DriverSet
+from rapidgen.deploy.neighbour import MODULE
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
+from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, connect, credentials
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.system import Instance
+from rapidgen.system import CfgText
 
 Verdict = Literal["ok", "warn", "fail", "unknown"]
 
 Hello = Callable[[str, int], str | None]
 """BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
 
-_MODULE = re.compile(rb"^\s*MODULE\s+([A-Za-z]\w*)", re.I | re.M)
 _MAIN = re.compile(rb"^\s*PROC\s+main\s*\(", re.I | re.M)
 _FEATURES = ("623-1 Multitasking", "616-1 PC Interface")
 
@@ -45,9 +48,14 @@ def examine(
     *,
     hello: Hello,
     robot_host: str = "",
+    backup: Path | None = None,
     timeout: float = 2.0,
 ) -> tuple[Check, ...]:
-    """All checks of one controller. `robot_host` is where its ports are, if not the URL's host."""
+    """All checks of one controller. `robot_host` is where its ports are, if not the URL's host.
+
+    `backup` says what is loaded where that is not seen. Raises DiagnosticError RG536, RG701, RG702.
+    """
+    loaded = loaded_cfg(backup) if backup is not None else ()
     host = robot_host or target.host
     checks = [*_running(host, wanted, hello, timeout)]
     try:
@@ -58,7 +66,7 @@ def examine(
     try:
         checks.insert(0, Check("reach", "ok", f"{target.shown}: logged in"))
         checks += _default_login(target, access)
-        checks += _contents(transport, wanted)
+        checks += _contents(transport, wanted, loaded)
     finally:
         transport.close()
     return tuple(checks)
@@ -141,9 +149,11 @@ def _open_door(login: Credentials) -> Check:
     )
 
 
-def _contents(transport: Transport, wanted: DriverSet) -> Iterator[Check]:
+def _contents(
+    transport: Transport, wanted: DriverSet, loaded: tuple[CfgText, ...]
+) -> Iterator[Check]:
     try:
-        plan = make_plan(transport, wanted)
+        plan = make_plan(transport, wanted, loaded=loaded)
     except DiagnosticError as error:
         first = error.diagnostics[0]
         area = "RobotWare" if first.code == "RG525" else "HOME"
@@ -167,6 +177,7 @@ def _contents(transport: Transport, wanted: DriverSet) -> Iterator[Check]:
         what = "edited by hand" if change.conflict == "edited" else "a stranger's file"
         yield Check("files", "fail", f"{change.shown}: {what}", "`rapidgen plan` says more")
     yield from _clashes(transport, plan, wanted)
+    yield from _beside(plan)
     yield from _configuration(plan, wanted)
     yield _space(transport, wanted)
 
@@ -175,7 +186,7 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
     """Modules beside ours with a name of ours, or with a main routine."""
     home = plan.layout.home
     ours = {c.where for c in plan.changes}
-    names = {m[1].lower() for f in wanted.files if (m := _MODULE.search(f.data))}
+    names = {m[1].lower() for f in wanted.files if (m := MODULE.search(f.data))}
     has_main = any(_MAIN.search(f.data) for f in wanted.files)
     found = False
     folders = {"", *(c.path.rpartition("/")[0] for c in plan.changes if c.kind == "module")}
@@ -192,7 +203,7 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
             if where in ours or entry.folder or suffix not in ("mod", "sys", "modx", "sysx", "prg"):
                 continue
             data = transport.read(where)
-            module = _MODULE.search(data)
+            module = MODULE.search(data)
             if module and module[1].lower() in names:
                 found = True
                 yield Check(
@@ -237,33 +248,40 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
         )
         return
     yield Check("RobotWare", "ok", f"main version {wanted.robotware[0]}")
-    present, mine = keyed(plan.cfg_present), keyed(wanted.cfg)
-    before = plan.cfg_before
-    for key, instance in mine.items():
-        other = present.get(key)
-        if other is None or " ".join(key) in before or other == instance:
-            continue
-        if key[1] == "EIO_SIGNAL" and other.text("SignalType") != instance.text("SignalType"):
-            yield Check(
-                "signals",
-                "fail",
-                f"{key[2]} is a {other.text('SignalType')} there, the driver needs a "
-                f"{instance.text('SignalType')}",
-                "rename the signal on the controller",
-            )
-        elif key[1] == "CAB_TASKS" and other.text("Entry", "main") != instance.text(
-            "Entry", "main"
-        ):
-            yield Check(
-                "tasks",
-                "warn",
-                f"{key[2]} starts with {other.text('Entry', 'main')} there",
-                "its entry routine will be replaced: `rapidgen plan` shows it",
-            )
+    for change in plan.cfg:
+        if change.action == "clash":
+            mend = "rename the signal on the controller"
+            yield Check("signals", "fail", f"{change.key} is {change.note}", mend)
+    optional = {name_of(k) for t in wanted.cfg if may_be_refused(t) for k in keyed([t])}
+    away = [
+        c
+        for c in plan.cfg
+        if c.action not in ("same", "use", "clash")
+        and not (c.action == "add" and f"{c.domain} {c.key}".casefold() in optional)
+    ]
+    if not away:
+        yield Check("configuration", "ok", f"{len(plan.cfg)} instances as the driver needs them")
+        return
+    counts = Counter(c.action for c in away)
+    words = ", ".join(f"{count} to {action}" for action, count in sorted(counts.items()))
+    yield Check(
+        "configuration",
+        "warn",
+        f"what is loaded is not what the driver needs: {words}; the first is {away[0].key}",
+        "`rapidgen plan` names each, and the steps",
+    )
 
 
-def _entry(task: Instance) -> str:
-    return task.text("Entry") or "main"
+def _beside(plan: Plan) -> Iterator[Check]:
+    if plan.neighbour is None:
+        return
+    names = [n.shown for n in plan.neighbour.instances]
+    yield Check(
+        "drivers",
+        "fail" if names else "warn",
+        f"another driver is there: {'; '.join(names or plan.neighbour.files)}",
+        "`rapidgen plan` has the steps by which it goes; both together do not load",
+    )
 
 
 def _space(transport: Transport, wanted: DriverSet) -> Check:

@@ -51,7 +51,7 @@ def back_up(work: Work, number: int) -> None:
 def strangers(plan: Plan) -> list[tuple[FileRecord, bytes]]:
     """Files that are not ours and are about to be replaced, or taken over because they are equal,
     and cfg files before our first instance."""
-    count = len(plan.origin)
+    count = plan.copies
     found: list[tuple[FileRecord, bytes]] = []
     for change in plan.changes:
         if change.foreign and change.before is not None and change.path not in plan.origin:
@@ -75,8 +75,8 @@ def new_manifest(plan: Plan, wanted: DriverSet, number: int) -> Manifest:
     if had is not None and not undone:
         history = (*history, Past(number, had.time, had.name, had.build_id))[-KEPT:]
     before: Members = dict(plan.cfg_before)
-    if plan.cfg_seen:
-        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before)
+    if plan.cfg_present:
+        before = remember(keyed(wanted.cfg), keyed(plan.cfg_present), before, plan.cfg_ours)
     return Manifest(
         number,
         now(),
@@ -124,10 +124,17 @@ def delete_backup(work: Work, name: str) -> None:
 
 
 def delete_empty_folders(work: Work) -> None:
-    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR."""
+    """Folders of removed files that are empty now, the deepest first; never HOME or SYSPAR.
+
+    A run that was cut may have removed the files already: the sets before and after it know them.
+    """
+    journal = work.plan.state.journal
+    sets = [work.plan.had, *((journal.old, journal.new) if journal else ())]
+    paths = [c.where for c in work.plan.changes if c.kind != "syspar"]
+    paths += [work.home + record.path for known in filter(None, sets) for record in known.files]
     folders: set[str] = set()
-    for change in work.plan.changes:
-        place = parent(change.where) if change.kind != "syspar" else ""
+    for path in paths:
+        place = parent(path)
         while place and place + "/" != work.home:
             folders.add(place)
             place = parent(place)

@@ -11,9 +11,16 @@ from typing import Literal
 from rapidgen._json import Json, Members
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.driverset import DriverSet, digest
+from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder
 from rapidgen.deploy.steps import ManualStep
 from rapidgen.system import CfgText
+
+DAMAGED = (
+    "`rapidgen deploy ... --overwrite` writes a new one: the newest backup's, with the files as "
+    "they lie there now; a backup keeps all of them"
+)
+"""The way out of RG531."""
 
 Verb = Literal["deploy", "rollback", "uninstall"]
 Action = Literal["add", "change", "same", "remove", "restore"]
@@ -86,7 +93,17 @@ class Plan:
     """Copies of strangers' files, by path."""
     cfg_before: Mapping[str, Json] = field(default_factory=dict, repr=False)
     cfg_present: tuple[CfgText, ...] = field(default=(), repr=False)
-    """SYSPAR as it was read; empty where it is not seen."""
+    """Loaded cfg: SYSPAR, or that of a backup; empty where it is not seen."""
+    cfg_ours: frozenset[str] = field(default=frozenset(), repr=False)
+    """cfg instances that earlier deployments brought."""
+    neighbour: Neighbour | None = None
+    """Another driver that has to go first."""
+    in_memory: tuple[str, ...] = ()
+    """A backup's programs with names of ours: they would be restored in the place of ours."""
+    damaged: str = ""
+    """Why the manifest on the controller cannot be used, if so: only `overwrite` replaces it."""
+    copies: int = 0
+    """Number of the next copy of a stranger's file."""
 
     @property
     def conflicts(self) -> tuple[FileChange, ...]:
@@ -101,7 +118,7 @@ class Plan:
     @property
     def is_stale(self) -> bool:
         """The manifest on the controller does not say what has to lie there."""
-        if self.wanted is None:
+        if self.wanted is None or self.damaged:
             return self.had is not None
         recorded = {r.path: r.sha256 for r in self.had.files} if self.had else None
         return recorded != {f.path: f.sha256 for f in self.wanted.files}
@@ -134,6 +151,14 @@ def plan_json(plan: Plan) -> Members:
         ],
         "cfg": [{"domain": c.domain, "instance": c.key, "action": c.action} for c in plan.cfg],
         "cfg_seen": plan.cfg_seen,
+        "another_driver": (
+            {
+                "instances": [n.shown for n in plan.neighbour.instances],
+                "files": [f"HOME:/{path}" for path in plan.neighbour.files],
+            }
+            if plan.neighbour
+            else None
+        ),
         "steps": [
             {"who": s.who, "what": s.what, "stops_motion": s.stops_motion} for s in plan.steps
         ],

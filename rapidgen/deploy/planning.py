@@ -2,38 +2,46 @@
 
 import difflib
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Members
-from rapidgen.deploy.cfg import compare, keyed, names_of
+from rapidgen.deploy.cfg import compare, keyed, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
-from rapidgen.deploy.plan import Action, FileChange, Layout, Plan, Verb, lines_of
+from rapidgen.deploy.mend import copies, mended
+from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour, in_memory
+from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
-from rapidgen.deploy.steps import OPTIONAL, steps_of
+from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
 from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText, parse_cfg
 
 
-def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "deploy") -> Plan:
+def make_plan(
+    transport: Transport,
+    wanted: DriverSet | None,
+    *,
+    verb: Verb = "deploy",
+    loaded: tuple[CfgText, ...] = (),
+) -> Plan:
     """Read the controller and plan the way to `wanted` (None: to the state before the first).
 
+    `loaded` is what a backup says is loaded, for a transport that does not see it.
     Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),
     RG529 (nothing deployed), RG531 (the manifest on the controller is damaged).
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
+    damaged = ""
+    if state.damaged and not (state.switching and state.journal):
+        damaged = state.damaged
+        if wanted is None or state.later:
+            raise refused("RG531", damaged, "" if state.later else DAMAGED)
+        state = replace(state, manifest=mended(transport, layout.home, wanted))
     base = _base(transport, layout.home, state)
     had = base.had
-    if state.damaged and not base.repair:
-        raise refused(
-            "RG531",
-            state.damaged,
-            f"restore HOME:/{STATE}/manifest.json from a backup of the controller, or delete "
-            "it: then files that lie there count as a stranger's",
-        )
     if wanted is None and had is None and not base.interrupted:
         raise refused("RG529", f"{transport.shown}: no deployment of rapidgen lies there")
     if wanted is not None and had is not None and had.name != wanted.name:
@@ -44,17 +52,20 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
         )
     changes = _file_changes(transport, layout, base, wanted)
     syspar = read_syspar(transport, layout.syspar)
-    texts = tuple(f.text for f in syspar)
+    texts = tuple(f.text for f in syspar) or loaded
     _check_robotware(texts, wanted, transport.shown)
     old_cfg = _old_cfg(changes)
     wanted_cfg = wanted.cfg if wanted else ()
-    seen = bool(texts) and transport.reach.writes_cfg
-    if seen:
-        # A system that starts from these files has nobody who could leave a row out.
-        wanted_cfg = tuple(t for t in wanted_cfg if t.path.rpartition("/")[2] not in OPTIONAL)
     present = texts if texts else old_cfg
-    ours = names_of(keyed(old_cfg)) | frozenset(base.cfg_before)
-    cfg = compare(keyed(wanted_cfg), keyed(present), ours)
+    ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
+    cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
+    seen = bool(syspar) and transport.reach.writes_cfg
+    neighbour: Neighbour | None = None
+    restored: tuple[str, ...] = ()
+    if wanted is not None and verb == "deploy":
+        neighbour = _neighbour(transport, layout, texts, wanted, ours, frozenset(base.known))
+        if layout.syspar:
+            restored = in_memory(transport, _names(wanted))
     originals = {
         r.path: f"{layout.home}{STATE}/backup/{r.stored}"
         for r in base.origin.values()
@@ -81,16 +92,23 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
                 foreign=change.foreign,
             )
         )
-    touched = any(c.action != "same" for c in changes)
+    modules = [c for c in changes if c.kind == "module" and c.action != "same"]
     steps = steps_of(
-        [(c.path, c.tasks) for c in changes if c.kind == "module" and c.action != "same"],
+        [(c.path, c.tasks) for c in modules if c.after is not None],
         cfg,
-        wanted_cfg or old_cfg,
+        wanted_cfg,
+        old_cfg,
+        gone=any(c.after is None for c in modules),
         written=seen,
-        touched=touched,
     )
+    if neighbour is not None:
+        steps = steps_beside(neighbour)
+    elif wanted is None and not seen and any(c.action == "remove" for c in cfg):
+        steps = (CFG_FIRST, *steps)
     unseen = list(transport.reach.unseen)
-    if not seen and wanted is not None:
+    if loaded and not syspar:
+        unseen.append("loaded cfg is what the backup says; what was changed since is not seen")
+    elif not seen and wanted is not None:
         unseen.append(
             "cfg instances are compared with the last deployment"
             if had is not None
@@ -120,6 +138,11 @@ def make_plan(transport: Transport, wanted: DriverSet | None, *, verb: Verb = "d
         base.origin,
         base.cfg_before,
         texts,
+        ours,
+        neighbour,
+        restored,
+        damaged,
+        copies(transport, layout.home) if damaged else len(base.origin),
     )
 
 
@@ -177,7 +200,7 @@ def _base(transport: Transport, home: str, state: StateFolder) -> _Base:
     before: Members = {}
     for manifest in filter(None, manifests):
         origin |= {r.path: r for r in manifest.origin}
-        before = {**manifest.cfg_before, **before}
+        before = {**{k.casefold(): v for k, v in manifest.cfg_before.items()}, **before}
         for record in manifest.files:
             records.setdefault(record.path, record)
             known.setdefault(record.path, set()).add(record.sha256)
@@ -248,6 +271,29 @@ def _file_changes(
             )
         )
     return changes
+
+
+def _neighbour(
+    transport: Transport,
+    layout: Layout,
+    texts: tuple[CfgText, ...],
+    wanted: DriverSet,
+    ours: frozenset[str],
+    known: frozenset[str],
+) -> Neighbour | None:
+    modules = _names(wanted)
+    instances = ours | frozenset(map(name_of, keyed(wanted.cfg)))
+    paths = known | {file.path for file in wanted.files}
+    return find_neighbour(transport, layout.home, texts, Beside(modules, instances, paths))
+
+
+def _names(wanted: DriverSet | None) -> dict[str, frozenset[str]]:
+    """Our module names with the tasks that load them, without case."""
+    return {
+        found[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
+        for file in (wanted.files if wanted else ())
+        if file.kind == "module" and (found := MODULE.search(file.data))
+    }
 
 
 def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) -> str:

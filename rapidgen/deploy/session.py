@@ -15,10 +15,12 @@ from rapidgen.deploy.keep import backup_set
 from rapidgen.deploy.plan import Plan, Verb, plan_json
 from rapidgen.deploy.planning import find_layout, make_plan
 from rapidgen.deploy.state import Past, read_state
+from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, refused
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.diagnostics import DiagnosticError, refusal
+from rapidgen.system import CfgText, write_cfg
 
 Say = Callable[[str], None]
 
@@ -33,6 +35,21 @@ class FleetJob:
     find: Callable[[Transport], DriverSet | None]
     overwrite: bool = False
     parallel: int = 1
+    backup: Path | None = None
+    """A backup of the one controller, for what its transport does not see."""
+
+    def loaded(self) -> tuple[CfgText, ...]:
+        """What that backup says is loaded. Raises DiagnosticError RG536, RG701, RG702."""
+        if self.backup is None:
+            return ()
+        if len(self.targets) != 1:
+            raise refusal(
+                "RG536",
+                None,
+                f"--backup {self.backup} is of one controller, {len(self.targets)} are named",
+                "run once for each controller, with its own backup",
+            )
+        return loaded_cfg(self.backup)
 
 
 def wanted_set(config: str, overrides: Sequence[str] = ()) -> DriverSet:
@@ -58,9 +75,11 @@ def config_name(config: str) -> str:
 def plan_all(job: FleetJob) -> list[Plan]:
     """Plans of all targets. Raises the faults of those that could not be planned."""
 
+    loaded = job.loaded()
+
     def work(target: Target) -> Plan:
         with connected(target, job.access) as transport:
-            return make_plan(transport, job.find(transport), verb=job.verb)
+            return make_plan(transport, job.find(transport), verb=job.verb, loaded=loaded)
 
     results = on_all(job.targets, work, parallel=job.parallel)
     failures = [r for r in results if isinstance(r, DiagnosticError)]
@@ -106,10 +125,8 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
 
 
 def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
-    """RG520, RG521 of all targets, before anything is changed on any."""
-    if job.overwrite:
-        return
-    found = [d for plan in plans for d in conflicts_of(plan)]
+    """RG520, RG521, RG531, RG534 to RG537 of all targets, before anything is changed on any."""
+    found = [d for plan in plans for d in conflicts_of(plan, overwrite=job.overwrite)]
     if found:
         raise DiagnosticError(found, exit_code=1)
 
@@ -201,14 +218,29 @@ def save_edits(plans: Sequence[Plan], folder: Path) -> list[Path]:
     """Copies of hand edits that `uninstall --overwrite` is about to take away, on this machine."""
     saved = []
     for plan in plans:
-        host = "".join(c if c.isalnum() else "_" for c in plan.target)
         for change in plan.conflicts:
             if change.before is not None:
-                path = folder / host / change.path
+                path = folder / _host(plan) / change.path
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(change.before)
                 saved.append(path)
     return saved
+
+
+def save_neighbours(plans: Sequence[Plan], folder: Path) -> list[Path]:
+    """Copies of other drivers on this machine: cfg files that load them again."""
+    saved = []
+    for plan in plans:
+        for text in plan.neighbour.texts(plan.cfg_present) if plan.neighbour else ():
+            path = folder / _host(plan) / f"{text.domain}.cfg"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(write_cfg(text), encoding="latin-1")
+            saved.append(path)
+    return saved
+
+
+def _host(plan: Plan) -> str:
+    return "".join(c if c.isalnum() else "_" for c in plan.target)
 
 
 def check_names(plans: Sequence[Plan], name: str) -> None:

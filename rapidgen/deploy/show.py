@@ -1,11 +1,22 @@
 """A plan and a fleet's table as text."""
 
+from collections import Counter
 from collections.abc import Sequence
 
+from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.fleet import TargetOutcome
 from rapidgen.deploy.plan import FileChange, Plan
 
-_SIGNS = {"add": "+", "change": "~", "same": "=", "remove": "-", "restore": "<"}
+_SIGNS = {
+    "add": "+",
+    "change": "~",
+    "same": "=",
+    "remove": "-",
+    "restore": "<",
+    "use": "=",
+    "leave": "=",
+    "clash": "x",
+}
 
 
 def plan_text(plan: Plan) -> str:
@@ -15,6 +26,9 @@ def plan_text(plan: Plan) -> str:
     out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}"]
     if plan.interrupted:
         out.append(f"  * {plan.interrupted}: this run puts it right")
+    if plan.damaged:
+        taken = "the newest backup's" if plan.had and plan.had.history else "no backup's"
+        out.append(f"  ? {plan.damaged}: {taken} is taken  -> needs --overwrite")
     shown = [(c.shown, c) for c in plan.changes]
     width = max((len(name) for name, _ in shown), default=0)
     out += [f"  {_SIGNS[c.action]} {name:<{width}}  {_words(c)}" for name, c in shown]
@@ -25,11 +39,17 @@ def plan_text(plan: Plan) -> str:
             else "not put there by rapidgen"
         )
         out.append(f"  ? {change.shown}: {what}  -> needs --overwrite")
+    if plan.neighbour is not None:
+        out += [f"  x {n.domain}: {n.shown}: another driver's" for n in plan.neighbour.instances]
+        out += [f"  x HOME:/{path}: another driver's, stays" for path in plan.neighbour.files]
+    out += [f"  x {path}: would be restored in the place of ours" for path in plan.in_memory]
     for domain in sorted({c.domain for c in plan.cfg}):
         out += _cfg_lines(plan, domain)
     for step in plan.steps:
         stop = " (stops motion)" if step.stops_motion else ""
         out.append(f"  ! {step.who}: {step.what}{stop}")
+    if not plan.steps and not plan.is_empty:
+        out.append("  = no restart: no module and nothing that is loaded changes")
     out.append(f"  ? switching: {plan.rename}")
     out += [f"  ? {line}" for line in plan.unseen]
     out.append(_summary(plan))
@@ -62,18 +82,30 @@ def _words(change: FileChange) -> str:
 
 def _cfg_lines(plan: Plan, domain: str) -> list[str]:
     changes = [c for c in plan.cfg if c.domain == domain]
-    out = [f"  {_SIGNS[c.action]} {domain}: {c.key}" for c in changes if c.action != "same"]
+    out = [
+        f"  {_SIGNS[c.action]} {domain}: {c.key}{f': {note}' if (note := _note(c)) else ''}"
+        for c in changes
+        if c.action != "same"
+    ]
     same = sum(1 for c in changes if c.action == "same")
     if same:
-        seen = "" if plan.cfg_seen else " as last deployed"
+        seen = "" if plan.cfg_present else " as last deployed"
         out.append(f"  = {domain}: {same} instances{seen}")
     return out
+
+
+def _note(change: CfgChange) -> str:
+    if change.action == "restore":
+        return "gets back what it had before the first deployment"
+    if change.action == "leave":
+        return "the controller's own, no longer in our files"
+    return change.note
 
 
 def _summary(plan: Plan) -> str:
     if plan.is_empty:
         return "Plan: nothing to do."
-    counts = {a: sum(1 for c in plan.changes if c.action == a) for a in _SIGNS}
+    counts = Counter(c.action for c in plan.changes)
     words = [
         f"{counts['add']} to add",
         f"{counts['change']} to change",

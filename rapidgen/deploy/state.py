@@ -31,6 +31,11 @@ DAMAGE = (
 )
 """What reading a damaged or hostile state file raises."""
 
+
+class LaterFormat(ValueError):
+    """A file that a later rapidgen wrote."""
+
+
 _SHA = re.compile(r"[0-9a-f]{64}")
 
 
@@ -103,6 +108,8 @@ class StateFolder:
     switching: bool = False
     damaged: str = ""
     """Why manifest.json cannot be used, if so."""
+    later: bool = False
+    """It is not damaged, but of a later format."""
     digest: str = ""
     present: bool = False
     litter: bool = False
@@ -119,10 +126,15 @@ def read_state(transport: Transport, home: str) -> StateFolder:
             raise
         return StateFolder(digest=digest(b""))
     raw = read_or_none(transport, f"{folder}/manifest.json") if "manifest.json" in names else None
-    manifest, damaged = None, ""
+    manifest, damaged, later = None, "", False
     if raw is not None:
         try:
             manifest = manifest_from(json.loads(raw))
+        except LaterFormat:
+            later, damaged = (
+                True,
+                "a later rapidgen wrote the manifest on the controller: use that one",
+            )
         except DAMAGE as cause:
             damaged = f"manifest.json on the controller is damaged ({type(cause).__name__})"
     journals: list[tuple[int, str, Journal, bytes]] = []
@@ -139,9 +151,11 @@ def read_state(transport: Transport, home: str) -> StateFolder:
     litter = bool(names & {"probe.one", "probe.two"})
     seen = (raw or b"") + (latest[3] if latest else b"") + (b"switching" if switching else b"")
     if latest is None:
-        return StateFolder(manifest, None, "", switching, damaged, digest(seen), True, litter)
+        return StateFolder(
+            manifest, None, "", switching, damaged, later, digest(seen), True, litter
+        )
     return StateFolder(
-        manifest, latest[2], latest[1], switching, damaged, digest(seen), True, litter
+        manifest, latest[2], latest[1], switching, damaged, later, digest(seen), True, litter
     )
 
 
@@ -158,8 +172,8 @@ def manifest_json(manifest: Manifest) -> Members:
 def manifest_from(read: Json) -> Manifest:
     """Raises one of DAMAGE for anything unexpected."""
     data = members(read)
-    if data["format"] != FORMAT:
-        raise ValueError("a later format")
+    if whole(data["format"]) != FORMAT:
+        raise LaterFormat
     first, second = items(data["robotware"])
     return Manifest(
         whole(data["id"]),

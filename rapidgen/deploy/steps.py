@@ -9,13 +9,20 @@ are loaded at a restart when the file is newer ([mem]). Nothing here restarts an
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from rapidgen.deploy.cfg import CfgChange, keyed
-from rapidgen.deploy.driverset import STATE
+from rapidgen.deploy.cfg import CfgChange, is_delivered, may_be_refused, shown_key
+from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.system import CfgText
 
-OPTIONAL = ("EIO_open.cfg", "SYS_open.cfg")
-"""Files of a build that no controller's file was seen to agree with (docs/rapid/cfg.md)."""
-_LOAD = "Control Panel > Configuration > (topic) > File > Load parameters, replacing duplicates"
+_TOPICS = {
+    "CAB_TASKS": "Controller > Task",
+    "CAB_TASK_MODULES": "Controller > Automatic Loading of Modules",
+    "CAB_EXEC_HOOKS": "Controller > Event Routine",
+    "MECHANICAL_UNIT_GROUP": "Controller > Mechanical Unit Group",
+    "EIO_SIGNAL": "I/O System > Signal",
+    "SYSSIG_OUT": "I/O System > System Output",
+    "FIREWALL_MANAGEMENT": "Communication > Firewall Manager",
+}
+"""Topic and type: the first two from abb_driver's page, the last from ABB's, others [mem]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,62 +34,150 @@ class ManualStep:
     stops_motion: bool = False
 
 
+CFG_FIRST = ManualStep(
+    "you",
+    "have the instances below deleted and the controller restarted before the files go: else it "
+    "starts with tasks whose modules are missing; a new backup shows it (--backup)",
+)
+"""Of an uninstall, where what is loaded is not seen or was still there."""
+
+
 def steps_of(
     modules: Sequence[tuple[str, tuple[str, ...]]],
     cfg: Sequence[CfgChange],
-    texts: Sequence[CfgText],
+    wanted: Sequence[CfgText],
+    old: Sequence[CfgText],
     *,
+    gone: bool,
     written: bool,
-    touched: bool,
 ) -> tuple[ManualStep, ...]:
-    """Steps after the files have been switched.
+    """Steps after the files have been switched; none where nothing loaded changes.
 
-    `modules` are the changed ones with their tasks, `texts` the cfg that names the tasks,
-    `written` that SYSPAR itself was changed, `touched` that any file was.
+    `modules` are the new and changed ones with their tasks, `gone` that some went, `wanted` and
+    `old` the cfg files of the new and the last set, `written` that SYSPAR itself was changed.
     """
-    steps: list[ManualStep] = []
-    # Signals come before what names them.
-    for text in sorted(texts, key=lambda text: text.path) if not written else ():
-        own = {f"{section} {name}" for _, section, name in keyed([text])}
-        actions = [c.action for c in cfg if c.domain == text.domain and c.key in own]
-        added, changed = actions.count("add"), actions.count("change")
-        if added or changed:
-            words = f"{added} instances to add, {changed} to change"
-            file = text.path.rpartition("/")[2]
-            refused = "; it may be refused, then leave it out" if file in OPTIONAL else ""
-            what = f"load HOME:/{STATE}/{file} ({words}): {_LOAD}{refused}"
-            steps.append(ManualStep("pendant", what))
-    gone = [c.key for c in cfg if c.action == "remove"] if not written else []
-    if gone:
-        what = "loading removes nothing: delete in Control Panel > Configuration: "
-        steps.append(ManualStep("pendant", what + "; ".join(gone)))
-    if not touched:
-        return tuple(steps)
+    steps = [] if written else [*_delete(cfg), *_load(cfg, wanted), *_give_back(cfg)]
     types = {
         i.text("Name"): i.text("Type") or "SEMISTATIC"
-        for text in texts
+        for text in (*old, *wanted)
         for i in text.instances("CAB_TASKS")
     }
     tasks: dict[str, list[str]] = {}
     for path, names in modules:
         for name in names:
             tasks.setdefault(name, []).append(path.rpartition("/")[2])
-    for name, files in tasks.items():
-        kind = types.get(name, "NORMAL")
-        restart = "Reset RAPID" if kind == "STATIC" else "Restart"
-        steps.append(
-            ManualStep(
-                "pendant",
-                f"{name} ({kind}) reads {', '.join(files)} at the next {restart} "
-                f"of the controller (menu > {restart})",
-                stops_motion=True,
-            )
-        )
-    if not tasks:
+    for restart in ("Restart", "Reset RAPID"):
+        readers = [
+            f"{name} ({kind}) reads {', '.join(files)}"
+            for name, files in tasks.items()
+            if (kind := types.get(name, "NORMAL"))
+            and (kind == "STATIC") == (restart == "Reset RAPID")
+        ]
+        if readers:
+            what = f"{restart} (menu > {restart}): {'; '.join(readers)}"
+            steps.append(ManualStep("pendant", what, stops_motion=True))
+    changed = gone or any(c.action not in ("same", "use") for c in cfg)
+    if changed and not any(step.stops_motion for step in steps):
         steps.append(
             ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True)
         )
-    steps.append(
-        ManualStep("pendant", "program pointer to main, motors on and start: a person at the robot")
-    )
+    if tasks or changed:
+        start = "program pointer to main, motors on and start: a person at the robot"
+        steps.append(ManualStep("pendant", start))
     return tuple(steps)
+
+
+def steps_beside(neighbour: Neighbour) -> tuple[ManualStep, ...]:
+    """How another driver goes before ours comes."""
+    steps = [
+        ManualStep("pendant", "back the controller up: that is the way back to the other driver")
+    ]
+    sections: dict[str, list[str]] = {}
+    for one in neighbour.instances:
+        name = one.shown.removeprefix(one.section).strip()
+        sections.setdefault(one.section, []).append(name)
+    steps += [
+        ManualStep("pendant", f"delete in {_where(section)}: {'; '.join(names)}")
+        for section, names in sections.items()
+    ]
+    if not neighbour.instances:
+        what = "delete the other driver's tasks, automatic loading of modules and event routines"
+        steps.append(ManualStep("pendant", f"{what}, if they are still there"))
+    return (
+        *steps,
+        ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True),
+        ManualStep(
+            "pendant",
+            "unload what of its modules is still in a task (Program Editor > Modules), ROS_motion "
+            "with its main above all",
+        ),
+        ManualStep(
+            "you", "plan again (over FTP and SFTP with a new backup: --backup); its files stay"
+        ),
+    )
+
+
+def _delete(cfg: Sequence[CfgChange]) -> list[ManualStep]:
+    """Loading removes nothing, and cannot tell which instance without a name it replaces."""
+    sections: dict[str, list[str]] = {}
+    for change in cfg:
+        if change.action == "remove" or (change.action == "change" and not change.named):
+            section, _, name = change.key.partition(" ")
+            again = "" if change.action == "remove" else " (comes back changed)"
+            sections.setdefault(section, []).append(name + again)
+    sections = {s: _by_file(n) if s == "CAB_TASK_MODULES" else n for s, n in sections.items()}
+    return [
+        ManualStep("pendant", f"loading removes nothing: delete in {_where(s)}: {'; '.join(names)}")
+        for s, names in sections.items()
+    ]
+
+
+def _by_file(names: Sequence[str]) -> list[str]:
+    """`FILE TASK` of many tasks as one `FILE in TASK, TASK`."""
+    files: dict[str, list[str]] = {}
+    for name in names:
+        file, _, task = name.partition(" ")
+        files.setdefault(file, []).append(task)
+    return [f"{file} in {', '.join(tasks)}" for file, tasks in files.items()]
+
+
+def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualStep]:
+    """Files that hold something new. Adding refuses what is there already (120006 [real 6.03])."""
+    changes = {(c.domain, c.key): c for c in cfg}
+    steps = []
+    for text in wanted:
+        rows = [(s.name, i) for s in text.sections for i in s.instances]
+        mine = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
+        new = sum(c.action == "add" for c in mine)
+        changed = sum(c.action == "change" for c in mine)
+        if not new and not changed:
+            continue
+        there = any(is_delivered(name, i) for name, i in rows) or any(
+            c.action == "same" or (c.action == "change" and c.named) for c in mine
+        )
+        mode = "and replace duplicates" if there else "if no duplicates"
+        what = f"load HOME:/{text.path} ({new} instances to add, {changed} to change): "
+        what += f"Control Panel > Configuration > File > Load parameters {mode}"
+        theirs = [c.key.partition(" ")[2] for c in mine if c.action == "use"]
+        if theirs:
+            what += f"; in a copy without {', '.join(theirs)}: somebody else's, used as they are"
+        if may_be_refused(text):
+            what += "; if it is refused leave it out, the driver serves and stops without it"
+        steps.append(ManualStep("pendant", what))
+    return steps
+
+
+def _give_back(cfg: Sequence[CfgChange]) -> list[ManualStep]:
+    return [
+        ManualStep(
+            "pendant",
+            f"keep {c.key.partition(' ')[2]} in {_where(c.key.partition(' ')[0])}, it is the "
+            f"controller's own: take out what it did not have before the driver ({c.note})",
+        )
+        for c in cfg
+        if c.action == "leave" and c.note
+    ]
+
+
+def _where(section: str) -> str:
+    return f"Control Panel > Configuration > {_TOPICS.get(section, section)}"

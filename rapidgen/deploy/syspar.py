@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from rapidgen._json import Json
-from rapidgen.deploy.cfg import keyed, merged
+from rapidgen.deploy.cfg import keyed, merged, without_used
 from rapidgen.deploy.transports.transport import Transport, read_or_none
+from rapidgen.diagnostics import refusal
 from rapidgen.system import CfgText, parse_cfg, write_cfg
 
 
@@ -41,6 +43,30 @@ def read_syspar(transport: Transport, folder: str) -> tuple[SysparFile, ...]:
     return tuple(found)
 
 
+def loaded_cfg(backup: Path) -> tuple[CfgText, ...]:
+    """What was loaded on the controller when it made this backup: the cfg files of its SYSPAR.
+
+    Raises DiagnosticError RG536 when there is none, RG701, RG702 for one that cannot be read.
+    """
+    folder = next((f for f in _folders(backup) if f.name.casefold() == "syspar"), None)
+    files = sorted(folder.iterdir()) if folder else []
+    texts = tuple(
+        parse_cfg(f.read_bytes(), path=str(f)) for f in files if f.name.casefold().endswith(".cfg")
+    )
+    if not texts:
+        raise refusal(
+            "RG536",
+            None,
+            f"--backup {backup}: no SYSPAR folder with cfg files is there",
+            "name the folder that holds BACKINFO, HOME, RAPID and SYSPAR",
+        )
+    return texts
+
+
+def _folders(place: Path) -> list[Path]:
+    return [f for f in place.iterdir() if f.is_dir()] if place.is_dir() else []
+
+
 def syspar_changes(
     transport: Transport,
     folder: str,
@@ -50,15 +76,16 @@ def syspar_changes(
     before: Mapping[str, Json],
     originals: Mapping[str, str],
 ) -> list[SysparChange]:
-    """Files in which something differs.
+    """Files in which something differs. Signals that somebody else has defined stay.
 
     `before` has the instances from before the first deployment, `originals` the paths of copies
     of the files from then (by SYSPAR path): such a file comes back byte for byte where nothing
     else was changed since, and one that was not there goes.
     """
     present = {f.text.domain: f for f in files}
+    instances = without_used(keyed(wanted), keyed(f.text for f in files), ours, before)
     changes = []
-    domains = [*(t.domain for t in wanted), *(name.split(" ")[0] for name in sorted(ours))]
+    domains = [*(t.domain for t in wanted), *(n.split(" ")[0].upper() for n in sorted(ours))]
     for domain in dict.fromkeys(domains):
         file = present.get(domain)
         if file is not None:
@@ -68,7 +95,7 @@ def syspar_changes(
             if not versions:
                 continue
             text = CfgText(domain, versions[0], (), f"{folder}{domain}.cfg")
-        new = merged(text, keyed(wanted), ours, before)
+        new = merged(text, instances, ours, before)
         if _plain(new) == _plain(text):
             continue
         after: bytes | None = write_cfg(new).encode("latin-1", "replace")
@@ -80,7 +107,7 @@ def syspar_changes(
         original = read_or_none(transport, copy) if copy else None
         if original is not None and _plain(parse_cfg(original)) == _plain(new):
             after = original
-        touched = any(name.startswith(f"{domain} ") for name in before)
+        touched = any(name.startswith(f"{domain.casefold()} ") for name in before)
         data = file.data if file else None
         changes.append(SysparChange(text.path, data, after, data is not None and not touched))
     return changes

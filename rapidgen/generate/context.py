@@ -6,7 +6,16 @@ from dataclasses import asdict
 from pathlib import Path
 
 from rapidgen import __version__
-from rapidgen.config.model import GroupConfig, Joint, Load, Placement, RobotConfig, Tool, WorkObject
+from rapidgen.config.model import (
+    GroupConfig,
+    Joint,
+    KeptAxis,
+    Load,
+    Placement,
+    RobotConfig,
+    Tool,
+    WorkObject,
+)
 from rapidgen.generate import layout
 from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
@@ -67,9 +76,10 @@ def group_context(
         "wrap": WRAP,
         "joints": joints,
         "sums": [s for s in _SUMS if any(j["sum"] == s["name"] for j in joints)],
-        "robax": _axes(group, [f"rax_{n}" for n in range(1, 7)], "0"),
-        "extax": _axes(group, [f"eax_{c}" for c in "abcdef"], "9E9"),
-        "padding": _padding(len(joints)),
+        "robax": _robot_axes(group),
+        "extax": _external_axes(group),
+        "kept": [_kept(config, axis) for axis in group.kept],
+        "absent": list(range(len(joints) + 1, spec.MAX_JOINTS + 1)),
         "signals": [
             {
                 "name": layout.signal_name(config, group, signal),
@@ -101,7 +111,6 @@ def group_context(
         "call_main": config.call_main,
         "tool": _tool(group.tool),
         "wobj": _work_object(group.work_object),
-        "head_point": messages.JOINT_TRAJ_PT.length + (messages.JOINT_TRAJ_PT.number << 32),
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
         "slots": STATE_CLIENTS + 1,
@@ -133,19 +142,25 @@ def _build_constant(module: str) -> str:
 
 def _streams(config: RobotConfig, joints: list[dict[str, object]]) -> dict[str, object]:
     """What batches of points look like to RAPID."""
-    even = len(joints) % 2 == 0
     return {
         "preload": config.trajectory.preload,
-        "words": messages.point_pairs(len(joints)),
-        "pad_word": messages.point_pairs(len(joints)) if even else 0,
+        "words": messages.point_values(len(joints)),
+        "weighted": _weighted(messages.point_values(len(joints))),
         "batch_head": _HEADER_AND_PREFIX + 16,
-        "steps": spec.PAIR_SCALE,
+        "steps": spec.FIXED_SCALE,
         "units": {joint["factor"] for joint in joints},
-        "deg_step": literal(math.degrees(1 / spec.PAIR_SCALE)),
-        "mm_step": literal(_MM / spec.PAIR_SCALE),
+        "deg_step": repr(math.degrees(1 / spec.FIXED_SCALE)).upper(),
+        "mm_step": literal(_MM / spec.FIXED_SCALE),
         "points_accepted": messages.POINTS.reply(ReplyCode.SUCCESS).length,
         "points_refused": messages.POINTS.reply(ReplyCode.FAILURE).length,
     }
+
+
+def _weighted(words: int) -> list[str]:
+    """What the words of a point add to a checksum, in pieces that fit a line."""
+    terms = [f"{2 ** (words - n)} * word_{n}" for n in range(1, words)]
+    terms.append(f"word_{words}")
+    return [" + ".join(terms[at : at + 6]) for at in range(0, words, 6)]
 
 
 def _exposed(config: RobotConfig) -> list[dict[str, object]]:
@@ -208,28 +223,30 @@ def _joint(config: RobotConfig, group: GroupConfig, n: int) -> dict[str, object]
         "arm": layout.arm(group, joint),
         "tolerance": literal(round(to_rapid(joint, tolerance), 4)),
         "factor": "ROS_DEG" if revolute else "ROS_MM",
-        # Where it is in a batch: the upper or the lower half of a word, in steps.
-        "word": n // 2 + 1,
-        "half": "MOD" if n % 2 else "DIV",
         "step": "DEG" if revolute else "MM",
     }
 
 
-def _axes(group: GroupConfig, names: list[str], absent: str) -> list[str]:
-    """Members of a robjoint or extjoint: the variable of each joint, `absent` where is none."""
+def _robot_axes(group: GroupConfig) -> list[str]:
+    """Members of a robjoint: the variable of each joint, else where the axis stands."""
     joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
-    return [joints.get(name, absent) for name in names]
+    return [joints.get(f"rax_{n}", f"ROS_kept_{n}") for n in range(1, 7)]
 
 
-def _padding(joints: int) -> dict[str, object]:
-    """Offsets from the first byte of a point at which joints that are not there are read.
+def _external_axes(group: GroupConfig) -> list[str]:
+    """Members of an extjoint: the variable of each joint, 9E9 where is none."""
+    joints = {joint.axis: f"joint_{n}" for n, joint in enumerate(group.joints, 1)}
+    return [joints.get(f"eax_{letter}", "9E9") for letter in "abcdef"]
 
-    Two float32 at a time, as one 64-bit number; an odd one is last.
-    """
-    first = _HEADER_AND_PREFIX + 4 + 4 * joints
-    missing = spec.MAX_JOINTS - joints
-    pairs = [first + 8 * n for n in range(missing // 2)]
-    return {"pairs": pairs, "last": first + 4 * (missing - 1) if missing % 2 else 0}
+
+def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
+    """A robot axis that no joint drives."""
+    return {
+        "n": int(axis.axis[-1]),
+        "field": f"robax.{axis.axis}",
+        "at": literal(round(math.degrees(axis.value), 4)) if axis.must_stand else "",
+        "tolerance": literal(round(math.degrees(config.trajectory.start_tolerance), 4)),
+    }
 
 
 def _tool(tool: Tool) -> dict[str, object]:

@@ -22,6 +22,9 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "robotware": f"{major}.{minor:02d}",
         "major": major,
         "omnicore": major >= 7,
+        "collision_parameter": config.robotware >= (6, 4),
+        "address": _address(config),
+        "yumi": all(group.model.startswith("irb140") for group in config.groups),
         "multi": len(config.groups) > 1,
         "commissioning": config.commissioning,
         "call_main": config.call_main,
@@ -64,6 +67,12 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
             {m.target.rpartition("/")[0] for task in system.tasks for m in task.modules}
         ),
     }
+
+
+def _address(config: RobotConfig) -> str:
+    """How the first group is named on the command line."""
+    ports = config.groups[0].ports
+    return f"ROBOT:{ports.motion},{ports.state}"
 
 
 def _open_files(config: RobotConfig) -> tuple[str, ...]:

@@ -14,7 +14,7 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Point
 from rapidgen.wire.simple_message import spec
 
-PROTOCOL_VERSION = 2
+PROTOCOL_VERSION = 3
 MAX_JOINTS = 10
 SHORTEST, LONGEST = 12, 1020
 """Values of the length field: a header without data, and the largest message."""
@@ -465,14 +465,9 @@ def decode(frame: RawFrame) -> RawContent:
     return kind._make(fields)
 
 
-def point_pairs(joint_count: int) -> int:
-    """Words of one point in POINTS: its duration and its joints, two by two."""
-    return (2 + joint_count) // 2
-
-
 def batch_points(joint_count: int) -> int:
-    """Points that fit into one POINTS: 30 for six axes."""
-    return (LONGEST - 12 - 24) // (8 * point_pairs(joint_count))
+    """Points that fit into one POINTS: 35 for six axes."""
+    return (LONGEST - 12 - 20) // (4 * (1 + joint_count))
 
 
 def points_frame(
@@ -484,14 +479,12 @@ def points_frame(
 
 
 def words_of(point: Point) -> list[int]:
-    """The words of a point: s, rad and m in millionths, two numbers of 26 bits in each."""
+    """The words of a point: s, rad and m in millionths."""
     joints, duration = point
-    numbers = [round(value * 1e6) + 2**25 for value in (duration, *joints)]
-    if not all(0 < number < 2**26 for number in numbers):
+    numbers = [round(value * 1e6) for value in (duration, *joints)]
+    if not all(abs(number) < 2**31 for number in numbers):
         raise ValueError(f"{point} does not fit into a batch")
-    if len(numbers) % 2:
-        numbers.append(2**25)
-    return [(high << 26) + low for high, low in zip(numbers[::2], numbers[1::2], strict=True)]
+    return numbers
 
 
 def words_frame(
@@ -503,8 +496,8 @@ def words_frame(
     comm: int = RawComm.REQUEST,
 ) -> bytes:
     """A batch of any words, that says to have `count` points; its checksum is right."""
-    whole = [stream + (flags << 32), first + (count << 32), *words]
+    whole = [stream, flags, first, count, *words]
     checksum = 0
     for word in whole:
-        checksum = (2 * checksum + word) % (2**51 - 129)
-    return framed(POINTS, struct.pack(f"<{len(whole) + 1}Q", *whole, checksum), comm)
+        checksum = (2 * checksum + word + 2**31) % (2**31 - 19)
+    return framed(POINTS, struct.pack(f"<{len(whole) + 1}i", *whole, checksum), comm)

@@ -27,6 +27,8 @@ class Verdict:
     passed: bool
     detail: str = ""
     setting: str = ""
+    blamed: tuple[str, ...] = ()
+    """The smallest part of what the setting assumes that breaks the case."""
     simulated: float = 0.0
     elapsed: float = 0.0
     """s of CPU."""
@@ -53,6 +55,8 @@ class Proof:
     name: str
     build_id: str
     outcomes: list[Verdict] = field(default_factory=list)
+    rows: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    """What the settings assume other than by default, by name."""
     findings: list[Finding] = field(default_factory=list)
     schedules: int = 0
     elapsed: float = 0.0

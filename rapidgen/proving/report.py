@@ -1,10 +1,11 @@
-"""A report as JUnit XML and as one self-contained HTML page."""
+"""A report as JSON, as JUnit XML and as one self-contained HTML page."""
 
 import html
 from pathlib import Path
 from typing import TYPE_CHECKING
 from xml.etree import ElementTree
 
+from rapidgen._json import Json
 from rapidgen.proving.model import Proof, Series, Verdict
 
 if TYPE_CHECKING:
@@ -23,6 +24,32 @@ td, th { border-bottom: 1px solid #ddd }
 pre { background: #f6f6f6; padding: .6rem; overflow-x: auto }
 svg { background: #fafafa; border: 1px solid #ddd }
 """
+
+
+def as_json(report: Proof) -> dict[str, Json]:
+    """The report as data: every outcome, and what its setting assumes other than by default."""
+    reached, of = report.covered
+    return {
+        "name": report.name,
+        "build_id": report.build_id,
+        "passed": report.passed,
+        "elapsed": round(report.elapsed, 3),
+        "lines": {"reached": reached, "of": of},
+        "settings": {name: list(texts) for name, texts in report.rows.items()},
+        "outcomes": [
+            {
+                "case": outcome.case,
+                "group": outcome.group,
+                "setting": outcome.setting,
+                "passed": outcome.passed,
+                "detail": outcome.detail,
+                "blamed": list(outcome.blamed),
+            }
+            for outcome in report.outcomes
+        ],
+        "schedules": report.schedules,
+        "findings": [{"seed": f.seed, "detail": f.detail} for f in report.findings],
+    }
 
 
 def write_junit(report: Proof, path: Path) -> None:
@@ -45,7 +72,7 @@ def write_junit(report: Proof, path: Path) -> None:
             time=f"{outcome.elapsed:.3f}",
         )
         if not outcome.passed:
-            failure = ElementTree.SubElement(case, "failure", message=_xml(outcome.detail))
+            failure = ElementTree.SubElement(case, "failure", message=_xml(complaint(outcome)))
             failure.text = _xml("\n".join(outcome.log))
     if not report.findings:
         ElementTree.SubElement(
@@ -129,6 +156,13 @@ def _name(outcome: Verdict) -> str:
     return outcome.case + (f" [{outcome.setting}]" if outcome.setting else "")
 
 
+def complaint(outcome: Verdict) -> str:
+    """What did not hold, and the smallest part of the assumptions that makes it so."""
+    told = f", that is {' and '.join(outcome.blamed)}" if outcome.blamed else ""
+    setting = f" [{outcome.setting}{told}]" if outcome.setting else ""
+    return f"{outcome.case}{setting}: {outcome.detail}"
+
+
 def _xml(text: str) -> str:
     return "".join(c if c >= " " or c in "\n\t" else "?" for c in text)
 
@@ -142,7 +176,7 @@ def _row(outcome: Verdict) -> str:
 
 
 def _details(outcome: Verdict) -> str:
-    text = f"<h2>{html.escape(_name(outcome))}</h2><p>{html.escape(outcome.detail)}</p>"
+    text = f"<h2>{html.escape(_name(outcome))}</h2><p>{html.escape(complaint(outcome))}</p>"
     if outcome.series:
         text += _plot(outcome.series)
     if not outcome.passed and outcome.log:

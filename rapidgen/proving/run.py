@@ -1,7 +1,7 @@
 """The whole suite for one robot: every case under every setting, on several processes."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TextIO
 
@@ -10,10 +10,11 @@ from rapidgen.controller.cell import in_its_cell
 from rapidgen.generate import build, make_system
 from rapidgen.proving.behaviour import Behaviour
 from rapidgen.proving.bench import FAILURES, Bench, add_lines
+from rapidgen.proving.blame import blamed
 from rapidgen.proving.explore import Explored, explore
 from rapidgen.proving.model import Proof, Verdict
 from rapidgen.proving.report import series
-from rapidgen.proving.settings import Setting, settings
+from rapidgen.proving.settings import Setting, assumed, rows, settings
 from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import each, in_a_fork
 from rapidgen.system.model import System
@@ -24,6 +25,14 @@ class _Job:
     case: int
     name: str
     setting: Setting
+
+
+@dataclass(frozen=True, slots=True)
+class _Broken:
+    """A case, and what was assumed where it broke, by setting."""
+
+    case: int
+    rows: Mapping[str, Sequence[str]]
 
 
 # What a worker needs, inherited by fork: the configuration and its generated system.
@@ -38,12 +47,14 @@ def prove(
     jobs: int | None = None,
     only: Sequence[str] = (),
     cases: bool = True,
-    every_setting: bool = True,
+    strength: int = 2,
+    assuming: Sequence[str] = (),
     progress: Callable[[str, int, int], None] | None = None,
 ) -> Proof:
     """Run the suite (`cases`, or `only` those named) and, without `only`, the exploration.
 
-    `progress(what, done, total)` is called for every piece of work.
+    The answers to any `strength` open questions meet in some setting (0: the default alone);
+    `assuming`: in that one only. `progress(what, done, total)` is called for every piece of work.
     """
     global _shared  # noqa: PLW0603 - workers inherit it by fork
     output = build(config)
@@ -51,9 +62,8 @@ def prove(
     _shared = (config, system)
     started = time.monotonic()
     report = Proof(config.name, output.build_id)
-    chosen = settings(config)
-    if not every_setting:
-        chosen = {name: setting for name, setting in chosen.items() if setting.coverage}
+    report.rows = {"as asked": tuple(assuming)} if assuming else rows(strength)
+    chosen = settings(config, report.rows)
     work = [
         _Job(number, name, setting)
         for name, setting in chosen.items()
@@ -62,7 +72,9 @@ def prove(
         if case.name in only or (not only and (setting.coverage or not case.once))
     ]
     report.outcomes = each(work, _attempt, jobs, "cases", progress)
-    if not only:
+    if not assuming:
+        report.outcomes = _explained(report, jobs, progress)
+    if not only and not assuming:
         for outcome in report.outcomes:
             add_lines(report.lines, outcome.lines)
         explored = each(list(range(seeds)), _explore, jobs, "schedules", progress)
@@ -73,6 +85,37 @@ def prove(
         starter.close()
     _ready.clear()
     return report
+
+
+def _explained(
+    report: Proof, jobs: int | None, progress: Callable[[str, int, int], None] | None
+) -> list[Verdict]:
+    """The outcomes; those that broke under a hostile setting alone name what is to blame."""
+    broken = [verdict for verdict in report.outcomes if not verdict.passed]
+    anyhow = {verdict.case for verdict in broken if not report.rows.get(verdict.setting)}
+    work = [
+        _Broken(number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name})
+        for number, case in enumerate(CASES)
+        if case.name in {verdict.case for verdict in broken} - anyhow
+    ]
+    found = each(work, _blame, jobs, "smallest pairs", progress)
+    blame = {
+        (CASES[one.case].name, setting): texts
+        for one, by_setting in zip(work, found, strict=True)
+        for setting, texts in by_setting.items()
+    }
+    return [replace(v, blamed=blame.get((v.case, v.setting), ())) for v in report.outcomes]
+
+
+def _blame(broken: _Broken) -> dict[str, tuple[str, ...]]:
+    assert _shared is not None
+    config, system = _shared
+
+    def breaks(texts: Sequence[str]) -> bool:
+        with Bench(config, system, assumed(texts)) as bench:
+            return not _verdict(CASES[broken.case], bench).passed
+
+    return blamed(broken.rows, breaks)
 
 
 def _attempt(job: _Job) -> Verdict:

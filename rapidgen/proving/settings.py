@@ -1,13 +1,19 @@
 """How the controller under the driver behaves: the settings under which every case runs."""
 
-from collections.abc import Iterable
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, fields, replace
+from typing import TypeAlias, TypeVar, get_args
 
 from rapidgen.config.model import RobotConfig
 from rapidgen.controller.faults import FaultPlan
+from rapidgen.diagnostics import refusal, suggest
 from rapidgen.machine.costs import Costs
 from rapidgen.motion.settings import MotionSettings
-from rapidgen.rapid.switches import NOT_THE_DRIVERS, Switches, parse_switches
+from rapidgen.proving.covering import covering
+from rapidgen.rapid.switches import NOT_THE_DRIVERS, Switches
+
+Answer: TypeAlias = bool | float | str
+T = TypeVar("T", Switches, MotionSettings)
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,49 +35,108 @@ class Setting:
         return replace(self, motion=replace(self.motion, settle=0.0))
 
 
-def settings(config: RobotConfig) -> dict[str, Setting]:
-    """The default for every motion group, two hostile schedules, and every switch inverted.
+# What the driver cannot do without. Where it is otherwise a task ends at its start or every link
+# breaks, and nothing moves: tests/proving/test_variants.py.
+NEEDED = frozenset({"alias_by_name"})
+# What its moves cannot notice: they are MoveAbsJ.
+NOT_ITS_MOVES = frozenset({"configuration_check"})
+# Figures of the motion that no source gives, and another one for each.
+FIGURES = {"planning_lead": 0.02, "servo_lag": 0.05, "settle": 0.2, "quick_factor": 1.0}
+COSTS = (1.0, 0.25, 4.0)
+SCHEDULES = ("round-robin", "random", "pers")
+STRENGTHS = ("default", "alone", "pairs", "triples")
+"""How many assumptions meet in a row of settings, by number."""
 
-    A controller's behaviour that is only remembered must not decide whether the driver works.
+
+def questions() -> dict[str, tuple[Answer, ...]]:
+    """What a driver can notice of its controller, with the answers to it; the default first."""
+    asked: dict[str, tuple[Answer, ...]] = {}
+    for switches in (Switches(), MotionSettings()):
+        for switch in fields(switches):
+            default = getattr(switches, switch.name)
+            if switch.name in NEEDED | NOT_THE_DRIVERS | NOT_ITS_MOVES:
+                continue
+            if switch.name in FIGURES:
+                asked[switch.name] = (default, FIGURES[switch.name])
+            elif isinstance(default, bool):
+                asked[switch.name] = (default, not default)
+            elif others := get_args(switch.type):
+                asked[switch.name] = (default, *(other for other in others if other != default))
+    return asked | {"costs": COSTS, "schedule": SCHEDULES}
+
+
+def said(name: str, answer: Answer) -> str:
+    """An assumption in words, as `--assume` and `--dialect` take it."""
+    return f"{name}={str(answer).lower()}" if isinstance(answer, bool) else f"{name}={answer}"
+
+
+def assumed(texts: Sequence[str]) -> Setting:
+    """The setting in which these assumptions hold, and else the defaults; `seed=N` may be one.
+
+    Raises DiagnosticError RG804.
     """
-    found = {
-        "": Setting(coverage=True),
-        "random schedule": Setting(seed=1, random_schedule=True),
-        "switch at PERS": Setting(seed=1, random_schedule=True, switch_at_pers=True),
-    }
-    for number, group in enumerate(config.groups[1:], 1):
-        found[group.name] = Setting(group=number, coverage=True)
-    found.update({said: Setting(dialect=parse_switches(said.lower())) for said in _inverted()})
-    found.update({said: Setting(motion=motion) for said, motion in _MOTION.items()})
+    known = {said(n, answer): (n, answer) for n, own in questions().items() for answer in own}
+    answers: dict[str, Answer] = {}
+    seed = 0
+    for text in texts:
+        name, _, figure = text.partition("=")
+        if name == "seed" and figure.isdecimal():
+            seed = int(figure)
+        elif text in known:
+            answers[name] = known[text][1]
+        else:
+            raise _unknown(text)
+    schedule = answers.pop("schedule", SCHEDULES[0])
+    return Setting(
+        seed=seed,
+        random_schedule=schedule != SCHEDULES[0],
+        switch_at_pers=schedule == "pers",
+        costs=Costs().scaled(float(answers.pop("costs", 1.0))),
+        dialect=_answered(Switches(), answers),
+        motion=_answered(MotionSettings(), answers),
+    )
+
+
+def _answered(switches: T, answers: Mapping[str, Answer]) -> T:
+    """The switches with those of the answers that are to them."""
+    own = {switch.name for switch in fields(switches)}
+    chosen = {name: answer for name, answer in answers.items() if name in own}
+    return replace(switches, **chosen)  # type: ignore[arg-type]
+
+
+def _unknown(text: str) -> Exception:
+    asked = questions()
+    name = text.partition("=")[0]
+    if name in asked:
+        mend = "one of " + ", ".join(said(name, answer) for answer in asked[name])
+    else:
+        mend = suggest(name, list(asked)) or f"there are seed, {', '.join(asked)}"
+    return refusal("RG804", None, f"nothing can be assumed as '{text}'", mend)
+
+
+def rows(strength: int = 2) -> dict[str, tuple[str, ...]]:
+    """What is assumed other than by default, by name: the default alone, and hostile settings.
+
+    The answers to any `strength` questions meet in some row. A controller's behaviour that is only
+    remembered must not decide whether the driver works, nor may two of them together.
+    """
+    found: dict[str, tuple[str, ...]] = {"": ()}
+    if not strength:
+        return found
+    asked = questions()
+    array = covering(asked, strength)
+    for number, row in enumerate(array[1:], 1):
+        others = [said(n, answer) for n, answer in row.items() if answer != asked[n][0]]
+        # Its chances are a row's own.
+        found[f"{STRENGTHS[strength]} {number}"] = (*others, f"seed={number}")
     return found
 
 
-# Open questions about motion, each answered the other way.
-_MOTION = {
-    "stop_waits=True": MotionSettings(stop_waits=True),
-    "stop_owner=task": MotionSettings(stop_owner="task"),
-    "refresh_timed=False": MotionSettings(refresh_timed=False),
-    "cleared_move=hang": MotionSettings(cleared_move="hang"),
-    "range_error=fatal": MotionSettings(range_error="fatal"),
-    "zero_length=wait": MotionSettings(zero_length="wait"),
-    "planning_lead=0.02": MotionSettings(planning_lead=0.02),
-    "servo_lag=0.05": MotionSettings(servo_lag=0.05),
-    "settle=0.2": MotionSettings(settle=0.2),
-    "emergency_stop=path": MotionSettings(emergency_stop="path"),
-    "quick_factor=1.0": MotionSettings(quick_factor=1.0),
-}
-# What the driver cannot do without. Where it is otherwise a task ends at its start or every link
-# breaks, and nothing moves: tests/proving/test_variants.py.
-NEEDED = frozenset({"unpack_ulint", "alias_by_name"})
-
-
-def _inverted() -> Iterable[str]:
-    for switch in fields(Switches):
-        if switch.name in NEEDED | NOT_THE_DRIVERS:
-            continue
-        if isinstance(switch.default, bool):
-            yield f"{switch.name}={not switch.default}"
-        elif isinstance(switch.default, str):
-            for other in getattr(switch.type, "__args__", ()):
-                if other != switch.default:
-                    yield f"{switch.name}={other}"
+def settings(config: RobotConfig, rows: "dict[str, tuple[str, ...]]") -> dict[str, Setting]:
+    """A setting for each row, and the default for each further motion group."""
+    found = {name: assumed(texts) for name, texts in rows.items()}
+    if "" in found:
+        found[""] = replace(found[""], coverage=True)
+        for number, group in enumerate(config.groups[1:], 1):
+            found[group.name] = Setting(group=number, coverage=True)
+    return found

@@ -37,8 +37,10 @@ def each(
             if progress is not None:
                 progress(what, done, len(work))
         return results
+    # A few pieces at a time, as long as there are enough for all.
+    chunk = max(1, min(4, len(work) // (4 * count)))
     with ProcessPoolExecutor(count, mp_context=get_context("fork")) as pool:
-        for done, result in enumerate(pool.map(function, work, chunksize=4), 1):
+        for done, result in enumerate(pool.map(function, work, chunksize=chunk), 1):
             results.append(result)
             if progress is not None:
                 progress(what, done, len(work))

@@ -17,13 +17,18 @@ class Switches:
     """Where a num is rounded to IEEE single: when it is stored, passed or returned, or after
     every operator. No source."""
 
+    dnum_whole: Literal["52", "53"] = "52"
+    """Up to which power of 2 a dnum counts whole numbers: what the manuals promise [mem], or as far
+    as an IEEE double does. What is larger loses its last bits."""
+
     for_loop: Literal["kernel", "tested"] = "kernel"
     """`kernel`: the first pass of FOR is never tested, and without STEP it counts down when
     the end lies below the start [K §4.15]. `tested`: STEP is 1 and the first pass is tested."""
 
-    unhandled_error: Literal["propagate", "stop"] = "propagate"
-    """What happens to an error in a routine without ERROR: it goes to the caller [K §7.1, S4
-    overview], or straight to the system error handler (later manuals)."""
+    unhandled_error: Literal["propagate", "stop"] = "stop"
+    """What happens to an error in a routine without ERROR: straight to the system error handler, as
+    on controllers (the log of one with RobotWare 6.03; tests on a virtual one of 6.15; ABB's own
+    modules for RobotWare 7 end each helper in RAISE), or to the caller [K §7.1, S4 overview]."""
 
     integer_division: Literal["truncate", "floor"] = "truncate"
     """DIV and MOD with a negative left operand. K is silent."""
@@ -152,6 +157,7 @@ class Switches:
 
 NOT_THE_DRIVERS = frozenset(
     {
+        "unpack_ulint",
         "moves_back",
         "whole_text",
         "event_stops",

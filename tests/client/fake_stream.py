@@ -8,7 +8,7 @@ import struct
 from dataclasses import dataclass, field
 
 HEAD = struct.Struct("<4i")
-MODULUS = 2**51 - 129
+MODULUS = 2**31 - 19
 WRAP = 2**23
 RECEIVING, MOVING, DONE, REFUSED, FAILED, STOPPED, STARVED, PAUSED = range(1, 9)
 STOP_REASON, CLIENT_LOST = 40, 42
@@ -67,12 +67,12 @@ class StreamModel:
     def points(self, data):
         """One POINTS message; the reply."""
         self.batches += 1
-        words = struct.unpack(f"<{(len(data) - 16) // 8}Q", data[16:])
+        words = struct.unpack(f"<{(len(data) - 16) // 4}i", data[16:])
         stream, flags, first, count = struct.unpack_from("<4i", data, 16)
         check = 0
         for word in words[:-1]:
-            check = (2 * check + word) % MODULUS
-        pairs = (self.joints + 2) // 2
+            check = (2 * check + word + 2**31) % MODULUS
+        width = 1 + self.joints
         if flags & 1 and self.start_fault:
             self.stream, self.cut = stream, True
             return self._refused(stream, self.start_fault, -1, 0)
@@ -84,7 +84,7 @@ class StreamModel:
         fault = 0
         if words[-1] != check:
             fault = 16
-        elif len(data) != 16 + 16 + 8 * (count * pairs) + 8:
+        elif len(data) != 16 + 16 + 4 * (count * width) + 4:
             fault = 12
         elif first != self.accepted % WRAP:
             fault = 2
@@ -95,14 +95,11 @@ class StreamModel:
             return self._refused(stream, fault, self.accepted % WRAP, 0)
         self.sizes.append(count)
         for n in range(count):
-            point = words[2 + n * pairs : 2 + (n + 1) * pairs]
-            values = [v for w in point for v in (w >> 26, w & (2**26 - 1))]
-            values = [(v - 2**25) / 1e6 for v in values]
-            assert all(v == 0 for v in values[1 + self.joints :])
+            values = [v / 1e6 for v in words[4 + n * width : 4 + (n + 1) * width]]
             if self.point_fault and self.accepted == self.point_fault[0]:
                 self._cut(self.point_fault[1], self.accepted, self.point_fault[2])
                 return self._refused(stream, *self._fault())
-            self.queue.append((values[0], values[1 : 1 + self.joints]))
+            self.queue.append((values[0], values[1:]))
             self.accepted += 1
         self.most_waiting = max(self.most_waiting, self.accepted - self.planned)
         if flags & 2:

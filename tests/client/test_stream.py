@@ -194,8 +194,8 @@ def test_execute_tells_the_way(connected):
         assert execution.trajectory.names == robot.group.names
 
 
-def test_what_no_pair_holds_is_downloaded(connected):
-    path = Trajectory(np.arange(70) * 40.0, np.zeros((70, 6)))
+def test_what_no_number_of_a_stream_holds_is_downloaded(connected):
+    path = Trajectory(np.arange(70) * 2200.0, np.zeros((70, 6)))
     with connected(**streams(ring=64), capacity=1000) as (robot, _):
         assert robot.way_for(path) == "download"
         with pytest.raises(InvalidTrajectory, match="RG623"):

@@ -311,7 +311,7 @@ def test_a_fault_of_the_caller_is_told_before_it_is_sent_and_the_stream_goes_on(
                 ([0.25, 0.4], [0.01] * 6, "RG618"),
                 ([0.3, float("nan")], [0.0] * 6, "RG613"),
                 ([0.3, 0.4], [2.9] * 6, "RG615"),
-                ([0.3, 50.0], [0.01] * 6, "RG623"),
+                ([0.3, 2500.0], [0.01] * 6, "RG623"),
             ):
                 with pytest.raises(InvalidTrajectory) as error:
                     stream.append(times, [[0.01] * 6, joint])

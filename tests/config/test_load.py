@@ -296,7 +296,7 @@ def test_a_joint_of_ones_own_lacks_everything_in_one_finding(tmp_path):
 
 def test_radians_in_the_configuration_look_odd(tmp_path):
     lines = "".join(
-        f"  j{n}: {{axis: rax_{n}, lower: -2.88, upper: 2.88, speed: 250}}\n" for n in range(1, 5)
+        f"  j{n}: {{axis: rax_{n}, lower: -2.88, upper: 2.88, speed: 250}}\n" for n in range(1, 7)
     )
     config = load(tmp_path, "joints:\n" + lines)
     assert [(d.code, d.severity) for d in config.diagnostics] == [("RG037", Severity.WARNING)]
@@ -305,9 +305,10 @@ def test_radians_in_the_configuration_look_odd(tmp_path):
 def test_an_axis_of_length_0_turns_nothing(tmp_path):
     text = (
         "joints: {j: {axis: rax_1, lower: -90, upper: 90, speed: 9}}\n"
+        "keep: [rax_2, rax_3, rax_4, rax_5, rax_6]\n"
         "chain: [{joint: j, axis: [0, 0, 0]}, {joint: k}]\n"
     )
-    assert places(faults(tmp_path, text)) == [("RG014", 2, 20), ("RG014", 2, 46)]
+    assert places(faults(tmp_path, text)) == [("RG014", 3, 20), ("RG014", 3, 46)]
 
 
 def test_a_positioner_is_an_external_unit_that_an_external_axis_moves(tmp_path):

@@ -5,84 +5,21 @@ import math
 import pytest
 
 from rapidgen.config import load_config
-from rapidgen.diagnostics import DiagnosticError, Severity
-
-DEGREE = math.pi / 180
-XACRO = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
-
-
-def joint(name, parent, child, kind="revolute", *, limit=True, more="", **limits):
-    """One <joint>; limits in the units of the file (rad, m)."""
-    given = {"lower": -1.5, "upper": 1.5, "velocity": 2.0, "effort": 0, **limits}
-    words = " ".join(f'{key}="{value}"' for key, value in given.items() if value is not None)
-    inner = f"<limit {words}/>" if limit and kind != "fixed" else ""
-    return (
-        f'<joint name="{name}" type="{kind}"><parent link="{parent}"/><child link="{child}"/>'
-        f'<origin xyz="0 0 0.1"/><axis xyz="0 0 1"/>{inner}{more}</joint>'
-    )
-
-
-def links(*names):
-    return "".join(f'<link name="{name}"/>' for name in names)
-
-
-def robot(*parts, name="test"):
-    return f'<robot name="{name}">{"".join(parts)}</robot>'
-
-
-def arm(names=None, *, start="base_link", link="link_", kind="revolute", **limits):
-    """Joints in one chain with their links (without the first)."""
-    names = names or [f"joint_{n}" for n in range(1, 7)]
-    parents = [start, *(f"{link}{n}" for n in range(1, len(names)))]
-    return "".join(
-        joint(name, parent, f"{link}{n}", kind, **limits) + links(f"{link}{n}")
-        for n, (name, parent) in enumerate(zip(names, parents, strict=True), 1)
-    )
-
-
-def six(**changes):
-    """A plain six-axis robot; `changes` are the parts of joint_3."""
-    first = arm([f"joint_{n}" for n in (1, 2)])
-    third = joint("joint_3", "link_2", "link_3", **changes) + links("link_3")
-    rest = "".join(
-        joint(f"joint_{n}", f"link_{n - 1}", f"link_{n}") + links(f"link_{n}") for n in (4, 5, 6)
-    )
-    return robot(links("base_link"), first, third, rest)
-
-
-BASE = links("base_link")
-SIX = "joints:\n" + "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in range(1, 7))
-
-
-@pytest.fixture
-def check(tmp_path):
-    """Load a URDF with further configuration; (config or None, findings by code)."""
-
-    def run(text, more="", *, head="", urdf="", suffix=".urdf", package_paths=()):
-        (tmp_path / f"robot{suffix}").write_text(text)
-        config = f"{head}\nurdf:\n  file: robot{suffix}\n{urdf}\n{more}\n"
-        (tmp_path / "cell.yaml").write_text(config)
-        try:
-            made = load_config(tmp_path / "cell.yaml", package_paths=package_paths)
-        except DiagnosticError as fault:
-            return None, {d.code: d for d in fault.diagnostics}
-        return made, {d.code: d for d in made.diagnostics}
-
-    return run
-
-
-def errors(found):
-    return sorted(code for code, d in found.items() if d.severity is Severity.ERROR)
-
-
-def only(code, checked):
-    """The one error of a check, which has this code."""
-    assert errors(checked[1]) == [code]
-    return checked[1][code]
-
-
-def axes(config):
-    return {j.name: j.axis for j in config.groups[0].joints}
+from rapidgen.diagnostics import Severity
+from tests.config.drawing import (
+    BASE,
+    DEGREE,
+    SIX,
+    XACRO,
+    arm,
+    axes,
+    errors,
+    joint,
+    links,
+    only,
+    robot,
+    six,
+)
 
 
 def test_a_plain_robot_has_no_findings(check):
@@ -378,8 +315,16 @@ def test_17_a_palletiser_of_nobodys_list_needs_its_coupling_too(check):
     lines = "\n".join(f"  joint_{n}: {{axis: rax_{axis}}}" for n, axis in axes.items())
     passive = "  ignore_joints: [joint_4, joint_5]"
     only("RG047", check(text, f"joints:\n{lines}", urdf=passive))
-    config, _ = check(text, f"coupling: 0\njoints:\n{lines}", urdf=passive)
+    only("RG021", check(text, f"coupling: 0\njoints:\n{lines}", urdf=passive))
+    kept = "coupling: 0\nkeep: {rax_4: 0, rax_5: 30}"
+    config, _ = check(text, f"{kept}\njoints:\n{lines}", urdf=passive)
     assert config.groups[0].coupling == 0
+    assert [(k.axis, k.must_stand) for k in config.groups[0].kept] == [
+        ("rax_4", True),
+        ("rax_5", True),
+    ]
+    fifth = config.groups[0].chain[4]
+    assert fifth.rpy[2] == pytest.approx(30 * DEGREE)
 
 
 def test_17_a_serial_robot_has_none(check):
@@ -387,37 +332,10 @@ def test_17_a_serial_robot_has_none(check):
     assert found["RG047"].severity is Severity.WARNING
 
 
-def mirrored():
-    """joint_3 of a CRB 15000 (-225..85) drawn the other way round."""
-    known = {1: 180, 2: 180, 4: 180, 5: 180, 6: 180}
-    parts = [
-        joint(f"joint_{n}", f"l{n - 1}", f"l{n}", lower=-known[n] * DEGREE, upper=known[n] * DEGREE)
-        for n in known
-    ]
-    third = joint("joint_3", "l2", "l3", lower=-85 * DEGREE, upper=225 * DEGREE)
-    return robot(links(*(f"l{n}" for n in range(7))), *parts, third)
-
-
-def test_18_a_mirrored_range_is_a_turned_axis(check):
-    fault = only("RG048", check(mirrored(), head="model: crb15000"))
-    assert "joints.joint_3.sign: -1" in fault.help
-    config, found = check(mirrored(), "joints: {joint_3: {sign: -1}}", head="model: crb15000")
-    assert not errors(found)
-    assert config.groups[0].joints[2].sign == -1
-    assert math.degrees(config.groups[0].joints[2].lower) == pytest.approx(-225)
-
-
-def test_19_ranges_that_differ_from_the_model(check):
-    config, found = check(robot(BASE, arm()), head="model: irb120")
-    assert found["RG049"].severity is Severity.WARNING
-    assert "joint_1 -85.94..85.94 (known -165..165 deg)" in found["RG049"].message
-    assert math.degrees(config.groups[0].joints[0].upper) == pytest.approx(165)
-
-
 def test_20_four_joints(check):
     text = robot(BASE, arm([f"joint_{n}" for n in range(1, 5)]))
     only("RG050", check(text))
-    lines = "coupling: 0\njoints:\n" + "\n".join(
+    lines = "coupling: 1\njoints:\n" + "\n".join(
         f"  joint_{n}: {{axis: rax_{axis}}}" for n, axis in ((1, 1), (2, 2), (3, 3), (4, 6))
     )
     config, found = check(text, lines)

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import os
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -27,7 +28,8 @@ def driver_files(
     robotware=(6, 15),
     drop: tuple[str, ...] = (),
     signals: tuple[str, ...] = ("signalMotorOn",),
-    opened: tuple[str, ...] = (),
+    motion_task: bool = True,
+    outputs: str = "",
 ) -> dict[str, bytes]:
     """The files of a generated folder by path, manifest.json among them."""
     files: dict[str, bytes] = {}
@@ -44,7 +46,7 @@ def driver_files(
         tasks[f"HOME/{path}"] = list(members)
     major = robotware[0]
     sys = f"SYS:CFG_1.0:{major}:0::\n#\nCAB_TASKS:\n"
-    for task in TASKS:
+    for task in TASKS if motion_task else TASKS[1:]:
         kind = ' -Type "NORMAL" -MotionTask' if task == "T_ROB1" else ' -TrustLevel "None"'
         sys += f'\n      -Name "{task}"{kind}\n'
     sys += "#\nCAB_TASK_MODULES:\n"
@@ -55,14 +57,9 @@ def driver_files(
     eio = f"EIO:CFG_1.0:{major}:1::\n#\nEIO_SIGNAL:\n"
     for signal in signals:
         eio += f'\n      -Name "{signal}" -SignalType "DO"\n'
-    files["EIO.cfg"] = eio.encode()
-    if opened:
-        text = eio.partition("EIO_SIGNAL:")[0] + "EIO_SIGNAL:\n"
-        for signal in opened:
-            text += f'\n      -Name "{signal}" -SignalType "DO"\n'
-        files["EIO_open.cfg"] = text.encode()
+    files["EIO.cfg"] = (eio + outputs).encode()
     files["README.md"] = b"# not for the controller\n"
-    kinds = {name: "cfg" for name in files if name.endswith(".cfg")} | {"README.md": "readme"}
+    kinds = {"SYS.cfg": "cfg", "EIO.cfg": "cfg", "README.md": "readme"}
     manifest = {
         "format": 1,
         "rapidgen": "0.1.0",
@@ -157,3 +154,8 @@ class Kit:
 @pytest.fixture(scope="session")
 def kit() -> type[Kit]:
     return Kit
+
+
+@pytest.fixture(autouse=True)
+def _no_fsync(monkeypatch):
+    monkeypatch.setattr(os, "fsync", lambda descriptor: None)

@@ -178,15 +178,48 @@ def test_a_damaged_backup_is_refused(kit, home, transport):
         lambda m: json.dumps({**m, "files": [{**m["files"][0], "sha256": "0"}]}).encode(),
         lambda m: json.dumps({**m, "id": float("inf")}).encode(),
         lambda m: json.dumps({**m, "history": {"id": 1}}).encode(),
-        lambda m: json.dumps({**m, "format": 2}).encode(),
     ],
 )
-def test_a_hostile_manifest_is_refused(kit, home, transport, spoil):
+@pytest.mark.parametrize("sets", [1, 2])
+def test_a_damaged_manifest_is_refused_and_overwrite_is_the_way_out(
+    kit, home, transport, spoil, sets
+):
+    theirs = home / "rapidgen/ROS_motion.mod"
+    theirs.parent.mkdir()
+    theirs.write_text("MODULE ROS_motion\nENDMODULE\n")
+    before = tree(home)
+    old, new = kit.driver(OLD), kit.driver(NEW)
+    kit.deploy(transport, old, overwrite=True)
+    if sets == 2:
+        kit.deploy(transport, new)
+    path = home / "rapidgen_deploy/manifest.json"
+    path.write_bytes(spoil(json.loads(path.read_bytes())))
+    spoilt = tree(home)
+    for wanted in (old, new):
+        assert refused(kit.deploy, transport, wanted) == ["RG531"]
+    for verb in ("uninstall", "rollback"):
+        assert refused(make_plan, transport, None, verb=verb) == ["RG531"]
+    assert tree(home) == spoilt
+    kit.deploy(transport, new, overwrite=True)
+    assert kit.verdict(home, new) == "set 0"
+    assert make_plan(transport, new).is_empty
+    history = make_plan(transport, new).had.history
+    assert [past.id for past in history] == ([1] if sets == 1 else [2, 3])
+    lay = backup_set(transport, "", history[-1].id)
+    assert {f.path: f.data for f in lay.files} == {
+        f.path: f.data for f in (old, new)[sets - 1].files
+    }
+    kit.deploy(transport, None, verb="uninstall")
+    # Which stranger's file was replaced stands in the manifest, and in every backup.
+    assert tree(home) == (before if sets == 2 else {})
+
+
+def test_a_manifest_of_a_later_rapidgen_is_left_alone(kit, home, transport):
     wanted = kit.driver(OLD)
     kit.deploy(transport, wanted)
     path = home / "rapidgen_deploy/manifest.json"
-    path.write_bytes(spoil(json.loads(path.read_bytes())))
-    assert refused(make_plan, transport, wanted) == ["RG531"]
+    path.write_text(json.dumps({**json.loads(path.read_bytes()), "format": 2}))
+    assert refused(kit.deploy, transport, wanted, overwrite=True) == ["RG531"]
 
 
 def test_a_hostile_journal_deletes_nothing(kit, home, transport):

@@ -87,30 +87,12 @@ def test_without_syspar_loading_is_a_step_at_the_pendant(kit, home):
         s.startswith("load HOME:/rapidgen_deploy/SYS.cfg (9 instances to add") for s in steps
     )
     assert any("T_ROB1 (NORMAL) reads ROS_common.sys, ROS_motion.mod" in s for s in steps)
-    assert [s.stops_motion for s in plan.steps if "Restart" in s.what] == [True] * 3
+    assert [s.stops_motion for s in plan.steps if "Restart" in s.what] == [True]
     again = kit.deploy(transport, kit.driver(NEW, signals=("signalOther",)))
     steps = [s.what for s in again.steps]
     assert any("load HOME:/rapidgen_deploy/EIO.cfg (1 instances to add" in s for s in steps)
     assert not any("SYS.cfg" in s for s in steps)
     assert any("loading removes nothing" in s and "signalMotorOn" in s for s in steps)
-
-
-def test_a_file_that_may_be_refused_is_a_step_of_its_own(kit, home):
-    plan = kit.deploy(FolderTransport(home), kit.driver(OLD, opened=("signalOpen",)))
-    loading = [s.what for s in plan.steps if s.what.startswith("load ")]
-    assert [what.split()[1].rpartition("/")[2] for what in loading] == [
-        "EIO.cfg",
-        "EIO_open.cfg",
-        "SYS.cfg",
-    ]
-    assert ["may be refused" in what for what in loading] == [False, True, False]
-
-
-def test_what_may_be_refused_is_not_written_where_nobody_could_refuse_it(kit, controller):
-    kit.deploy(FolderTransport(controller), kit.driver(OLD, opened=("signalOpen",)))
-    assert b"signalMotorOn" in (controller / "SYSPAR/EIO.cfg").read_bytes()
-    assert b"signalOpen" not in (controller / "SYSPAR/EIO.cfg").read_bytes()
-    assert (controller / "HOME/rapidgen_deploy/EIO_open.cfg").exists()
 
 
 @pytest.mark.parametrize("said", [7, "x", [["Name"]], [["Name", 3]], [[3, []]], [3], {"a": 1}])

@@ -14,6 +14,7 @@ from rapidgen.rapid.switches import Switches, parse_switches
 PROBE = data_folder("templates") / "ROS_probe.mod"
 ASKED = {
     "num_rounding": ("store", "operation"),
+    "dnum_whole": ("52", "53"),
     "for_loop": ("kernel", "tested"),
     "integer_division": ("truncate", "floor"),
     "negative_mod": ("allow", "error"),

@@ -13,7 +13,7 @@ from rapidgen.proving.bench import Bench, with_module
 from rapidgen.proving.explore import explore
 from rapidgen.proving.model import Broken
 from rapidgen.proving.run import Starter, prove
-from rapidgen.proving.settings import Setting, settings
+from rapidgen.proving.settings import Setting, assumed, rows, settings
 from rapidgen.proving.suite import CASES
 
 KINDS = ("irb2400", "irb14000", "irb120_track", "irb910sc", "irb460")
@@ -72,15 +72,13 @@ def test_what_depends_on_the_joints_holds_for_every_kind(name):
     assert broken(load_config(name), OF_THE_ROBOT) == {}
 
 
-@pytest.mark.parametrize("setting", [name for name in settings(SIX_AXES) if name])
-def test_it_holds_whatever_is_assumed(setting):
-    assert broken(SIX_AXES, OF_THE_CONTROLLER, settings(SIX_AXES)[setting]) == {}
+@pytest.mark.parametrize("texts", [texts for texts in rows().values() if texts])
+def test_it_holds_whatever_is_assumed(texts):
+    assert broken(SIX_AXES, OF_THE_CONTROLLER, assumed(texts)) == {}
 
 
 def test_no_schedule_breaks_the_invariant():
-    report = prove(
-        load_config("irb120"), seeds=12, jobs=1, only=(), every_setting=False, cases=False
-    )
+    report = prove(load_config("irb120"), seeds=12, jobs=1, only=(), strength=0, cases=False)
     assert report.schedules == 12
     assert report.findings == []
 
@@ -168,7 +166,7 @@ def test_every_case_has_a_name_of_its_own():
 
 
 def test_every_robot_has_settings_for_its_groups():
-    assert "rob_r" in settings(load_config("irb14000"))
+    assert "rob_r" in settings(load_config("irb14000"), rows(0))
 
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "robots" / "examples").glob("*.yaml"))
@@ -185,7 +183,7 @@ def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():
     known = {case.name for case in CASES if case.background}
     config = load_config("irb120", overrides=["commissioning=true"])
     assert "not-executing" in known
-    assert prove(config, jobs=1, only=("not-executing",), every_setting=False).outcomes == []
+    assert prove(config, jobs=1, only=("not-executing",), strength=0).outcomes == []
 
 
 def test_a_fault_of_the_configuration_is_a_diagnostic_in_workers_too(monkeypatch, capsys):

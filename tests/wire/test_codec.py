@@ -80,15 +80,12 @@ INT32 = st.integers(-(2**31), 2**31 - 1)
 FLOAT32 = st.floats(width=32, allow_nan=False)
 
 
-STEP = st.integers(-spec.PAIR_ZERO + 1, spec.PAIR_ZERO - 1).map(lambda n: n / spec.PAIR_SCALE)
+STEP = st.integers(1 - 2**31, 2**31 - 1).map(lambda n: n / spec.FIXED_SCALE)
 
 
 def value_of(field: Field) -> st.SearchStrategy:
-    if field.type is Wire.PAIR:
-        pairs = st.lists(st.tuples(STEP, STEP), max_size=123)
-        return pairs.map(lambda found: tuple(number for pair in found for number in pair))
-    if field.type is Wire.UINT64:
-        return st.integers(0, 2**64 - 1)
+    if field.type is Wire.FIXED:
+        return st.lists(STEP, max_size=247).map(tuple)
     if field.type is Wire.CHAR:
         return st.text("0123456789abcdef", max_size=field.count)
     scalar = INT32 if field.type is Wire.INT32 else FLOAT32

@@ -16,7 +16,7 @@ from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidTrajectory
 from rapidgen.client.trajectory import Array, Trajectory
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error, suggest
-from rapidgen.wire.simple_message.spec import PAIR_LIMIT, PAIR_SCALE
+from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
 
 Way = Literal["download", "stream"]
 """download: sent whole before anything moves; stream: sent while the robot moves."""
@@ -153,12 +153,12 @@ def check_points(
 def to_stream(
     checked: CheckedTrajectory, group: Group, capacity: int
 ) -> CheckedTrajectory | CheckedPoints:
-    """The same as points of a stream, where the wire's pairs can hold every value of it.
+    """The same as points of a stream, where the wire's numbers can hold every value of it.
 
     Raises InvalidTrajectory where they cannot and a driver holds no more than `capacity` points.
     """
     ordered, durations = checked.trajectory, checked.durations
-    if max(np.abs(checked.wire).max(), durations.max()) > PAIR_LIMIT:
+    if max(np.abs(checked.wire).max(), durations.max()) > FIXED_LIMIT:
         _raise_errors(list(_capacity(ordered, capacity)))
         return checked
     since = ordered.times[0] - durations[0]
@@ -169,19 +169,19 @@ def to_stream(
 def _points(asked: _Asked, since: float, warnings: tuple[Diagnostic, ...]) -> CheckedPoints:
     ordered, group, durations = asked.ordered, asked.group, asked.durations
     # Times are put on the grid, not durations: nothing adds up over a long stream.
-    steps = np.diff(np.rint(ordered.times * PAIR_SCALE), prepend=np.rint(since * PAIR_SCALE))
-    least = np.rint(np.minimum(durations, group.policy.min_segment) * PAIR_SCALE)
+    steps = np.diff(np.rint(ordered.times * FIXED_SCALE), prepend=np.rint(since * FIXED_SCALE))
+    least = np.rint(np.minimum(durations, group.policy.min_segment) * FIXED_SCALE)
     wire = on_the_grid(asked.wire, group)
     last = LastPoint(len(ordered) + asked.origin, float(ordered.times[-1]), wire[-1])
-    return CheckedPoints(ordered, wire, np.maximum(steps, least) / PAIR_SCALE, last, warnings)
+    return CheckedPoints(ordered, wire, np.maximum(steps, least) / FIXED_SCALE, last, warnings)
 
 
 def on_the_grid(wire: Array, group: Group) -> Array:
-    """Axis values (n, k) in steps of the wire's pairs, none of them outside the limits."""
+    """Axis values (n, k) in steps of the wire's numbers, none of them outside the limits."""
     with np.errstate(invalid="ignore"):
-        low = np.ceil(np.array([joint.lower for joint in group.joints]) * PAIR_SCALE)
-        high = np.floor(np.array([joint.upper for joint in group.joints]) * PAIR_SCALE)
-    steps: Array = np.clip(np.rint(wire * PAIR_SCALE), low, high) / PAIR_SCALE
+        low = np.ceil(np.array([joint.lower for joint in group.joints]) * FIXED_SCALE)
+        high = np.floor(np.array([joint.upper for joint in group.joints]) * FIXED_SCALE)
+    steps: Array = np.clip(np.rint(wire * FIXED_SCALE), low, high) / FIXED_SCALE
     return steps
 
 
@@ -381,11 +381,11 @@ def _short(asked: _Asked) -> list[Diagnostic]:
 
 def _fits(asked: _Asked) -> list[Diagnostic]:
     values = np.concatenate([asked.wire, asked.durations[:, None]], axis=1)
-    points = np.flatnonzero((np.abs(values) > PAIR_LIMIT).any(axis=1))
+    points = np.flatnonzero((np.abs(values) > FIXED_LIMIT).any(axis=1))
     if not len(points):
         return []
     mend = (
-        f"{PAIR_LIMIT:.2f} s, rad or m are the most: "
+        f"{FIXED_LIMIT:.2f} s, rad or m are the most: "
         "`Trajectory.resampled(10)` divides a long segment"
     )
     return [asked.finding("RG623", "a value is too large for a stream at", points, mend)]

@@ -1,4 +1,4 @@
-"""What a URDF says against what is known of the model: coupling, sign, ranges."""
+"""What a URDF says against what is known of the model: coupling by its name, and ranges."""
 
 import math
 import re
@@ -54,42 +54,23 @@ def check_coupling(
         )
 
 
-def check_joint(
-    draft: JointDraft, joint: UrdfJoint, group: GroupDraft, place: Span | None
-) -> tuple[list[Diagnostic], str]:
-    """The URDF's range against the model's, else the configuration's: faults, and a difference.
-
-    A mirrored range is an error (RG048); another difference from the model is a phrase.
-    """
-    known_lower = group.known.get((draft.axis, "lower"), draft.lower)
-    known_upper = group.known.get((draft.axis, "upper"), draft.upper)
+def check_joint(draft: JointDraft, joint: UrdfJoint, group: GroupDraft) -> str:
+    """Notes the URDF's range with the joint; how it differs from the model's, as a phrase."""
     if joint.lower is None or joint.upper is None or joint.kind == "continuous":
-        return [], ""
-    if known_lower is None or known_upper is None:
-        return [], ""
+        return ""
     factor = 1000.0 if joint.kind == "prismatic" else 180 / math.pi
     lower, upper = sorted(
         draft.sign * end * factor + draft.offset for end in (joint.lower, joint.upper)
     )
+    draft.described = (lower, upper)
+    known_lower = group.known.get((draft.axis, "lower"))
+    known_upper = group.known.get((draft.axis, "upper"))
+    if known_lower is None or known_upper is None:
+        return ""
     if _near(lower, known_lower) and _near(upper, known_upper):
-        return [], ""
+        return ""
     unit = "mm" if joint.kind == "prismatic" else "deg"
-    if _near(lower, -known_upper) and _near(upper, -known_lower):
-        return [
-            error(
-                "RG048",
-                joint.span or place,
-                f"joint '{joint.name}': {lower:.4g}..{upper:.4g} {unit} is the mirror of the known "
-                f"range {known_lower:g}..{known_upper:g} {unit}",
-                f"set joints.{joint.name}.sign: {-draft.sign}, or correct the URDF",
-                label="turns the other way",
-            )
-        ], ""
-    if not group.known:
-        return [], ""
-    return [], (
-        f"{joint.name} {lower:.4g}..{upper:.4g} (known {known_lower:g}..{known_upper:g} {unit})"
-    )
+    return f"{joint.name} {lower:.4g}..{upper:.4g} (known {known_lower:g}..{known_upper:g} {unit})"
 
 
 def differences(phrases: list[str], place: Span | None) -> Iterator[Diagnostic]:

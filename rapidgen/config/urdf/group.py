@@ -1,7 +1,7 @@
 """One group's `urdf:` section: read it, map its joints, complete the draft."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from itertools import dropwhile, pairwise
 from pathlib import Path
 
 from rapidgen.config import schema
@@ -55,8 +55,12 @@ def complete_from(
         found += crosscheck.check_coupling(draft, robot, description.path.name, place)
     if not any(d.severity is Severity.ERROR for d in found):
         found += _fill(draft, graph, place)
-        if not draft.chain:
-            draft.chain = chain(graph, draft, given.tip or "")
+        draft.ignored = tuple(j.name for j in _ignored(_path(graph, draft, given.tip or ""), draft))
+        draft.names = (robot.name, description.path.name)
+        draft.urdf_chain = chain(graph, draft, given.tip or "")
+        if not draft.chain or any(j.sign < 0 or j.offset for j in draft.joints):
+            # A chain is in the sense of the URDF, so that of a model is not the one with signs.
+            draft.chain = draft.urdf_chain
     return found, description.inputs
 
 
@@ -251,32 +255,44 @@ def _fill(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
     for joint in draft.joints:
         known = graph.robot.joint(joint.name)
         assert known is not None
-        faults, phrase = crosscheck.check_joint(joint, known, draft, place)
-        found += faults
+        phrase = crosscheck.check_joint(joint, known, draft)
         phrases += [phrase] if phrase else []
         found += limits.fill(joint, known, place)
     return [*found, *crosscheck.differences(phrases, place)]
 
 
-def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:
-    """The kinematic chain from the root to the flange, in the URDF's sense.
-
-    A turning joint that mimics a mapped one follows it; a sliding one stands still.
-    """
+def _path(graph: Graph, draft: GroupDraft, tip: str) -> tuple[UrdfJoint, ...]:
+    """All joints from the root to the flange."""
     by_axis = {joint.axis: joint.name for joint in draft.joints}
     last = next(
         (by_axis[axis] for axis in reversed(ROBOT_AXES) if axis in by_axis), draft.joints[-1].name
     )
     end = graph.robot.joint(last)
     assert end is not None
-    if tip in graph.robot.links:
-        tip_link = tip
-    else:
-        tip_link = graph.tip_link(end)
+    return graph.path_to(tip if tip in graph.robot.links else graph.tip_link(end))
+
+
+def _ignored(path: Sequence[UrdfJoint], draft: GroupDraft) -> tuple[UrdfJoint, ...]:
+    """Joints of the arm that move by themselves and drive no axis."""
+    axes = {joint.name: joint.axis for joint in draft.joints}
+    arm = dropwhile(lambda joint: not axes.get(joint.name, "").startswith("rax"), path)
+    return tuple(joint for joint in arm if joint.is_actuated and joint.name not in axes)
+
+
+def chain(graph: Graph, draft: GroupDraft, tip: str) -> list[ChainLink]:
+    """The kinematic chain from the root to the flange, in the URDF's sense.
+
+    A turning joint that mimics a mapped one follows it; a sliding one stands still. Joints of the
+    arm that drive nothing stand where `keep` says.
+    """
     mapped = {joint.name for joint in draft.joints}
+    path = _path(graph, draft, tip)
+    kept = dict(zip((j.name for j in _ignored(path, draft)), draft.keep, strict=False))
     made = []
-    for joint in graph.path_to(tip_link):
-        if joint.name in mapped:
+    for joint in path:
+        if kept.get(joint.name):
+            made.append(ChainLink("", *joint.moved(kept[joint.name])))
+        elif joint.name in mapped:
             made.append(ChainLink(joint.name, joint.xyz, joint.rpy, joint.axis))
         elif joint.mimic in mapped and joint.kind != "prismatic":
             follows = ((joint.mimic, joint.multiplier),)

@@ -58,6 +58,11 @@ class UrdfJoint:
         """Moves by itself: neither fixed nor a mimic."""
         return self.kind != "fixed" and not self.mimic
 
+    def moved(self, amount: float) -> tuple[Vector, Vector]:
+        """xyz and rpy of the joint turned by `amount` (rad), as one fixed step."""
+        step = _moved(_matrix(self.xyz, self.rpy), self.axis, amount, slides=False)
+        return _vector(step[:3, 3]), _rpy(step)
+
 
 @dataclass(frozen=True, slots=True)
 class UrdfRobot:
@@ -180,6 +185,18 @@ def _moved(matrix: "Matrix | None", axis: Vector, amount: float, *, slides: bool
         turn = math.sin(amount) * cross + (1 - math.cos(amount)) * cross @ cross
         step[:3, :3] += turn
     return step if matrix is None else matrix @ step
+
+
+def _matrix(xyz: Vector, rpy: Vector) -> "Matrix":
+    import numpy as np
+
+    made = np.eye(4)
+    for axis, angle in zip(
+        ((0.0, 0.0, 1.0), (0.0, 1.0, 0.0), (1.0, 0.0, 0.0)), rpy[::-1], strict=True
+    ):
+        made = _moved(made, axis, angle, slides=False)
+    made[:3, 3] = xyz
+    return made
 
 
 def _vector(values: Iterable[float]) -> Vector:

@@ -114,20 +114,22 @@ def _shapes(bench: Bench) -> None:
     bench.stays(1, "no stream has begun")
     words = [word for point in points[5:] for word in messages.words_of(point)]
     exchanged = bytearray(messages.points_frame(7, 5, points[5:]))
-    exchanged[32:48] = exchanged[40:48] + exchanged[32:40]
+    exchanged[32:40] = exchanged[36:40] + exchanged[32:36]
     data = messages.points_frame(7, 5, points[5:])[16:]
     wrong = [(bytes(exchanged), RawReason.CHECKSUM)]
-    wrong += [(messages.words_frame(7, 5, c, words), RawReason.FRAMING) for c in (4, 6, 0, 2**31)]
+    wrong += [
+        (messages.words_frame(7, 5, c, words), RawReason.FRAMING) for c in (4, 6, 0, -(2**31))
+    ]
     wrong += [
         (messages.framed(messages.POINTS, data[:more]), RawReason.FRAMING) for more in (-8, -4)
     ]
     wrong += [
         (messages.framed(messages.POINTS, data + bytes(more)), RawReason.FRAMING) for more in (4, 8)
     ]
-    for value in (2**53 + 1, 2**63, 2**64 - 1):
-        for place in (32, 40, len(data) + 8):
+    for value in (2**24 + 1, 2**31 - 1, -(2**31)):
+        for place in (32, 36, len(data) + 12):
             spoilt = bytearray(messages.points_frame(7, 5, points[5:]))
-            struct.pack_into("<Q", spoilt, place, value)
+            struct.pack_into("<i", spoilt, place, value)
             wrong.append((bytes(spoilt), RawReason.CHECKSUM))
     for bad, reason in wrong:
         points = way(bench, 10)

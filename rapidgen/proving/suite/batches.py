@@ -80,9 +80,9 @@ def _spoilt(frame: bytes, place: int) -> bytes:
     return bytes(data)
 
 
-@case("batch-no-number", "bytes that are no number in a batch", "R2")
+@case("batch-no-number", "numbers that no batch has", "R2")
 def _no_number(bench: Bench) -> None:
-    """Eight bytes that are too large for the controller to count, anywhere in a batch."""
+    """Eight bytes of ones, two numbers that nobody sends, anywhere in a batch."""
     last = len(Streamer(bench, number=3).frame(way(bench, 4), BEGIN)) - 8
     for place, whose in ((16, 0), (24, 3), (32, 3), (40, 3), (last - 8, 3), (last, 3)):
         stream = Streamer(bench, number=3)
@@ -120,20 +120,6 @@ def _damaged_beginning(bench: Bench) -> None:
             bench.wait_until_at(points[19][0], 20)
         bench.executed(points, since)
         stream.link.close(then=1.2)
-
-
-@case("batch-padding", "a value for a joint that is not there")
-def _padding(bench: Bench) -> None:
-    """Where a point has a place for a joint that the robot lacks that place is zero."""
-    joints = len(bench.position)
-    if 2 * messages.point_pairs(joints) == joints + 1:
-        return
-    stream = Streamer(bench)
-    here = bench.position
-    stream.put([((*here, 0.5), 1.0)] * 2, BEGIN | END)
-    told = stream.refused(RawReason.BAD_PADDING, "a value for a joint that is not there")
-    if (told.accepted, told.point) != (0, 0):
-        raise Broken(f"the first point has a value too many, the reply is {told}")
 
 
 @case("batch-enough", "just enough points to begin with")
@@ -292,12 +278,8 @@ def _index_wraps(bench: Bench) -> None:
 @case("batch-unreadable", "bytes of a batch that cannot be read", "R3")
 def _unreadable(bench: Bench) -> None:
     """Bytes that cannot be read, anywhere in a batch: it is refused, or its client dropped."""
-    joints = messages.point_pairs(len(bench.position))
-    # The frame's own and the kind of message; two words of the head, those of two points, the
-    # checksum.
-    # An error of the former passes through routines without a handler, where errors do that.
-    passes = bench.setting.dialect.unhandled_error == "propagate"
-    for after in range(0 if passes else 4, 4 + 2 + 2 * joints + 1):
+    # The frame's own, four of the head, those of two points, the checksum.
+    for after in range(4 + 4 + 2 * (1 + len(bench.position)) + 1):
         stream, since = Streamer(bench), bench.now
         points = way(bench, 10)
         stream.put(points[:8], BEGIN | FLUSH)

@@ -97,10 +97,9 @@ def _leave(bench: Bench) -> None:
         if how == "is replaced":
             next_one = bench.control()
         elif how == "is dropped":
-            # By an error in serving it, where the task survives one, else by what it sends.
-            if bench.setting.dialect.unhandled_error == "propagate":
-                fails(bench, "ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
-            control.send(_PING + b"\xff" * 8)
+            # By an error in serving it.
+            fails(bench, "ROS_control", "CopyRawBytes", "ERR_OUTOFBND")
+            control.send(_PING)
         else:
             control.close(abort=how == "is reset")
         if how == "has not beaten":

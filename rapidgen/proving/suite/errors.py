@@ -65,9 +65,6 @@ def _instructions_fail(bench: Bench) -> None:
         ("ROS_motion", "StopMove", "ERR_PATH_STOP"),
         ("ROS_motion", "StartMove", "ERR_PATHDIST"),
     ):
-        if error == "ERR_OUTOFBND" and bench.setting.dialect.unhandled_error == "stop":
-            # There it does not pass through routines without a handler: the task ends.
-            continue
         for moving in (False, True):
             link = bench.motion()
             state = bench.state()

@@ -97,7 +97,7 @@ def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
     """Malformed frames in all ways; each time a good client is served afterwards."""
     chance = random.Random(bench.setting.seed)
     for _ in range(rounds):
-        data = _malformed(bench, chance)
+        data = malformed(bench, chance)
         link = bench.motion()
         link.send(data)
         bench.stays(0.3, f"malformed: {data.hex()}")
@@ -106,8 +106,8 @@ def campaign(bench: Bench, rounds: int = ROUNDS) -> None:
         bench.forget()
 
 
-def _malformed(bench: Bench, chance: random.Random) -> bytes:
-    """Damaged downloads without their end, headers with wrong fields, plain noise."""
+def malformed(bench: Bench, chance: random.Random) -> bytes:
+    """A damaged download without its end, a header with wrong fields, or plain noise."""
     kind = chance.randrange(4)
     if kind == 0:
         return chance.randbytes(chance.randrange(1, 300))

@@ -171,7 +171,7 @@ def _said(bench: Bench, reason: RawReason) -> None:
 def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     """Batches that nobody knows to be of the stream under way do nothing to it."""
     stream, points = streams.stream, way(bench, 4)
-    for after in (_HEAD, _HEAD + 1):
+    for after in (_HEAD, _HEAD + 3):
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         stream.say(stream.frame(points, _NONE))
         recovers()
@@ -182,8 +182,8 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
     if not isinstance(stream.last, messages.RawPointsRefused) or stream.last.stream:
         raise Broken(f"a damaged head is answered by {stream.last}")
     # Nor does a beginning that cannot be read end anything.
-    last = _HEAD + 2 + 2 * messages.point_pairs(len(bench.position))
-    for after in (_HEAD + 2, _HEAD + 3, last):
+    last = _HEAD + 4 + 2 * (1 + len(bench.position))
+    for after in (_HEAD + 4, _HEAD + 5, last):
         other = Streamer(bench, stream.link, number=9)
         recovers = fails(bench, "ROS_motionServer", "UnpackRawBytes", "ERR_OUTOFBND", after=after)
         other.put(points[:2], BEGIN)
@@ -200,13 +200,13 @@ def _no_business_of_it(bench: Bench, streams: _Streams) -> None:
 def _odd_batches(bench: Bench) -> None:
     """A stream is cut by what is wrong of its own, and by nothing else; what was taken is done."""
     streams = _Streams(bench)
-    pairs = messages.point_pairs(len(bench.position))
+    words = 1 + len(bench.position)
     for number, (what, first, unreadable) in enumerate(
         (
             ("a damaged batch", 12, None),
             ("a damaged batch behind a hole", 13, None),
-            ("a checksum that cannot be read", 12, _HEAD + 2 + 2 * pairs),
-            ("a point that cannot be read", 12, _HEAD + 2 + pairs),
+            ("a checksum that cannot be read", 12, _HEAD + 4 + 2 * words),
+            ("a point that cannot be read", 12, _HEAD + 4 + words),
         )
     ):
         points, since = way(bench, 14), bench.now

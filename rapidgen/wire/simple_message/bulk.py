@@ -13,19 +13,17 @@ from rapidgen.wire.simple_message.declaration import Wire
 from rapidgen.wire.simple_message.frames import ContentError
 from rapidgen.wire.simple_message.spec import (
     CHECKSUM_MODULUS,
+    CHECKSUM_OFFSET,
+    FIXED_LIMIT,
+    FIXED_SCALE,
     INDEX_WRAP,
-    PAIR_BASE,
-    PAIR_BITS,
-    PAIR_LIMIT,
-    PAIR_SCALE,
-    PAIR_ZERO,
     Comm,
     ReplyCode,
     Sequence,
     StreamFlag,
 )
 
-Words = npt.NDArray[np.uint64]
+Words = npt.NDArray[np.int32]
 
 _TYPES = {Wire.INT32: "<i4", Wire.FLOAT32: "<f4"}
 FRAME_BYTES = spec.PREFIX_BYTES + messages.JOINT_TRAJ_PT.length
@@ -76,26 +74,23 @@ def decode_points(data: bytes) -> npt.NDArray[np.void]:
     return np.frombuffer(data, dtype=POINT_FRAME)
 
 
-_WORD = np.dtype("<u8")
-_HALF = np.uint64(PAIR_BITS)
-_LOW = np.uint64(PAIR_BASE - 1)
-_UPPER = np.uint64(32)
-_MODULUS = np.uint64(CHECKSUM_MODULUS)
-_SQUARE = PAIR_BASE**2
+_WORD = np.dtype("<i4")
 _POINTS_HEAD = Struct("<8i")
-_CHECKSUM = Struct("<Q")
+_CHECKSUM = Struct("<i")
 _POINTS = messages.POINTS.number
 _REQUEST, _TOPIC, _NONE = int(Comm.REQUEST), int(Comm.TOPIC), int(ReplyCode.NONE)
 _HEAD = (spec.PREFIX_BYTES + spec.HEADER_BYTES) // _WORD.itemsize
 """Words before the data."""
-_PAIRS = _HEAD + 2
-"""Words before the pairs: stream and flags, first and points enter the checksum too."""
-# 2^k modulo the checksum's modulus, for every place that a word of a message can have.
+_VALUES = _HEAD + 4
+"""Words before the values: stream, flags, first and points enter the checksum too."""
+# 2^k modulo the checksum's modulus, for every place that a word of a message can have, in halves
+# whose products with a word of 32 bits can be added up in 64.
+_HALF = 16
 _POWERS = np.array(
-    [pow(2, k, CHECKSUM_MODULUS) for k in reversed(range(spec.MAX_MESSAGE_BYTES // 8))],
-    dtype=np.uint64,
+    [pow(2, k, CHECKSUM_MODULUS) for k in reversed(range(spec.MAX_MESSAGE_BYTES // 4))],
+    dtype=np.int64,
 )
-_POWERS_HIGH, _POWERS_LOW = _POWERS >> _HALF, _POWERS & _LOW
+_POWERS_HIGH, _POWERS_LOW = _POWERS >> _HALF, _POWERS & ((1 << _HALF) - 1)
 
 
 class Batch(NamedTuple):
@@ -109,41 +104,35 @@ class Batch(NamedTuple):
 
 
 def checksums(words: Words) -> list[int]:
-    """The checksum of each row of (n, m) words, m <= 128.
+    """The checksum of each row of (n, m) words, m <= 256.
 
-    It is linear, the sum of word i * 2^(m-1-i), and so three sums of products of 26-bit halves.
-    None of them reaches 2^60: everything is exact in 64 bits.
+    It is linear, the sum of (word i + 2^31) * 2^(m-1-i), and so two sums of products of 32 and at
+    most 16 bits, 256 of them: none reaches 2^57, and everything is exact in 64 bits.
     """
-    reduced = words % _MODULUS
-    high, low = reduced >> _HALF, reduced & _LOW
+    shifted = words.astype(np.int64) + CHECKSUM_OFFSET
     width = words.shape[1]
-    powers_high, powers_low = _POWERS_HIGH[-width:], _POWERS_LOW[-width:]
-    top = (high @ powers_high).tolist()
-    middle = (high @ powers_low + low @ powers_high).tolist()
-    bottom = (low @ powers_low).tolist()
-    return [
-        (t * _SQUARE + m * PAIR_BASE + b) % CHECKSUM_MODULUS
-        for t, m, b in zip(top, middle, bottom, strict=True)
-    ]
+    high = (shifted @ _POWERS_HIGH[-width:]) % CHECKSUM_MODULUS
+    low = shifted @ _POWERS_LOW[-width:]
+    found: list[int] = (((high << _HALF) + low) % CHECKSUM_MODULUS).tolist()
+    return found
 
 
 def pack_points(durations: npt.ArrayLike, joints: npt.ArrayLike) -> Words:
-    """(n, pairs) words of n points: `durations` (n,) s, `joints` (n, k) rad or m, k <= 10.
+    """(n, 1 + k) words of n points: `durations` (n,) s, `joints` (n, k) rad or m, k <= 10.
 
-    Raises ContentError for what a pair cannot hold.
+    Raises ContentError for what a fixed-point number cannot hold.
     """
     values = np.asarray(joints, dtype=np.float64)
     count, axes = values.shape
     if not 1 <= axes <= spec.MAX_JOINTS:
         raise ValueError(f"points of {axes} joints")
-    numbers = np.zeros((count, 2 * messages.point_pairs(axes)))
+    numbers = np.zeros((count, messages.point_values(axes)))
     numbers[:, 0] = durations
-    numbers[:, 1 : 1 + axes] = values
+    numbers[:, 1:] = values
     # Written so that NaN does not pass.
-    if not np.all(np.abs(numbers) <= PAIR_LIMIT):
-        raise ContentError(f"values beyond {PAIR_LIMIT}, or none at all")
-    steps = (np.rint(numbers * PAIR_SCALE) + PAIR_ZERO).astype(_WORD)
-    words: Words = steps[:, ::2] << _HALF | steps[:, 1::2]
+    if not np.all(np.abs(numbers) <= FIXED_LIMIT):
+        raise ContentError(f"values beyond {FIXED_LIMIT}, or none at all")
+    words: Words = np.rint(numbers * FIXED_SCALE).astype(_WORD)
     return words
 
 
@@ -170,7 +159,7 @@ def encode_points(
     goes to the first frame, END and FLUSH to the last.
     """
     words = pack_points(durations, joints)
-    size = messages.batch_points(2 * words.shape[1] - 1) if batch is None else batch
+    size = messages.batch_points(words.shape[1] - 1) if batch is None else batch
     starts = range(0, len(words), size) if len(words) else range(1)
     every = [0] * len(starts)
     every[0] |= flags & StreamFlag.BEGIN
@@ -210,12 +199,12 @@ def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
     """POINTS frames of a robot with `axes` joints, one or many, each whole.
 
     Raises ContentError for one that a driver would refuse as a whole: another type or length, a
-    wrong checksum, a word that is no pair, padding that is not zero.
+    wrong checksum.
     """
     found: list[Batch] = []
     for length, same in groupby(data, len):
         block = list(same)
-        if length < _WORD.itemsize * (_PAIRS + 1) or length % _WORD.itemsize:
+        if length < _WORD.itemsize * (_VALUES + 1) or length % _WORD.itemsize:
             raise ContentError(f"a frame of {length} bytes is no POINTS")
         frames = np.frombuffer(b"".join(block), dtype=_WORD).reshape(len(block), -1)
         found += _batches(frames, axes)
@@ -223,25 +212,18 @@ def decode_batches(data: Rows[bytes], axes: int) -> list[Batch]:
 
 
 def _batches(frames: Words, axes: int) -> list[Batch]:
-    pairs = messages.point_pairs(axes)
-    count, rest = divmod(frames.shape[1] - _PAIRS - 1, pairs)
+    width = messages.point_values(axes)
+    count, rest = divmod(frames.shape[1] - _VALUES - 1, width)
     length = messages.points_length(count, axes)
-    if rest or np.any(frames[:, 0] != (length | messages.POINTS.number << 32)):
+    if rest or np.any(frames[:, :2] != (length, messages.POINTS.number)):
         raise ContentError(f"no POINTS of {axes} joints")
-    if np.any(frames[:, _HEAD + 1] >> _UPPER != count):
+    if np.any(frames[:, _VALUES - 1] != count):
         raise ContentError("the count does not fit the length")
     if frames[:, -1].tolist() != checksums(frames[:, _HEAD:-1]):
         raise ContentError("the checksum is wrong")
-    words = frames[:, _PAIRS:-1]
-    if np.any(words >> np.uint64(2 * PAIR_BITS)):
-        raise ContentError("a word is no pair")
-    steps = np.stack([words >> _HALF, words & _LOW], axis=-1).astype(np.int64) - PAIR_ZERO
-    steps = steps.reshape(len(frames), count, 2 * pairs)
-    if np.any(steps[:, :, 1 + axes :]):
-        raise ContentError("a joint that the robot does not have is not zero")
-    numbers = steps / PAIR_SCALE
-    heads = frames[:, _HEAD : _HEAD + 2].copy().view("<i4").tolist()
+    numbers = frames[:, _VALUES:-1].reshape(len(frames), count, width) / FIXED_SCALE
+    heads = frames[:, _HEAD : _VALUES - 1].tolist()
     return [
-        Batch(stream, flags, first, points[:, 0], points[:, 1 : 1 + axes])
-        for (stream, flags, first, _), points in zip(heads, numbers, strict=True)
+        Batch(stream, flags, first, points[:, 0], points[:, 1:])
+        for (stream, flags, first), points in zip(heads, numbers, strict=True)
     ]

@@ -11,7 +11,7 @@ from functools import cached_property
 from rapidgen.wire.simple_message.spec import HEADER_BYTES, Port, ReplyCode
 
 Value = int | float | str | tuple[int, ...] | tuple[float, ...]
-"""One field's value: a scalar, a text, or a tuple of `count` numbers (two for each PAIR)."""
+"""One field's value: a scalar, a text, or a tuple of `count` numbers."""
 Content = tuple[Value, ...]
 """What a frame carries: one of the classes that `messages` declares."""
 
@@ -21,20 +21,18 @@ class Wire(StrEnum):
 
     INT32 = "int32"
     FLOAT32 = "float32"
-    UINT64 = "uint64"
-    PAIR = "pair"
-    """Two fixed-point numbers (a, b) in one uint64, each in steps of 1 / PAIR_SCALE from
-    PAIR_ZERO: `a * PAIR_BASE + b`. Below 2^52, so that a RAPID dnum holds it exactly."""
+    FIXED = "fixed"
+    """A fixed-point number: an int32 of steps of 1 / FIXED_SCALE. Eight bytes at a time would be
+    fewer to read, but what a controller makes of a ULINT above 2^52 is in no manual."""
     CHAR = "char"
     """One byte of ASCII; a text is filled up with zero bytes."""
 
     @property
     def size(self) -> int:
         """Bytes of one value."""
-        return _WIRE_SIZES.get(self, 4)
+        return 1 if self is Wire.CHAR else 4
 
 
-_WIRE_SIZES = {Wire.CHAR: 1, Wire.UINT64: 8, Wire.PAIR: 8}
 ANY = 0
 """Count of a field that has as many values as the length of the message says."""
 

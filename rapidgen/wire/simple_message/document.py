@@ -19,7 +19,7 @@ Written from `rapidgen/wire/simple_message/` by
 
 A rapidgen driver speaks ROS-Industrial's simple_message, so that its C++ nodes work unchanged,
 and adds messages in ABB's range 1300 to 1399 for the paired client. Everything is little endian;
-`int32` and `float32` have four bytes, `uint64` and `pair` eight. Joints are values of the
+`int32`, `float32` and `fixed` have four bytes. Joints are values of the
 **controller's axes**, in rad and m, in the order of `joints:` in the configuration, padded with
 zeros to ten. Sign, offset and coupling of joint 2 and 3 are the client's business.
 """
@@ -44,15 +44,13 @@ _CONTROL = f"{', '.join(_LISTED[:-1])} and {_LISTED[-1]}"
 _STREAMS = f"""\
 ## Streams
 
-- A `pair` is two fixed-point numbers of 26 bits in one uint64, `(round(a * 1e6) + 2^25) * 2^26 +
-  round(b * 1e6) + 2^25`: steps of 1e-6 s, rad or m, magnitudes up to {spec.PAIR_LIMIT}. It is
-  below 2^52 and cannot be NaN.
-- A point is its duration and its joints, two numbers a pair; with an even number of joints the
-  last second number is 0. A message holds {messages.batch_points(6)} points of six or seven axes,
-  {messages.batch_points(10)} of ten.
-- The checksum goes over the uint64 words of the data before it, stream and flags being the first,
-  first and points the second: `c := 0`, then for each word `c := (2 * c + word) MOD (2^51 - 129)`.
-  Every step is exact in 64-bit floats.
+- A `fixed` is an int32 of steps of 1e-6 s, rad or m: magnitudes up to {spec.FIXED_LIMIT}. It
+  cannot be NaN.
+- A point is its duration and its joints. A message holds {messages.batch_points(6)} points of six
+  axes, {messages.batch_points(10)} of ten.
+- The checksum goes over the int32 words of the data before it, `stream` being the first: `c := 0`,
+  then for each word `c := (2 * c + word + 2^31) MOD (2^31 - 19)`. Also eleven words at a time, the
+  points of ten axes, are whole numbers below 2^44, which a RAPID dnum holds exactly (to 2^52).
 - BEGIN belongs to a first batch, whose `first` is 0; it supersedes what is under way, as sequence
   -1 does, and it belongs to its connection. After END nothing follows. A batch without points is
   a question for the reply, and carries END or FLUSH.
@@ -203,6 +201,12 @@ def _versions() -> str:
             "states 7 and 8",
             "the reply to HELLO is longer: a driver refuses a client of version 1, a client of "
             "version 2 a driver of version 1",
+        ),
+        (
+            "3",
+            "none",
+            "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
+            "between 1 and 2",
         ),
     ]
     return (

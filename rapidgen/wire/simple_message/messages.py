@@ -250,11 +250,11 @@ class Points(NamedTuple):
     flags: Annotated[int, int32("bits: 1 BEGIN, 2 END, 4 FLUSH")]
     first: Annotated[int, int32("index of the first point, from 0, modulo 2^23")]
     points: Annotated[int, int32("how many follow, from 0")]
-    pairs: Annotated[
+    values: Annotated[
         tuple[float, ...],
-        Field(Wire.PAIR, ANY, "s, rad, m", "per point: duration, joints, then 0 if odd"),
+        Field(Wire.FIXED, ANY, "s, rad, m", "per point: duration, joints"),
     ]
-    checksum: Annotated[int, Field(Wire.UINT64, 1, "", "of all words before it, see below")]
+    checksum: Annotated[int, int32("of all words before it, see below")]
 
 
 class PointsAccepted(NamedTuple):
@@ -396,16 +396,16 @@ MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, Mes
 """All of them, by number."""
 
 
-def point_pairs(joint_count: int) -> int:
-    """PAIRs of one point in POINTS: a duration and the joints, two by two."""
-    return (2 + joint_count) // 2
+def point_values(joint_count: int) -> int:
+    """Values of one point in POINTS: a duration and the joints."""
+    return 1 + joint_count
 
 
 def points_length(count: int, joint_count: int) -> int:
     """Value of the length field of a POINTS with so many points."""
-    return POINTS.length + count * point_pairs(joint_count) * Wire.PAIR.size
+    return POINTS.length + count * point_values(joint_count) * Wire.FIXED.size
 
 
 def batch_points(joint_count: int) -> int:
-    """Points that fit in one POINTS: 30 for six axes, 20 for ten."""
-    return (MAX_LENGTH - POINTS.length) // (point_pairs(joint_count) * Wire.PAIR.size)
+    """Points that fit in one POINTS: 35 for six axes, 22 for ten."""
+    return (MAX_LENGTH - POINTS.length) // (point_values(joint_count) * Wire.FIXED.size)

@@ -6,27 +6,16 @@ from struct import error as StructError
 
 from rapidgen.wire.simple_message.declaration import ANY, Field, Value, Wire
 from rapidgen.wire.simple_message.frames import ContentError
-from rapidgen.wire.simple_message.spec import PAIR_BASE, PAIR_LIMIT, PAIR_SCALE, PAIR_ZERO
+from rapidgen.wire.simple_message.spec import FIXED_LIMIT, FIXED_SCALE
 
-_CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.UINT64: "Q", Wire.PAIR: "Q"}
-
-
-def word_of(first: float, second: float) -> int:
-    """A PAIR as the number of the wire. Raises ContentError beyond PAIR_LIMIT, and for NaN."""
-    word = 0
-    for value in (first, second):
-        if not -PAIR_LIMIT <= value <= PAIR_LIMIT:
-            raise ContentError(f"{value} does not fit a pair: at most {PAIR_LIMIT} in magnitude")
-        word = word * PAIR_BASE + round(value * PAIR_SCALE) + PAIR_ZERO
-    return word
+_CODES = {Wire.INT32: "i", Wire.FLOAT32: "f", Wire.CHAR: "s", Wire.FIXED: "i"}
 
 
-def pair_of(word: int) -> tuple[float, float]:
-    """The two numbers of a PAIR. Raises ContentError when it is none."""
-    first, second = divmod(word, PAIR_BASE)
-    if first >= PAIR_BASE:
-        raise ContentError(f"{word} is no pair of fixed-point numbers")
-    return (first - PAIR_ZERO) / PAIR_SCALE, (second - PAIR_ZERO) / PAIR_SCALE
+def steps_of(value: float) -> int:
+    """A FIXED as the number of the wire. Raises ContentError beyond FIXED_LIMIT, and for NaN."""
+    if not -FIXED_LIMIT <= value <= FIXED_LIMIT:
+        raise ContentError(f"{value} does not fit: at most {FIXED_LIMIT} in magnitude")
+    return round(value * FIXED_SCALE)
 
 
 class Packing:
@@ -89,38 +78,37 @@ class Packing:
 
 
 class OpenPacking:
-    """The same with one field of PAIRs whose count follows from the length of the data."""
+    """The same with one field of FIXEDs whose count follows from the length of the data."""
 
     def __init__(self, fields: Sequence[Field]) -> None:
         (place,) = (i for i, f in enumerate(fields) if f.count == ANY)
-        if fields[place].type is not Wire.PAIR:
-            raise ValueError(f"{fields[place].name}: only pairs may be of any count")
+        if fields[place].type is not Wire.FIXED:
+            raise ValueError(f"{fields[place].name}: only fixed-point numbers may be of any count")
         self._name = fields[place].name
         self._place = place
         self._head = Packing(fields[:place])
         self._tail = Packing(fields[place + 1 :])
         self.size = self._head.size + self._tail.size
-        """Bytes without any pair."""
+        """Bytes without any of them."""
 
     def fits(self, size: int) -> bool:
         """Whether data may have so many bytes."""
-        return size >= self.size and (size - self.size) % Wire.PAIR.size == 0
+        return size >= self.size and (size - self.size) % Wire.FIXED.size == 0
 
     def pack(self, values: Sequence[Value]) -> bytes:
         """The values as bytes. Raises ContentError when one does not fit its field."""
         numbers = values[self._place]
-        if not isinstance(numbers, tuple) or len(numbers) % 2:
-            raise ContentError(f"{self._name}: an even number of values is needed")
-        words = [word_of(*numbers[i : i + 2]) for i in range(0, len(numbers), 2)]
-        middle = Struct(f"<{len(words)}Q").pack(*words)
+        if not isinstance(numbers, tuple):
+            raise ContentError(f"{self._name}: a tuple of numbers is needed")
+        middle = Struct(f"<{len(numbers)}i").pack(*(steps_of(number) for number in numbers))
         tail = self._tail.pack(values[self._place + 1 :])
         return self._head.pack(values[: self._place]) + middle + tail
 
     def unpack(self, data: bytes) -> tuple[Value, ...]:
-        """The values in `data`, whose length `fits`. Raises ContentError for a wrong pair."""
-        count = (len(data) - self.size) // Wire.PAIR.size
-        words = Struct(f"<{count}Q").unpack_from(data, self._head.size)
-        numbers = tuple(number for word in words for number in pair_of(word))
+        """The values in `data`, whose length `fits`."""
+        count = (len(data) - self.size) // Wire.FIXED.size
+        steps = Struct(f"<{count}i").unpack_from(data, self._head.size)
+        numbers = tuple(number / FIXED_SCALE for number in steps)
         tail = self._tail.unpack(data, len(data) - self._tail.size)
         return (*self._head.unpack(data), numbers, *tail)
 

@@ -13,7 +13,7 @@ class RapidConstant:
     value: int
     text: str
     type: str = "num"
-    """dnum for what enters the arithmetic of 64-bit words."""
+    """dnum for what enters the arithmetic of a checksum."""
 
 
 def rapid_constants() -> tuple[RapidConstant, ...]:
@@ -24,9 +24,7 @@ def rapid_constants() -> tuple[RapidConstant, ...]:
         RapidConstant("ROS_MAX_JOINTS", spec.MAX_JOINTS, "joints of a message"),
         RapidConstant("ROS_PROTOCOL", spec.PROTOCOL_VERSION, "version of messages from 1300 on"),
         RapidConstant("ROS_INDEX_WRAP", spec.INDEX_WRAP, "points of a stream count modulo this"),
-        RapidConstant("ROS_PAIR_BASE", spec.PAIR_BASE, "first number of a pair x this", "dnum"),
-        RapidConstant("ROS_PAIR_ZERO", spec.PAIR_ZERO, "stands for 0 in a pair", "dnum"),
-        RapidConstant("ROS_PAIR_SCALE", spec.PAIR_SCALE, "steps of a pair in 1", "dnum"),
+        RapidConstant("ROS_CHECKSUM_OFFSET", spec.CHECKSUM_OFFSET, "added to each word", "dnum"),
         RapidConstant("ROS_CHECKSUM_MODULUS", spec.CHECKSUM_MODULUS, "of a checksum", "dnum"),
     ]
     for message in messages.MESSAGES:

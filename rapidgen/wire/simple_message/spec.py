@@ -8,7 +8,7 @@ ROS-Industrial nodes for what they really send.
 
 from enum import IntEnum, IntFlag
 
-PROTOCOL_VERSION = 2
+PROTOCOL_VERSION = 3
 """Version of the messages in ABB's range. The standard messages have none: `since` 0."""
 
 PREFIX_BYTES = 4
@@ -22,16 +22,15 @@ MAX_JOINTS = 10
 
 INDEX_WRAP = 2**23
 """Streams, trajectories and the points of a stream count modulo this: a num holds it exactly."""
-PAIR_SCALE = 1_000_000
+FIXED_SCALE = 1_000_000
 """Steps of a fixed-point number in one rad, m or s."""
-PAIR_BITS = 26
-PAIR_ZERO = 2 ** (PAIR_BITS - 1)
-"""What stands for the value 0."""
-PAIR_BASE = 2**PAIR_BITS
-PAIR_LIMIT = (PAIR_ZERO - 1) / PAIR_SCALE
+FIXED_LIMIT = (2**31 - 1) / FIXED_SCALE
 """Largest magnitude of a fixed-point number, rad, m or s."""
-CHECKSUM_MODULUS = 2**51 - 129
-"""A prime: with words below 2^52 every step is exact in a RAPID dnum, a 64-bit float."""
+CHECKSUM_OFFSET = 2**31
+"""Added to each word of a checksum: MOD of a negative number is settled nowhere."""
+CHECKSUM_MODULUS = 2**31 - 19
+"""A prime of which 2 is a primitive root, so that no two places of a message weigh the same. RAPID
+promises whole numbers of a dnum to 2^52; eleven words at a time stay below 2^44."""
 FEEDBACK_WRAP = 1000.0
 """s after which the time stamp of JOINT_FEEDBACK begins again at 0."""
 

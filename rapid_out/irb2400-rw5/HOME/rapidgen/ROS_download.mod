@@ -8,9 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "0fbc8ed3564a";
-
-    LOCAL CONST dnum NO_BITS := 0;
+    CONST string ROS_BUILD_DOWNLOAD := "971e59d933d5";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;
@@ -33,6 +31,8 @@ MODULE ROS_download
         ELSE
             ROS_refuse_download ROS_REASON_SEQUENCE_GAP, ROS_count, FALSE;
         ENDIF
+    ERROR
+        RAISE;
     ENDPROC
 
     ! Check the point at byte `at` of `data` and add it; refuse the trajectory if it is wrong.
@@ -43,7 +43,10 @@ MODULE ROS_download
         VAR num joint_4;
         VAR num joint_5;
         VAR num joint_6;
-        VAR dnum zeros;
+        VAR num joint_7;
+        VAR num joint_8;
+        VAR num joint_9;
+        VAR num joint_10;
 
         IF ROS_count >= ROS_CAPACITY THEN
             ROS_refuse_download ROS_REASON_CAPACITY, ROS_count, sequence = ROS_SEQ_END;
@@ -102,10 +105,14 @@ MODULE ROS_download
         ENDIF
 
         ! Joints that this robot does not have must be zero.
-        UnpackRawBytes data, at + 44, zeros \IntX:=ULINT;
-        IF zeros <> NO_BITS check_padding data, at;
-        UnpackRawBytes data, at + 52, zeros \IntX:=ULINT;
-        IF zeros <> NO_BITS check_padding data, at;
+        UnpackRawBytes data, at + 44, joint_7 \Float4;
+        IF NOT (joint_7 = 0) ROS_object 700 + ROS_REASON_BAD_PADDING;
+        UnpackRawBytes data, at + 48, joint_8 \Float4;
+        IF NOT (joint_8 = 0) ROS_object 800 + ROS_REASON_BAD_PADDING;
+        UnpackRawBytes data, at + 52, joint_9 \Float4;
+        IF NOT (joint_9 = 0) ROS_object 900 + ROS_REASON_BAD_PADDING;
+        UnpackRawBytes data, at + 56, joint_10 \Float4;
+        IF NOT (joint_10 = 0) ROS_object 1000 + ROS_REASON_BAD_PADDING;
 
         ROS_taken.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
         IF ROS_first THEN
@@ -124,6 +131,8 @@ MODULE ROS_download
         ROS_taken.duration := ROS_seconds;
         points{ROS_count} := ROS_taken;
         ROS_received := ROS_count;
+    ERROR
+        RAISE;
     ENDPROC
 
     ! TRUE while points of a trajectory that was handed over wait for room in the ring.
@@ -179,15 +188,6 @@ MODULE ROS_download
         ROS_begin_trajectory;
         ROS_receiving := (ROS_phase = ROS_TRAJ_RECEIVING);
         skipping := NOT ROS_receiving;
-    ENDPROC
-
-    LOCAL PROC check_padding(VAR rawbytes data, num at)
-        VAR num padding;
-
-        FOR joint FROM 7 TO ROS_MAX_JOINTS DO
-            UnpackRawBytes data, at + 16 + 4 * joint, padding \Float4;
-            IF NOT (padding = 0) ROS_object 100 * joint + ROS_REASON_BAD_PADDING;
-        ENDFOR
     ENDPROC
 
     ! The end frame has come and every point was right: hand the trajectory over, if the robot

@@ -1,5 +1,6 @@
 MODULE string_parts
     ! source: [manual] S4 StrPart, StrFind, StrMatch, StrMap, StrMemb, StrOrder, StrFormat; [code] Machina looks right behind
+    ! dialect: unhandled_error=propagate
     ! case:
     ! expect: Robot s
     ! expect: outside

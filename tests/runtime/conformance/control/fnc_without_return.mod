@@ -1,5 +1,6 @@
 MODULE fnc_without_return
 ! source: [K §5.4, 12] a FUNC that ends without RETURN: ERR_FNCNORET
+! dialect: unhandled_error=propagate
   FUNC num f(bool go)
     IF go RETURN 1;
   ENDFUNC

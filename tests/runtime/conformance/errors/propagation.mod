@@ -1,5 +1,6 @@
 MODULE propagation
 ! source: [K §7.1, S4 overview 4-37] a routine without ERROR passes the error to its caller; TRYNEXT continues after the call
+! dialect: unhandled_error=propagate
   PROC main()
     TPWrite "start";
     ! expect: start

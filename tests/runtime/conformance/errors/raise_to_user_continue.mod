@@ -1,5 +1,6 @@
 MODULE user
 ! source: [K §7.3] RETRY and TRYNEXT of the user's handler go on where the error occurred
+! dialect: unhandled_error=propagate
   VAR num tries := 0;
   PROC main()
     routine1;

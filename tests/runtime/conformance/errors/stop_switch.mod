@@ -1,7 +1,6 @@
 MODULE stop_switch
-! source: [mem] switch unhandled_error=stop: later manuals let the system error handler take over at once
-! dialect: unhandled_error=stop
-! fault: ERR_DIVZERO 13
+! source: logs of controllers (RobotWare 6.03, 6.15) and ABB's modules for RobotWare 7: the system error handler takes over at once
+! fault: ERR_DIVZERO 12
   PROC main()
     inner;
   ERROR

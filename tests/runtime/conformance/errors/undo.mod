@@ -1,5 +1,6 @@
 MODULE undo_shown
 ! source: [K §7.2-7.4] UNDO when the routine is aborted, not at a normal RETURN nor when a caller handles the error
+! dialect: unhandled_error=propagate
 ! cycle: 6
   VAR num round := 0;
   PROC main()

@@ -1,5 +1,6 @@
 MODULE from_main_handler
     ! source: [S4 overview 3-23] [mem] in a handler, it starts from main only
+    ! dialect: unhandled_error=propagate
     ! do: start, run 2
     ! state: error
     ! do: set bad 0, start, run 2

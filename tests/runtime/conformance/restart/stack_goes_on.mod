@@ -1,5 +1,6 @@
 MODULE stack_goes_on
     ! source: [S4 overview 3-23] every routine of the stack goes on
+    ! dialect: unhandled_error=propagate
     ! do: start, run 1
     ! expect: twice
     ! state: error

@@ -1,5 +1,6 @@
 MODULE arrays_by_value
 ! source: [K §2.17, 3.5, 4.4] arrays are copied whole; sizes must be equal: ERR_NOTEQDIM
+! dialect: unhandled_error=propagate
   VAR num a{3} := [1,2,3];
   CONST num SIZE := 2;
   VAR num m{SIZE,SIZE+1} := [[1,2,3],[4,5,6]];

@@ -1,5 +1,6 @@
 MODULE inout_mismatch
 ! source: [K §5.1, 12] an INOUT parameter passed on as VAR or PERS is checked when it happens
+! dialect: unhandled_error=propagate
   PERS num p := 1;
   PROC main()
     VAR num l := 1;

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "b46c3fa32c62";
+    CONST string ROS_BUILD_MOTION_SERVER := "8ee113b5fbf0";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -18,8 +18,6 @@ MODULE ROS_motionServer
     ! batches may come far apart
     LOCAL CONST num PATIENCE := 1;
     LOCAL CONST num STREAM_PATIENCE := 5;
-    LOCAL CONST dnum KIND_TOPIC := 1;
-    LOCAL CONST dnum KIND_REQUEST := 2;
 
     LOCAL VAR socketdev server;
     LOCAL VAR socketdev client_1;
@@ -28,8 +26,9 @@ MODULE ROS_motionServer
     LOCAL VAR bool taken_over := FALSE;
     LOCAL VAR bool linked := FALSE;
     LOCAL VAR rawbytes answer;
-    ! Of the message at hand: what it asks for, and the number of a point.
-    LOCAL VAR dnum kind := 0;
+    ! Of the message at hand: what it asks for, its reply code, and the number of a point.
+    LOCAL VAR num comm_type := 0;
+    LOCAL VAR num reply_code := 0;
     LOCAL VAR bool requested := FALSE;
     LOCAL VAR num sequence := 0;
 
@@ -148,33 +147,38 @@ MODULE ROS_motionServer
                 RETURN;
             ENDTEST
         ENDWHILE
+    ERROR
+        RAISE;
     ENDPROC
 
     ! The message that begins at byte `at` of `data`.
     LOCAL PROC take_message(VAR socketdev client, VAR rawbytes data, num at)
+        UnpackRawBytes data, at + 8, comm_type \IntX:=DINT;
+        UnpackRawBytes data, at + 12, reply_code \IntX:=DINT;
         IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT AND ROS_frame_length = ROS_LEN_JOINT_TRAJ_PT THEN
-            UnpackRawBytes data, at + 8, kind \IntX:=ULINT;
             UnpackRawBytes data, at + 16, sequence \IntX:=DINT;
-            IF ROS_receiving AND sequence = ROS_count AND kind = KIND_TOPIC THEN
+            IF ROS_receiving AND sequence = ROS_count AND comm_type = ROS_COMM_TOPIC
+                AND reply_code = ROS_REPLY_NONE THEN
                 ! The usual case first.
                 ROS_add_point data, at, sequence;
             ELSEIF knows_kind() THEN
                 take_point client, data, at;
             ENDIF
         ELSEIF ROS_frame_type = ROS_MSG_POINTS THEN
-            UnpackRawBytes data, at + 8, kind \IntX:=ULINT;
             IF NOT knows_kind() RETURN;
             ROS_take_batch data, at;
             IF requested answer_batch client;
         ELSE
-            take_other client, data, at;
+            take_other client;
         ENDIF
+    ERROR
+        RAISE;
     ENDPROC
 
     ! TRUE for a topic or a request without a reply code. Anything else breaks the framing.
     LOCAL FUNC bool knows_kind()
-        requested := (kind = KIND_REQUEST);
-        IF requested OR kind = KIND_TOPIC RETURN TRUE;
+        requested := (comm_type = ROS_COMM_REQUEST);
+        IF reply_code = ROS_REPLY_NONE AND (requested OR comm_type = ROS_COMM_TOPIC) RETURN TRUE;
         broken_framing;
         RETURN FALSE;
     ENDFUNC
@@ -190,18 +194,15 @@ MODULE ROS_motionServer
     ENDPROC
 
     ! A message that brings no points.
-    LOCAL PROC take_other(VAR socketdev client, VAR rawbytes data, num at)
-        VAR num comm;
-
-        UnpackRawBytes data, at + 8, comm \IntX:=DINT;
+    LOCAL PROC take_other(VAR socketdev client)
         IF ROS_frame_type = ROS_MSG_JOINT_TRAJ_PT THEN
             ! A point of another size: what else would be wrong?
             broken_framing;
         ELSEIF ROS_frame_type = ROS_MSG_PING THEN
-            IF comm = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_SUCCESS;
+            IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_SUCCESS;
         ELSE
             ROS_report ROS_REASON_UNKNOWN_MESSAGE, -1;
-            IF comm = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_FAILURE;
+            IF comm_type = ROS_COMM_REQUEST reply client, ROS_frame_type, ROS_REPLY_FAILURE;
         ENDIF
     ENDPROC
 
@@ -212,6 +213,8 @@ MODULE ROS_motionServer
         ENDIF
         ROS_take_point data, at, sequence;
         IF requested answer_point client;
+    ERROR
+        RAISE;
     ENDPROC
 
     LOCAL PROC reply(VAR socketdev client, num type, num code)

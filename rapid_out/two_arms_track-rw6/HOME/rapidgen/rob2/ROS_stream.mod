@@ -9,18 +9,16 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "b46c3fa32c62";
+    CONST string ROS_BUILD_STREAM := "8ee113b5fbf0";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
     ! Bytes of a point, and in front of the first one of a batch.
-    LOCAL CONST num POINT_BYTES := 32;
+    LOCAL CONST num POINT_BYTES := 28;
     LOCAL CONST num HEAD_BYTES := 32;
-    ! Two int32 read as one number: what the upper one counts.
-    LOCAL CONST dnum UPPER := 4294967296;
     ! Numbers of the wire are steps: so many to a second, and what one is of a joint.
-    LOCAL CONST num STEPS := 1000000;
-    LOCAL CONST num DEG := 5.729578E-5;
+    LOCAL CONST dnum STEPS := 1000000;
+    LOCAL CONST dnum DEG := 5.729577951308232E-05;
 
     ! The client's number of the newest stream (0: none), its trajectory, its points that were
     ! accepted, why nothing of it is taken any more (reason + 100 x joint), and the point at
@@ -45,9 +43,9 @@ MODULE ROS_stream
     LOCAL VAR num first := 0;
     LOCAL VAR num points := 0;
     LOCAL VAR num strange := 0;
-    LOCAL VAR dnum word_a := 0;
-    LOCAL VAR dnum word_b := 0;
+    ! Its checksum so far, and what that was behind the head.
     LOCAL VAR dnum check := 0;
+    LOCAL VAR dnum check_of_head := 0;
     LOCAL VAR bool damaged := FALSE;
     LOCAL VAR ROS_progress told;
 
@@ -55,7 +53,9 @@ MODULE ROS_stream
     PROC ROS_take_batch(VAR rawbytes data, num at)
         number := 0;
         strange := ROS_REASON_NONE;
-        IF NOT has_head(data, at) THEN
+        IF ROS_frame_length < ROS_LEN_POINTS THEN
+            reject ROS_REASON_FRAMING;
+        ELSEIF NOT has_head(data, at) THEN
             reject ROS_REASON_CHECKSUM;
         ELSEIF POINT_BYTES * points + ROS_LEN_POINTS <> ROS_frame_length THEN
             reject ROS_REASON_FRAMING;
@@ -117,20 +117,37 @@ MODULE ROS_stream
         PackRawBytes why DIV 100, data, 37 \IntX:=DINT;
     ENDPROC
 
-    ! Read the head of the batch. A number that no dnum holds is damaged: this and what follows
-    ! may fail.
+    ! Read the head of the batch. FALSE if that fails.
     LOCAL FUNC bool has_head(VAR rawbytes data, num at)
-        UnpackRawBytes data, at + 16, word_a \IntX:=ULINT;
-        UnpackRawBytes data, at + 24, word_b \IntX:=ULINT;
-        number := DnumToNum(word_a MOD UPPER);
-        IF number >= ROS_INDEX_WRAP number := 0;
-        flags := DnumToNum(word_a DIV UPPER);
-        first := DnumToNum(word_b MOD UPPER);
-        points := DnumToNum(word_b DIV UPPER);
+        check_of_head := 0;
+        number := read_number(data, at + 16);
+        flags := read_number(data, at + 20);
+        first := read_number(data, at + 24);
+        points := read_number(data, at + 28);
+        ! What nobody sends is none, so that all of them count from 0.
+        IF number < 0 OR number >= ROS_INDEX_WRAP number := 0;
+        IF flags < 0 flags := 0;
         RETURN TRUE;
     ERROR
         SkipWarn;
+        number := 0;
         RETURN FALSE;
+    ENDFUNC
+
+    ! A number of the head, which enters its checksum.
+    LOCAL FUNC num read_number(VAR rawbytes data, num at)
+        VAR dnum word;
+
+        UnpackRawBytes data, at, word \IntX:=DINT;
+        check_of_head := with_word(check_of_head, word);
+        RETURN DnumToNum(word);
+    ERROR
+        RAISE;
+    ENDFUNC
+
+    ! The checksum with one more word.
+    LOCAL FUNC dnum with_word(dnum before, dnum word)
+        RETURN (2 * before + word + ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
     ENDFUNC
 
     LOCAL FUNC bool has(num bit)
@@ -143,23 +160,19 @@ MODULE ROS_stream
         VAR num here;
         VAR num behind;
 
-        check := checksum_of_head();
+        check := check_of_head;
         here := at + HEAD_BYTES;
         behind := here + POINT_BYTES * points;
         WHILE here < behind DO
-            UnpackRawBytes data, here, word \IntX:=ULINT;
-            check := (2 * check + word) MOD ROS_CHECKSUM_MODULUS;
-            here := here + 8;
+            UnpackRawBytes data, here, word \IntX:=DINT;
+            check := with_word(check, word);
+            here := here + 4;
         ENDWHILE
-        UnpackRawBytes data, behind, word \IntX:=ULINT;
+        UnpackRawBytes data, behind, word \IntX:=DINT;
         RETURN word = check;
     ERROR
         SkipWarn;
         RETURN FALSE;
-    ENDFUNC
-
-    LOCAL FUNC dnum checksum_of_head()
-        RETURN (2 * (word_a MOD ROS_CHECKSUM_MODULUS) + word_b) MOD ROS_CHECKSUM_MODULUS;
     ENDFUNC
 
     ! Places in the ring that are free.
@@ -297,7 +310,7 @@ MODULE ROS_stream
             held := 0;
         ENDIF
         damaged := FALSE;
-        check := checksum_of_head();
+        check := check_of_head;
         head := written;
         here := at + HEAD_BYTES;
         left := points;
@@ -306,7 +319,7 @@ MODULE ROS_stream
             take_point data, here, left = 0 AND has(ROS_STREAM_END);
             here := here + POINT_BYTES;
         ENDWHILE
-        UnpackRawBytes data, here, sum \IntX:=ULINT;
+        UnpackRawBytes data, here, sum \IntX:=DINT;
         IF damaged OR sum <> check THEN
             written := head;
             cut ROS_REASON_CHECKSUM;
@@ -332,6 +345,9 @@ MODULE ROS_stream
         VAR dnum word_2;
         VAR dnum word_3;
         VAR dnum word_4;
+        VAR dnum word_5;
+        VAR dnum word_6;
+        VAR dnum word_7;
         VAR num joint_1;
         VAR num joint_2;
         VAR num joint_3;
@@ -339,55 +355,58 @@ MODULE ROS_stream
         VAR num joint_5;
         VAR num joint_6;
 
-        UnpackRawBytes data, at, word_1 \IntX:=ULINT;
-        UnpackRawBytes data, at + 8, word_2 \IntX:=ULINT;
-        UnpackRawBytes data, at + 16, word_3 \IntX:=ULINT;
-        UnpackRawBytes data, at + 24, word_4 \IntX:=ULINT;
-        check := (2 * check + word_1) MOD ROS_CHECKSUM_MODULUS;
-        check := (2 * check + word_2) MOD ROS_CHECKSUM_MODULUS;
-        check := (2 * check + word_3) MOD ROS_CHECKSUM_MODULUS;
-        check := (2 * check + word_4) MOD ROS_CHECKSUM_MODULUS;
+        UnpackRawBytes data, at, word_1 \IntX:=DINT;
+        UnpackRawBytes data, at + 4, word_2 \IntX:=DINT;
+        UnpackRawBytes data, at + 8, word_3 \IntX:=DINT;
+        UnpackRawBytes data, at + 12, word_4 \IntX:=DINT;
+        UnpackRawBytes data, at + 16, word_5 \IntX:=DINT;
+        UnpackRawBytes data, at + 20, word_6 \IntX:=DINT;
+        UnpackRawBytes data, at + 24, word_7 \IntX:=DINT;
+        ! As with_word, one after the other: what comes of it stays below 2^44.
+        check := (128 * check
+            + 64 * word_1 + 32 * word_2 + 16 * word_3 + 8 * word_4 + 4 * word_5 + 2 * word_6
+            + word_7
+            + 127 * ROS_CHECKSUM_OFFSET) MOD ROS_CHECKSUM_MODULUS;
         IF ROS_fault <> ROS_REASON_NONE RETURN;
         ROS_before := ROS_taken.target;
-        ROS_seconds := DnumToNum(word_1 DIV ROS_PAIR_BASE - ROS_PAIR_ZERO) / STEPS;
+        ROS_seconds := DnumToNum(word_1 / STEPS);
         IF NOT (0 < ROS_seconds AND ROS_seconds <= ROS_LONGEST) ROS_check_duration;
-        joint_1 := DnumToNum(word_1 MOD ROS_PAIR_BASE - ROS_PAIR_ZERO) * DEG;
+        joint_1 := DnumToNum(word_2 * DEG);
         IF NOT (ROS_low_1 <= joint_1 AND joint_1 <= ROS_high_1
             AND Abs(joint_1 - ROS_before.robax.rax_1) <= ROS_SPEED_1 * ROS_seconds) THEN
             joint_1 := ROS_judged(joint_1, ROS_before.robax.rax_1, ROS_low_1, ROS_high_1,
                 ROS_SPEED_1, 1);
         ENDIF
-        joint_2 := DnumToNum(word_2 DIV ROS_PAIR_BASE - ROS_PAIR_ZERO) * DEG;
+        joint_2 := DnumToNum(word_3 * DEG);
         IF NOT (ROS_low_2 <= joint_2 AND joint_2 <= ROS_high_2
             AND Abs(joint_2 - ROS_before.robax.rax_2) <= ROS_SPEED_2 * ROS_seconds) THEN
             joint_2 := ROS_judged(joint_2, ROS_before.robax.rax_2, ROS_low_2, ROS_high_2,
                 ROS_SPEED_2, 2);
         ENDIF
-        joint_3 := DnumToNum(word_2 MOD ROS_PAIR_BASE - ROS_PAIR_ZERO) * DEG;
+        joint_3 := DnumToNum(word_4 * DEG);
         IF NOT (ROS_low_3 <= joint_3 AND joint_3 <= ROS_high_3
             AND Abs(joint_3 - ROS_before.robax.rax_3) <= ROS_SPEED_3 * ROS_seconds) THEN
             joint_3 := ROS_judged(joint_3, ROS_before.robax.rax_3, ROS_low_3, ROS_high_3,
                 ROS_SPEED_3, 3);
         ENDIF
-        joint_4 := DnumToNum(word_3 DIV ROS_PAIR_BASE - ROS_PAIR_ZERO) * DEG;
+        joint_4 := DnumToNum(word_5 * DEG);
         IF NOT (ROS_low_4 <= joint_4 AND joint_4 <= ROS_high_4
             AND Abs(joint_4 - ROS_before.robax.rax_4) <= ROS_SPEED_4 * ROS_seconds) THEN
             joint_4 := ROS_judged(joint_4, ROS_before.robax.rax_4, ROS_low_4, ROS_high_4,
                 ROS_SPEED_4, 4);
         ENDIF
-        joint_5 := DnumToNum(word_3 MOD ROS_PAIR_BASE - ROS_PAIR_ZERO) * DEG;
+        joint_5 := DnumToNum(word_6 * DEG);
         IF NOT (ROS_low_5 <= joint_5 AND joint_5 <= ROS_high_5
             AND Abs(joint_5 - ROS_before.robax.rax_5) <= ROS_SPEED_5 * ROS_seconds) THEN
             joint_5 := ROS_judged(joint_5, ROS_before.robax.rax_5, ROS_low_5, ROS_high_5,
                 ROS_SPEED_5, 5);
         ENDIF
-        joint_6 := DnumToNum(word_4 DIV ROS_PAIR_BASE - ROS_PAIR_ZERO) * DEG;
+        joint_6 := DnumToNum(word_7 * DEG);
         IF NOT (ROS_low_6 <= joint_6 AND joint_6 <= ROS_high_6
             AND Abs(joint_6 - ROS_before.robax.rax_6) <= ROS_SPEED_6 * ROS_seconds) THEN
             joint_6 := ROS_judged(joint_6, ROS_before.robax.rax_6, ROS_low_6, ROS_high_6,
                 ROS_SPEED_6, 6);
         ENDIF
-        IF word_4 MOD ROS_PAIR_BASE <> ROS_PAIR_ZERO ROS_object ROS_REASON_BAD_PADDING;
         ROS_taken.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
         IF ROS_first THEN
             begin_at_first;

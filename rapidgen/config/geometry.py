@@ -1,0 +1,248 @@
+"""The axes of an arm as lines in space, at the controller's zero; and two arms compared.
+
+Points are m in the root of the chain, directions unit vectors in the controller's sense. Arms are
+laid upon each other by their axes 1 and 2, so that it does not matter where a base stands.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import TypeAlias
+
+from rapidgen.config.draft import GroupDraft
+from rapidgen.config.model import ChainLink
+
+Vector: TypeAlias = tuple[float, float, float]
+Matrix: TypeAlias = tuple[Vector, Vector, Vector]
+_PARALLEL = 1e-3
+IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """One axis: a point on it, its direction, and what it is called."""
+
+    axis: str
+    point: Vector
+    direction: Vector
+    slides: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Skeleton:
+    """The axes of the arm along the chain, and where the chain ends."""
+
+    lines: tuple[Line, ...]
+    end: Vector
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """How far one arm is from another: `axis` is off most, by `distance` m or `angle` rad.
+
+    `turned` are the axes that turn the other way, `end` is the distance of the two flanges.
+    """
+
+    axis: str
+    distance: float
+    angle: float
+    turned: tuple[str, ...]
+    end: float
+
+
+def add(a: Vector, b: Vector) -> Vector:
+    """Sum."""
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def subtract(a: Vector, b: Vector) -> Vector:
+    """Difference."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def scale(a: Vector, by: float) -> Vector:
+    """A multiple."""
+    return (a[0] * by, a[1] * by, a[2] * by)
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Inner product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Cross product."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def norm(a: Vector) -> float:
+    """Length."""
+    return math.sqrt(dot(a, a))
+
+
+def unit(a: Vector) -> Vector:
+    """The direction of a vector that is not zero."""
+    return scale(a, 1 / norm(a))
+
+
+def apply(m: Matrix, v: Vector) -> Vector:
+    """Matrix times vector."""
+    return (dot(m[0], v), dot(m[1], v), dot(m[2], v))
+
+
+def times(a: Matrix, b: Matrix) -> Matrix:
+    """Matrix product."""
+    x, y, z = (apply(a, (b[0][i], b[1][i], b[2][i])) for i in range(3))
+    return ((x[0], y[0], z[0]), (x[1], y[1], z[1]), (x[2], y[2], z[2]))
+
+
+def turn(axis: Vector, angle: float) -> Matrix:
+    """Rotation about a unit vector."""
+    c, s = math.cos(angle), math.sin(angle)
+    x, y, z = axis
+    k = 1 - c
+    return (
+        (c + x * x * k, x * y * k - z * s, x * z * k + y * s),
+        (y * x * k + z * s, c + y * y * k, y * z * k - x * s),
+        (z * x * k - y * s, z * y * k + x * s, c + z * z * k),
+    )
+
+
+def from_rpy(rpy: Vector) -> Matrix:
+    """Fixed axes x, y, z, as in a URDF."""
+    roll, pitch, yaw = rpy
+    return times(
+        turn((0.0, 0.0, 1.0), yaw),
+        times(turn((0.0, 1.0, 0.0), pitch), turn((1.0, 0.0, 0.0), roll)),
+    )
+
+
+def skeleton(draft: GroupDraft, chain: Sequence[ChainLink] = ()) -> Skeleton:
+    """The arm of a group where the controller says 0 for every axis, along its or another chain."""
+    joints = {joint.name: joint for joint in draft.joints}
+    at = {
+        name: -joint.sign * joint.offset * (0.001 if joint.unit == "mm" else math.pi / 180)
+        for name, joint in joints.items()
+    }
+    lines, end = _along(chain or draft.chain, at)
+    arm = [i for i, (step, _, _) in enumerate(lines) if joints[step.joint].axis.startswith("rax")]
+    return Skeleton(
+        tuple(
+            Line(
+                joints[step.joint].axis,
+                point,
+                scale(direction, joints[step.joint].sign),
+                joints[step.joint].unit == "mm",
+            )
+            for step, point, direction in lines[arm[0] : arm[-1] + 1]
+        )
+        if arm
+        else (),
+        end,
+    )
+
+
+def _along(
+    chain: Sequence[ChainLink], at: dict[str, float]
+) -> tuple[list[tuple[ChainLink, Vector, Vector]], Vector]:
+    """Each joint's place and direction along a chain, and its end."""
+    place: Vector = (0.0, 0.0, 0.0)
+    turned = IDENTITY
+    found = []
+    for step in chain:
+        place = add(place, apply(turned, step.xyz))
+        turned = times(turned, from_rpy(step.rpy))
+        if step.joint:
+            found.append((step, place, apply(turned, step.axis)))
+        amount = at[step.joint] if step.joint else sum(at[n] * k for n, k in step.follows)
+        if amount:
+            turned = times(turned, turn(step.axis, amount))
+    return found, place
+
+
+def distance(a: Line, b: Line) -> float:
+    """Between an axis and the point that the other one has on it."""
+    way = subtract(a.point, b.point)
+    return norm(subtract(way, scale(b.direction, dot(way, b.direction))))
+
+
+def frame(first: Line, second: Line) -> tuple[Matrix, Vector]:
+    """The frame of an arm: origin on axis 1, z along it, axis 2 across along y.
+
+    Where both are parallel x points from the first to the second.
+    """
+    z = first.direction
+    way = subtract(second.point, first.point)
+    across = subtract(second.direction, scale(z, dot(second.direction, z)))
+    if norm(across) > _PARALLEL:
+        y = unit(across)
+        x = cross(y, z)
+        # the foot of the common normal
+        normal = cross(z, second.direction)
+        along = dot(cross(way, second.direction), normal) / dot(normal, normal)
+        origin = add(first.point, scale(z, along))
+    else:
+        away = subtract(way, scale(z, dot(way, z)))
+        x = unit(away) if norm(away) > 1e-6 else (1.0, 0.0, 0.0)
+        y = cross(z, x)
+        origin = first.point
+    return (x, y, z), origin
+
+
+def laid(arm: Skeleton, flips: tuple[int, int] = (1, 1)) -> Skeleton:
+    """The arm seen from the frame of its first two axes, either of them reversed on demand."""
+    first, second = (
+        Line(line.axis, line.point, scale(line.direction, flip), line.slides)
+        for line, flip in zip(arm.lines, flips, strict=False)
+    )
+    axes, origin = frame(first, second)
+    return Skeleton(
+        tuple(
+            Line(
+                line.axis,
+                apply(axes, subtract(line.point, origin)),
+                apply(axes, line.direction),
+                line.slides,
+            )
+            for line in arm.lines
+        ),
+        apply(axes, subtract(arm.end, origin)),
+    )
+
+
+def compare(arm: Skeleton, known: Skeleton) -> Difference | None:
+    """How an arm differs from a known one; None when they have other axes."""
+    if [line.axis for line in arm.lines] != [line.axis for line in known.lines]:
+        return None
+    if len(arm.lines) < 2:
+        return None
+    there = laid(known)
+    best: tuple[float, Difference] | None = None
+    for flips in product((1, -1), (1, -1)):
+        here = laid(arm, flips)
+        found = _difference(here, there)
+        badness = found.distance + found.angle
+        if best is None or badness < best[0] - 1e-9:
+            best = badness, found
+    assert best is not None
+    return best[1]
+
+
+def _difference(here: Skeleton, there: Skeleton) -> Difference:
+    worst, axis, far, wide = -1.0, "", 0.0, 0.0
+    turned = []
+    for a, b in zip(here.lines, there.lines, strict=True):
+        cosine = dot(a.direction, b.direction)
+        if cosine < 0:
+            turned.append(a.axis)
+        angle = math.acos(min(1.0, abs(cosine)))
+        apart = 0.0 if a.slides or b.slides else distance(b, a)
+        far, wide = max(far, apart), max(wide, angle)
+        if apart + angle > worst:
+            worst, axis = apart + angle, a.axis
+    return Difference(axis, far, wide, tuple(turned), norm(subtract(here.end, there.end)))

@@ -1,0 +1,175 @@
+"""What is known of ABB's arms, variant by variant: axes in space, ranges, speeds, coupling.
+
+`robots/variants.json` holds it, in mm and degrees, every arm where the controller says 0. The
+shipped models are in it as their own files have them (held by a test); the others have their
+sources there.
+"""
+
+import json
+import re
+from dataclasses import dataclass
+from functools import cache
+
+from rapidgen._data import data_folder
+from rapidgen._json import Json, Members, items, members, number, text
+from rapidgen.config.draft import GroupDraft
+from rapidgen.config.geometry import Difference, Line, Skeleton, compare, skeleton, unit
+
+SAME_PLACE = 0.003
+"""m by which two public sources of one variant may differ (rounded dimensions)."""
+SAME_TURN = 0.009
+"""rad, half a degree."""
+_FAMILY = re.compile(r"(?:[ic]rb|gofa|yumi)[_ -]?(\d{2,5})(?!\d)", re.IGNORECASE)
+
+
+@dataclass(frozen=True, slots=True)
+class KnownAxis:
+    """One axis of a variant: range and speed in deg or mm, None where no source says."""
+
+    axis: str
+    lower: float | None
+    upper: float | None
+    speed: float | None
+    unsure: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Variant:
+    """One arm: `model` is the shipped model that has it, with its group."""
+
+    name: str
+    model: str
+    group: str
+    coupling: float | None
+    axes: tuple[KnownAxis, ...]
+    skeleton: Skeleton
+    sources: tuple[tuple[str, str], ...]
+    unsure: tuple[str, ...]
+
+    @property
+    def family(self) -> str:
+        """The number of the type: 1600 of an IRB 1600-6/1.2."""
+        return family(self.name)
+
+    def axis(self, name: str) -> KnownAxis | None:
+        """An axis by name."""
+        return next((axis for axis in self.axes if axis.axis == name), None)
+
+
+def family(*names: str) -> str:
+    """The number of an ABB type in one of the names (model, robot, file), else empty."""
+    for name in names:
+        hit = _FAMILY.search(name)
+        if hit:
+            return hit[1]
+    return ""
+
+
+@cache
+def variants() -> tuple[Variant, ...]:
+    """All variants, those of shipped models first."""
+    path = data_folder("robots") / "variants.json"
+    return tuple(_variant(entry) for entry in items(json.loads(path.read_text(encoding="utf-8"))))
+
+
+def of_model(model: str, group: str) -> Variant | None:
+    """The variant that a group of a shipped model is."""
+    own = [v for v in variants() if v.model == model]
+    return next((v for v in own if v.group == group), own[0] if len(own) == 1 else None)
+
+
+@dataclass(frozen=True, slots=True)
+class Match:
+    """A variant whose axes lie where the arm's do."""
+
+    variant: Variant
+    difference: Difference
+
+
+def recognise(arm: Skeleton, *names: str) -> Match | None:
+    """The variant that an arm is, by its axes in space; of equal ones that of the named family."""
+    hits = []
+    wanted = family(*names)
+    for variant in variants():
+        found = compare(arm, variant.skeleton)
+        if found and found.distance <= SAME_PLACE and found.angle <= SAME_TURN:
+            hits.append((variant.family != wanted, round(found.distance, 4), Match(variant, found)))
+    return min(hits, key=lambda hit: hit[:2])[2] if hits else None
+
+
+def _variant(entry: Json) -> Variant:
+    data = members(entry)
+    axes = [members(axis) for axis in items(data["axes"])]
+    coupling = data["coupling"]
+    return Variant(
+        name=text(data["name"]),
+        model=text(data.get("model", "")),
+        group=text(data.get("group", "")),
+        coupling=None if coupling is None else number(coupling),
+        axes=tuple(
+            KnownAxis(
+                text(axis["axis"]),
+                _figure(axis, "lower"),
+                _figure(axis, "upper"),
+                _figure(axis, "speed"),
+                tuple(text(part) for part in items(axis.get("unsure", []))),
+            )
+            for axis in axes
+        ),
+        skeleton=Skeleton(
+            tuple(
+                Line(
+                    text(axis["axis"]),
+                    _vector(axis["at"], 0.001),
+                    unit(_vector(axis["along"])),
+                    bool(axis.get("slides")),
+                )
+                for axis in axes
+            ),
+            _vector(data["end"], 0.001),
+        ),
+        sources=tuple((key, text(value)) for key, value in members(data["sources"]).items()),
+        unsure=tuple(text(part) for part in items(data.get("unsure", []))),
+    )
+
+
+def _figure(axis: Members, name: str) -> float | None:
+    value = axis.get(name)
+    return None if value is None else number(value)
+
+
+def _vector(value: Json, factor: float = 1.0) -> tuple[float, float, float]:
+    x, y, z = (number(part) * factor for part in items(value))
+    return (x, y, z)
+
+
+def entry(name: str, draft: GroupDraft, sources: dict[str, str], unsure: list[str]) -> Members:
+    """What the file says of the arm of a group."""
+    arm = skeleton(draft)
+    joints = {joint.axis: joint for joint in draft.joints}
+    axes: list[Json] = []
+    for line in arm.lines:
+        joint = joints[line.axis]
+        made: Members = {
+            "axis": line.axis,
+            "at": [round(v * 1000, 3) for v in line.point],
+            "along": [round(v, 6) + 0.0 for v in line.direction],
+            "lower": joint.lower,
+            "upper": joint.upper,
+            "speed": joint.speed,
+        }
+        if line.slides:
+            made["slides"] = True
+        if joint.unsure:
+            made["unsure"] = list(joint.unsure)
+        axes.append(made)
+    return {
+        "name": name,
+        "model": draft.model,
+        "group": draft.name,
+        "coupling": draft.coupling,
+        "axes": axes,
+        "end": [round(v * 1000, 3) for v in arm.end],
+        "sources": dict(sources),
+        "unsure": list(unsure),
+    }

@@ -1,0 +1,43 @@
+"""Which assumptions make a case break: the smallest part of a row's that does it alone."""
+
+from collections.abc import Callable, Mapping, Sequence
+from itertools import pairwise
+
+
+def smallest(suspects: Sequence[str], breaks: Callable[[Sequence[str]], bool]) -> tuple[str, ...]:
+    """Those of `suspects`, which break together, without which nothing would.
+
+    Delta debugging (A. Zeller, R. Hildebrandt, IEEE Trans. Software Eng. 28, 2002): halves first,
+    then smaller parts and what is left without them.
+    """
+    left, parts = list(suspects), 2
+    while len(left) > 1:
+        cuts = [len(left) * part // parts for part in range(parts + 1)]
+        chunks = [left[a:b] for a, b in pairwise(cuts)]
+        rests = [[s for s in left if s not in chunk] for chunk in chunks]
+        smaller = next((chunk for chunk in chunks if breaks(chunk)), None)
+        # Of two parts each is the other's rest.
+        fewer = None if parts == 2 else next((rest for rest in rests if breaks(rest)), None)
+        if smaller is not None:
+            left, parts = smaller, 2
+        elif fewer is not None:
+            left, parts = fewer, max(parts - 1, 2)
+        elif parts == len(left):
+            break
+        else:
+            parts = min(2 * parts, len(left))
+    return tuple(left)
+
+
+def blamed(
+    rows: Mapping[str, Sequence[str]], breaks: Callable[[Sequence[str]], bool]
+) -> dict[str, tuple[str, ...]]:
+    """By row in which a case broke: the smallest part of its assumptions that breaks it.
+
+    What has been found for one row explains every other one that assumes it, too.
+    """
+    found: dict[str, tuple[str, ...]] = {}
+    for name, suspects in rows.items():
+        known = [part for part in found.values() if set(part) <= set(suspects)]
+        found[name] = min(known, key=len) if known else smallest(suspects, breaks)
+    return found

@@ -1,0 +1,86 @@
+"""Few rows in which the values of any two factors (or three, ...) meet: a covering array.
+
+Rows are made one after the other. Each begins with a combination that no row has yet, and every
+further factor gets the value that brings most new ones; the best of some such rows is taken. (D.
+Cohen et al., "The AETG system", IEEE Trans. Software Eng. 23, 1997: the array grows with the
+logarithm of the number of factors.)
+"""
+
+import random
+from collections.abc import Mapping, Sequence
+from itertools import combinations, product
+from typing import TypeVar
+
+V = TypeVar("V")
+
+TRIED = 40
+"""Rows of which the best is taken."""
+
+
+def covering(factors: Mapping[str, Sequence[V]], strength: int = 2) -> list[dict[str, V]]:
+    """Rows that have all combinations of values of any `strength` factors; always the same ones.
+
+    The first row is the first value of every factor.
+    """
+    # A value is a bit of its own, a combination the bits of its values.
+    bits: list[list[int]] = []
+    for values in factors.values():
+        used = sum(len(own) for own in bits)
+        bits.append([1 << (used + number) for number in range(len(values))])
+    strength = min(strength, len(bits))
+    missing = {
+        sum(found): dict(zip(chosen, found, strict=True))
+        for chosen in combinations(range(len(bits)), strength)
+        for found in product(*(bits[factor] for factor in chosen))
+    }
+    chance = random.Random(0)
+    row, rows = {factor: own[0] for factor, own in enumerate(bits)}, []
+    while True:
+        rows.append(row)
+        for found in combinations(row.values(), strength):
+            missing.pop(sum(found), None)
+        if not missing:
+            break
+        row = max((_row(bits, strength, missing, chance) for _ in range(TRIED)), key=_gain)[1]
+    return [
+        {
+            name: values[bits[number].index(row[number])]
+            for number, (name, values) in enumerate(factors.items())
+        }
+        for row in rows
+    ]
+
+
+def _gain(tried: tuple[int, dict[int, int]]) -> int:
+    return tried[0]
+
+
+def _row(
+    bits: Sequence[Sequence[int]],
+    strength: int,
+    missing: Mapping[int, Mapping[int, int]],
+    chance: random.Random,
+) -> tuple[int, dict[int, int]]:
+    """How many missing combinations a row has, and the row: a value's bit by factor."""
+    row = dict(next(iter(missing.values())))
+    # Combinations within the row, by how many values they have.
+    parts: list[list[int]] = [[0]] + [[] for _ in range(strength - 1)]
+
+    def take(bit: int) -> None:
+        for size in range(strength - 1, 0, -1):
+            parts[size] += [part | bit for part in parts[size - 1]]
+
+    for bit in row.values():
+        take(bit)
+    others = [factor for factor in range(len(bits)) if factor not in row]
+    chance.shuffle(others)
+    gained = 1
+    for factor in others:
+        gains = [
+            (sum(part | bit in missing for part in parts[-1]), chance.random(), bit)
+            for bit in bits[factor]
+        ]
+        gain, _, row[factor] = max(gains)
+        gained += gain
+        take(row[factor])
+    return gained, row

@@ -1,0 +1,57 @@
+"""Every generated routine on the way of a recoverable error has a handler.
+
+An error in a routine without one goes to the system error handler and ends the task; only RAISE
+takes it to the caller (facts of controllers: rapidgen/rapid/switches.py, `unhandled_error`).
+"""
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.generate import build
+from rapidgen.rapid import parse
+from rapidgen.rapid.syntax import nodes
+from rapidgen.rapid.syntax.walk import walk
+
+RAISING = {
+    # Bytes that somebody else sent, and links that break (rapid.md: raw bytes, sockets).
+    "unpackrawbytes",
+    *("socketcreate", "socketbind", "socketlisten", "socketaccept", "socketreceive"),
+    *("socketsend", "socketpeek"),
+    # A robot that is stopped, away from its path or out of its limits.
+    *("stopmove", "startmove", "clearpath", "waitrob", "moveabsj", "speedrefresh"),
+    # Signals whose unit is gone, names that the controller does not have.
+    *("doutput", "dinput", "goutput", "ginput", "aoutput", "ainput", "setdo", "setgo", "setao"),
+    *("aliasio", "readcfgdata"),
+    # Events that cannot be read any more.
+    *("gettrapdata", "readerrdata"),
+}
+"""Built-ins that raise an error for what is outside the driver; what it packs is its own."""
+
+
+def calls(routine):
+    for node in walk(routine):
+        if isinstance(node, nodes.ProcedureCall | nodes.FunctionCall):
+            yield node.name.casefold()
+
+
+def hands_on(routine):
+    return routine.error is not None and any(
+        isinstance(node, nodes.Raise) for node in walk(routine.error)
+    )
+
+
+@pytest.mark.parametrize("overrides", [[], ["signals.valve={kind: DO, access: write}"]])
+def test_no_error_ends_a_task(overrides):
+    modules = [
+        parse(file.data, path=file.path)
+        for file in build(load_config("irb120", overrides=overrides)).files
+        if file.kind == "module"
+    ]
+    raising = RAISING | {r.name.casefold() for m in modules for r in m.routines if hands_on(r)}
+    bare = [
+        f"{module.name}: {routine.name}"
+        for module in modules
+        for routine in module.routines
+        if routine.error is None and raising.intersection(calls(routine))
+    ]
+    assert not bare, "\n".join(bare)

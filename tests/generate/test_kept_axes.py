@@ -1,0 +1,95 @@
+"""An axis that no joint drives is held where it stands, whole downloads and streams alike."""
+
+import math
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.config.registry import find_shipped
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.messages import RawReason
+from rapidgen.proving.stream import BEGIN, END, Streamer
+
+URDF = find_shipped("irb120").parent / "urdf" / "irb120.urdf"
+JOINTS = "\n".join(f"  joint_{n}: {{axis: rax_{n}}}" for n in (1, 2, 3, 4, 6))
+THIRTY = math.radians(30)
+
+
+@pytest.fixture
+def robot(tmp_path):
+    """A controller of an IRB 120 whose axis 5 stands somewhere, with a driver that keeps it."""
+    benches = []
+
+    def boot(keep, stands):
+        (tmp_path / "cell.yaml").write_text(
+            f"urdf: {{file: {URDF}, ignore_joints: [joint_5]}}\nkeep: {keep}\njoints:\n{JOINTS}\n"
+        )
+        config = load_config(tmp_path / "cell.yaml")
+        bench = Bench(
+            config, make_system(config, build(config)), robots=load_config("irb120").groups
+        )
+        benches.append(bench)
+        bench.motion_group.jump((0.0, 0.1, 0.0, 0.0, stands, 0.0))
+        bench.run(1)
+        return bench
+
+    yield boot
+    for bench in benches:
+        bench.close()
+
+
+def way(bench):
+    """Three points of the driver's five joints."""
+    here = tuple(v for n, v in enumerate(bench.position) if n != 4)
+    return [
+        (here, 1.0),
+        ((0.2, *here[1:]), 1.0),
+        ((0.2, 0.2, *here[2:]), 1.0),
+    ]
+
+
+def as_moved(bench, before):
+    assert bench.position[:2] == pytest.approx((0.2, 0.2))
+    assert all(place[4] == pytest.approx(before, abs=1e-6) for _, place in bench.track)
+
+
+@pytest.mark.parametrize("keep", ["[rax_5]", "{rax_5: 30}"])
+def test_a_trajectory_leaves_it_where_it_stands(robot, keep):
+    bench = robot(keep, THIRTY)
+    bench.motion().send(bench.download(way(bench)))
+    bench.run(10)
+    as_moved(bench, THIRTY)
+
+
+def test_a_trajectory_is_refused_where_it_has_to_stand_elsewhere(robot):
+    bench = robot("{rax_5: 30}", -THIRTY)
+    bench.motion().send(bench.download(way(bench)))
+    bench.run(10)
+    assert bench.position == pytest.approx((0.0, 0.1, 0.0, 0.0, -THIRTY, 0.0))
+
+
+def test_it_was_jogged_while_the_trajectory_came(robot):
+    bench = robot("[rax_5]", THIRTY)
+    link, points = bench.motion(), bench.download(way(bench))
+    link.send(points[: len(points) // 3])
+    bench.run(1)
+    bench.motion_group.jump((0.0, 0.1, 0.0, 0.0, 0.4, 0.0))
+    link.send(points[len(points) // 3 :])
+    bench.run(10)
+    assert bench.position == pytest.approx((0.0, 0.1, 0.0, 0.0, 0.4, 0.0))
+
+
+def test_a_stream_leaves_it_where_it_stands(robot):
+    bench = robot("[rax_5]", THIRTY)
+    stream = Streamer(bench)
+    stream.takes("a way with axis 5 kept", way(bench), BEGIN | END)
+    bench.run(10)
+    as_moved(bench, THIRTY)
+
+
+def test_a_stream_is_refused_where_it_has_to_stand_elsewhere(robot):
+    bench = robot("{rax_5: -30}", THIRTY)
+    Streamer(bench).refuses(
+        RawReason.START_TOO_FAR, "axis 5 stands elsewhere", way(bench), BEGIN | END
+    )
