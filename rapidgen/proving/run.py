@@ -115,7 +115,8 @@ def _blame(broken: _Broken) -> dict[str, tuple[str, ...]]:
         with Bench(config, system, assumed(texts)) as bench:
             return not _verdict(CASES[broken.case], bench).passed
 
-    return blamed(broken.rows, breaks)
+    # A controller leaves things behind in its process.
+    return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
 
 
 def _attempt(job: _Job) -> Verdict:

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "7bf8b41e98e9";
+    CONST string ROS_BUILD_MOTION := "971e59d933d5";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -327,7 +327,8 @@ MODULE ROS_motion
 
         start := CalcRobT(from_point, torch \WObj:=table);
         end_point := CalcRobT(to_point, torch \WObj:=table);
-        RETURN Distance(start.trans, end_point.trans) / seconds;
+        ! Not Distance: programs have a global of that name, which would hide it.
+        RETURN VectMagn(end_point.trans - start.trans) / seconds;
     ERROR
         SkipWarn;
         RETURN 9E9;

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "7bf8b41e98e9";
+    CONST string ROS_BUILD_MOTION_SERVER := "971e59d933d5";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
