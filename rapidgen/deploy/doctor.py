@@ -10,13 +10,13 @@ from typing import Literal
 from rapidgen._json import members, whole
 from rapidgen.deploy.cfg import keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import DriverSet
-from rapidgen.deploy.motion_tasks import MAIN, entry_steps
 from rapidgen.deploy.neighbour import MODULE
 from rapidgen.deploy.plan import Plan
 from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, connect, credentials
+from rapidgen.deploy.tasks import MAIN, entry_steps
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError

@@ -9,12 +9,12 @@ from rapidgen._json import Members
 from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.mend import copies, mended
-from rapidgen.deploy.motion_tasks import entry_steps
 from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour, in_memory
 from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
+from rapidgen.deploy.tasks import check_complete, entry_steps
 from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText, parse_cfg
@@ -32,7 +32,7 @@ def make_plan(
     `loaded` is what a backup says is loaded, for a transport that does not see it.
     Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),
     RG529 (nothing deployed), RG531 (the manifest on the controller is damaged), RG538 (no such
-    motion task).
+    motion task), RG539 (a task is left out).
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
@@ -107,6 +107,8 @@ def make_plan(
         written=seen,
     )
     if wanted is not None:
+        if verb == "deploy":
+            check_complete(wanted, cfg)
         steps = (*entry_steps(wanted, texts, transport.shown), *steps)
     if neighbour is not None:
         steps = steps_beside(neighbour)

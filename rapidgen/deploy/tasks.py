@@ -1,4 +1,4 @@
-"""The controller's motion tasks, which our cfg does not write: are they there, do they start ours?
+"""Tasks that a set needs and does not write: are they there, do they start ours, do they stay?
 
 A task starts with `main` unless its -Entry says otherwise [backup 5.15]; abb_driver's page has
 people rename main and set it.
@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 
 from rapidgen._json import members
+from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.driverset import DriverSet
 from rapidgen.deploy.steps import ManualStep
 from rapidgen.deploy.transports.transport import refused
@@ -34,6 +35,23 @@ def entry_steps(wanted: DriverSet, loaded: Sequence[CfgText], target: str) -> li
             what = f"set Entry of {name} to main (it starts with {entry} there)"
             steps.append(ManualStep("pendant", f"{what}: Configuration > Controller > Task"))
     return steps
+
+
+def check_complete(wanted: DriverSet, cfg: Sequence[CfgChange]) -> None:
+    """Raises DiagnosticError RG539 where a task would be taken away that the set's modules need.
+
+    A build for a cell writes what the cell's backup lacks; a backup with this driver lacks nothing.
+    """
+    needed = {task.casefold() for file in wanted.files for task in file.tasks}
+    for change in cfg:
+        section, _, name = change.key.partition(" ")
+        if change.action == "remove" and section == "CAB_TASKS" and name.casefold() in needed:
+            raise refused(
+                "RG539",
+                f"the build needs task {name} and does not bring it: it was made with a backup "
+                "that had this driver already",
+                "build without --backup, or with a backup from before the first deployment",
+            )
 
 
 def _motion_tasks(wanted: DriverSet) -> list[str]:
