@@ -69,7 +69,7 @@ picture: $(STAMP)
 	$(BIN)/python -m tests.docs.picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, backups, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).
+# PROGRAM the trial (abb_driver, backups, descriptions, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).
 PROGRAM = trial
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
@@ -87,6 +87,9 @@ suite: $(STAMP) ## 8 min: every case of `rapidgen test`, any two assumptions abo
 
 triples: $(STAMP) ## 15 min: the same where any three assumptions about controllers meet
 	$(BIN)/rapidgen test irb120 --together 3 --seeds 0
+
+signature: $(STAMP) ## 60 min: the same on every example, and on any two of profile, commissioning, main, control
+	$(BIN)/python benchmarks/signature.py
 
 mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance file
 	$(BIN)/python benchmarks/conformance_mutants.py

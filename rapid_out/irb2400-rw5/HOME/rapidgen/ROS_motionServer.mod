@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "971e59d933d5";
+    CONST string ROS_BUILD_MOTION_SERVER := "4140433e1ce2";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -247,6 +247,11 @@ MODULE ROS_motionServer
         ROS_forget_download;
         ROS_forget_trajectory ROS_REASON_STOPPED;
         ROS_end_session ROS_REASON_STOPPED;
+        IF ROS_service = ROS_OUTSIDE THEN
+            ! The supervisor tells that the program's own moves go on.
+            ROS_stop_reason := ROS_REASON_STOPPED;
+            ROS_stop_asked := ROS_next(ROS_stop_asked);
+        ENDIF
         IF NOT ROS_answered() code := ROS_REPLY_FAILURE;
         IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
     ENDPROC

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "8ee113b5fbf0";
+    CONST string ROS_BUILD_MOTION_SERVER := "85cb745a1a59";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -247,6 +247,11 @@ MODULE ROS_motionServer
         ROS_forget_download;
         ROS_forget_trajectory ROS_REASON_STOPPED;
         ROS_end_session ROS_REASON_STOPPED;
+        IF ROS_service_2 = ROS_OUTSIDE THEN
+            ! The supervisor tells that the program's own moves go on.
+            ROS_stop_reason_2 := ROS_REASON_STOPPED;
+            ROS_stop_asked_2 := ROS_next(ROS_stop_asked_2);
+        ENDIF
         IF NOT ROS_answered() code := ROS_REPLY_FAILURE;
         IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
     ENDPROC
