@@ -14,6 +14,7 @@ from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
 from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
+from rapidgen.generate.naming import naming
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import cfg_files
@@ -26,7 +27,8 @@ def build(config: RobotConfig) -> Output:
     """All files for one controller.
 
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
-    RG105 (the first line of a cfg file is not known for this RobotWare).
+    RG105 (the first line of a cfg file is not known for this RobotWare),
+    RG106 (a name of the configuration is taken in RAPID).
     """
     templates = data_folder("templates")
     build_id = make_build_id(config, templates)
@@ -91,6 +93,7 @@ def _modules(
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
         data = rendered.text.encode("ascii", errors="replace")
         files.append(OutputFile(path, data, "module", tasks, rendered.lines))
+    faults += naming(group, [file.data.decode("ascii", errors="replace") for file in files])
     if faults:
         raise DiagnosticError(faults)
     return files

@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "5501ee4a59b0";
+    CONST string ROS_BUILD_MOTION_SERVER := "628cf4dd39c9";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -89,7 +89,8 @@ MODULE ROS_motionServer
                 received := ROS_receive(client, ROS_chunk, silence);
                 quiet := quiet + silence;
             ENDIF
-            IF received <> 0 quiet := 0;
+            ! Silence counts from the end of what was under way.
+            IF received <> 0 OR (silence < PATIENCE AND (NOT ROS_active())) quiet := 0;
             IF received > 0 THEN
                 take_chunk client, received;
             ELSEIF received < 0 THEN
