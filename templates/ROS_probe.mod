@@ -14,12 +14,14 @@ MODULE ROS_probe
 
     LOCAL VAR intnum alarm;
     LOCAL PERS bool rung := FALSE;
+    LOCAL PERS num heard := 0;
     LOCAL VAR clock watch;
     LOCAL VAR signaldo no_signal;
     LOCAL VAR rawbytes bytes;
 
     PROC main()
         ask_num_rounding;
+        ask_dnum_whole;
         ask_for_loop;
         ask_integer_division;
         ask_negative_mod;
@@ -32,6 +34,8 @@ MODULE ROS_probe
         ask_alias_by_name;
         ask_axis_limits;
         ask_own_events;
+        ask_argument_error;
+        tell_interrupt_delay;
         tell_statement_time;
         tell_raw_bytes_time;
         ask_unhandled_error;
@@ -53,6 +57,20 @@ MODULE ROS_probe
             answer "num_rounding=store";
         ELSE
             answer "num_rounding=operation";
+        ENDIF
+    ENDPROC
+
+    ! Does a dnum count whole numbers behind 2^52?
+    LOCAL PROC ask_dnum_whole()
+        VAR dnum large := 4503599627370496;
+        VAR dnum one := 1;
+        VAR dnum more;
+
+        more := large + one;
+        IF more - large = one THEN
+            answer "dnum_whole=53";
+        ELSE
+            answer "dnum_whole=52";
         ENDIF
     ENDPROC
 
@@ -232,6 +250,42 @@ MODULE ROS_probe
         ELSE
             answer "! IError hears ErrWrite: no";
         ENDIF
+    ENDPROC
+
+    ! Does a handler get the error of an argument that an instruction refuses?
+    LOCAL PROC ask_argument_error()
+        VAR num large := 4294967296;
+
+        ClearRawBytes bytes;
+        answer "! If the program stops now: argument_error=fatal";
+        PackRawBytes large, bytes, 1 \IntX:=DINT;
+        answer "! PackRawBytes takes a DINT that does not fit";
+    ERROR
+        SkipWarn;
+        answer "argument_error=recoverable";
+        RETURN;
+    ENDPROC
+
+    ! How long does a TRAP let itself be waited for, after a change of a persistent?
+    LOCAL PROC tell_interrupt_delay()
+        VAR num longest := 0;
+        VAR num count := 50;
+
+        IDelete alarm;
+        CONNECT alarm WITH on_alarm;
+        IPers heard, alarm;
+        FOR i FROM 1 TO count DO
+            rung := FALSE;
+            ClkReset watch;
+            ClkStart watch;
+            heard := i;
+            WHILE NOT rung AND ClkRead(watch) < 1 DO
+            ENDWHILE
+            IF ClkRead(watch) > longest longest := ClkRead(watch);
+            ClkStop watch;
+        ENDFOR
+        IDelete alarm;
+        answer "! milliseconds from a PERS to its TRAP, at most: " + NumToStr(1000 * longest, 0);
     ENDPROC
 
     ! What a raw-bytes instruction costs here, for the cost model.

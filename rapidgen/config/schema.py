@@ -232,7 +232,7 @@ class UrdfKeys(_Part):
     macro: Annotated[str | None, Rule("Macro to call when the file only defines macros.")] = None
     macro_args: Annotated[
         dict[str, str | int | float | bool],
-        Rule("Arguments of that macro; `prefix` is empty without one."),
+        Rule("Arguments of that macro; `prefix` is empty, `parent` is world without one."),
     ] = field(default_factory=dict)
     args: Annotated[
         dict[str, str | int | float | bool],

@@ -1,9 +1,10 @@
 """Another driver on the same controller: which cfg instances have to go before ours is loaded.
 
 abb_driver's modules have names of ours (ROS_common, ROS_socket, ROS_messages, ROS_motion, ...),
-and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]; two modules
-of one name in a task make it unusable [VC 6.15: 40160]. The same is true of a driver that was
-copied there by hand. Its files are never touched.
+and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]. Which of two
+modules of one name a task gets nobody has told; that both give it their data is 40160 and a task
+that does not run [VC 6.15]. The same is true of a driver that was copied there by hand. Its files
+are never touched.
 """
 
 import re
@@ -11,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rapidgen.deploy.cfg import Keyed, attributes_text, keyed, name_of, shown_key
+from rapidgen.deploy.driverset import STATE
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
 from rapidgen.system import CfgText, Instance, Section
 
@@ -18,8 +20,7 @@ MODULE = re.compile(rb"^\s*MODULE\s+([A-Za-z]\w*)", re.I | re.M)
 _PROC = re.compile(rb"^\s*(?:LOCAL\s+)?PROC\s+([A-Za-z]\w*)", re.I | re.M)
 _OLD = re.compile(r"ROS_(common|socket|messages|motion|motionServer|stateServer)(_\w+)?", re.I)
 """Modules of abb_driver; with two arms they carry suffixes [backup 6.06]."""
-_FOLDER = "ros"
-"""Where abb_driver's page, and our first release, put their modules: HOME:/ROS."""
+_ENDINGS = ("mod", "sys", "modx", "sysx", "prg")
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,6 +110,31 @@ def find_neighbour(
     return Neighbour(tuple(instances), tuple(dict.fromkeys(files)))
 
 
+def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple[str, ...]:
+    """Modules with names of ours that a backup holds as its programs: RAPID/TASKn/PROGMOD, SYSMOD.
+
+    They were in the tasks' memory when it was made [backup 6.06], and are what it restores, not
+    the files in HOME. Raises TransportFault.
+    """
+    found = []
+    for folder in _folders(transport, "", "rapid"):
+        for task in _folders(transport, folder, "task"):
+            for kind in _folders(transport, task, ""):
+                for entry in transport.entries(kind):
+                    stem = entry.name.rpartition(".")[0].casefold()
+                    if stem in modules and entry.folder is not True:
+                        found.append(f"{kind}/{entry.name}")
+    return tuple(found)
+
+
+def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
+    return [
+        f"{place}/{entry.name}".lstrip("/")
+        for entry in transport.entries(place)
+        if entry.folder is not False and entry.name.casefold().startswith(beginning)
+    ]
+
+
 def _is_other(row: Instance, source: bytes | None, mine: Beside) -> bool:
     """Whether a row of CAB_TASK_MODULES loads abb_driver, or a name of ours into a task of ours."""
     found = MODULE.search(source or b"")
@@ -133,27 +159,32 @@ def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset
 
 
 def _files(transport: Transport, home: str, mine: Beside) -> tuple[str, ...]:
-    """Modules in HOME:/ROS that are not ours and have a name of ours or of abb_driver."""
+    """Modules in HOME and its folders that are not ours and have a name of ours or abb_driver's.
+
+    Its page says HOME:/ROS; nothing keeps them from lying elsewhere.
+    """
     found = []
-    for folder in transport.entries(home.rstrip("/")):
-        if folder.name.casefold() != _FOLDER or folder.folder is False:
-            continue
-        try:
-            entries = transport.entries(home + folder.name)
-        except TransportFault as fault:
-            if fault.kind != "missing":
-                raise
-            continue
-        for entry in entries:
-            path = f"{folder.name}/{entry.name}"
-            suffix = entry.name.rpartition(".")[2].casefold()
-            if entry.folder or suffix not in ("mod", "sys") or path in mine.paths:
+    top = transport.entries(home.rstrip("/"))
+    folders = [e.name for e in top if e.folder or (e.folder is None and "." not in e.name)]
+    for folder in ("", *(name for name in folders if name != STATE)):
+        for name in _names(transport, home + folder) if folder else (e.name for e in top):
+            path = f"{folder}/{name}".lstrip("/")
+            stem, _, suffix = name.rpartition(".")
+            if suffix.casefold() not in _ENDINGS or path in mine.paths:
                 continue
-            module = MODULE.search(transport.read(home + path))
-            name = module[1].decode("latin-1") if module else ""
-            if name.casefold() in mine.modules or _OLD.fullmatch(name):
+            if stem.casefold() in mine.modules or _OLD.fullmatch(stem):
                 found.append(path)
     return tuple(found)
+
+
+def _names(transport: Transport, folder: str) -> tuple[str, ...]:
+    """Names in what may be a folder: not every server tells."""
+    try:
+        return tuple(entry.name for entry in transport.entries(folder))
+    except TransportFault as fault:
+        if fault.kind in ("lost", "garbled"):
+            raise
+        return ()
 
 
 def _source(transport: Transport, home: str, file: str) -> bytes | None:

@@ -6,14 +6,15 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Members
-from rapidgen.deploy.cfg import compare, keyed, name_of
+from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.mend import copies, mended
-from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour
+from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour, in_memory
 from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
+from rapidgen.deploy.tasks import check_complete, entry_steps
 from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText, parse_cfg
@@ -30,7 +31,8 @@ def make_plan(
 
     `loaded` is what a backup says is loaded, for a transport that does not see it.
     Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),
-    RG529 (nothing deployed), RG531 (the manifest on the controller is damaged).
+    RG529 (nothing deployed), RG531 (the manifest on the controller is damaged), RG538 (no such
+    motion task), RG539 (a task is left out).
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
@@ -56,13 +58,19 @@ def make_plan(
     _check_robotware(texts, wanted, transport.shown)
     old_cfg = _old_cfg(changes)
     wanted_cfg = wanted.cfg if wanted else ()
+    seen = bool(syspar) and transport.reach.writes_cfg
+    if seen:
+        # A system that starts from these files has nobody who could leave a row out.
+        wanted_cfg = tuple(text for text in wanted_cfg if not may_be_refused(text))
     present = texts if texts else old_cfg
     ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
     cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
-    seen = bool(syspar) and transport.reach.writes_cfg
-    neighbour = None
+    neighbour: Neighbour | None = None
+    restored: tuple[str, ...] = ()
     if wanted is not None and verb == "deploy":
         neighbour = _neighbour(transport, layout, texts, wanted, ours, frozenset(base.known))
+        if layout.syspar:
+            restored = in_memory(transport, _names(wanted))
     originals = {
         r.path: f"{layout.home}{STATE}/backup/{r.stored}"
         for r in base.origin.values()
@@ -98,6 +106,10 @@ def make_plan(
         gone=any(c.after is None for c in modules),
         written=seen,
     )
+    if wanted is not None:
+        if verb == "deploy":
+            check_complete(wanted, cfg)
+        steps = (*entry_steps(wanted, texts, transport.shown), *steps)
     if neighbour is not None:
         steps = steps_beside(neighbour)
     elif wanted is None and not seen and any(c.action == "remove" for c in cfg):
@@ -137,6 +149,7 @@ def make_plan(
         texts,
         ours,
         neighbour,
+        restored,
         damaged,
         copies(transport, layout.home) if damaged else len(base.origin),
     )
@@ -277,14 +290,19 @@ def _neighbour(
     ours: frozenset[str],
     known: frozenset[str],
 ) -> Neighbour | None:
-    modules = {
-        found[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
-        for file in wanted.files
-        if file.kind == "module" and (found := MODULE.search(file.data))
-    }
+    modules = _names(wanted)
     instances = ours | frozenset(map(name_of, keyed(wanted.cfg)))
     paths = known | {file.path for file in wanted.files}
     return find_neighbour(transport, layout.home, texts, Beside(modules, instances, paths))
+
+
+def _names(wanted: DriverSet | None) -> dict[str, frozenset[str]]:
+    """Our module names with the tasks that load them, without case."""
+    return {
+        found[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
+        for file in (wanted.files if wanted else ())
+        if file.kind == "module" and (found := MODULE.search(file.data))
+    }
 
 
 def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) -> str:

@@ -1,5 +1,6 @@
 """What num and string can hold [K §2.5, 2.13]: used by checker, compiler and run time."""
 
+import math
 import struct
 from typing import Final
 
@@ -25,6 +26,18 @@ def single(value: float) -> float:
         if whole == rounded:
             return whole
     return rounded
+
+
+def dnum(value: float, bits: int) -> float:
+    """`value` as a dnum that counts whole numbers to 2^`bits`: what is larger loses its last bits.
+
+    Infinity and NaN stay what they are.
+    """
+    limit = 1 << bits
+    if -limit <= value <= limit or not math.isfinite(value):
+        return value
+    fraction, exponent = math.frexp(value)
+    return math.ldexp(math.trunc(fraction * limit), exponent - bits)
 
 
 def is_single(value: float) -> bool:

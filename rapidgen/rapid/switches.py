@@ -17,6 +17,10 @@ class Switches:
     """Where a num is rounded to IEEE single: when it is stored, passed or returned, or after
     every operator. No source."""
 
+    dnum_whole: Literal["52", "53"] = "52"
+    """Up to which power of 2 a dnum counts whole numbers: what the manuals promise [mem], or as far
+    as an IEEE double does. What is larger loses its last bits."""
+
     for_loop: Literal["kernel", "tested"] = "kernel"
     """`kernel`: the first pass of FOR is never tested, and without STEP it counts down when
     the end lies below the start [K §4.15]. `tested`: STEP is 1 and the first pass is tested."""

@@ -77,8 +77,8 @@ def test_tasks_of_two_arms(tmp_path):
     system = read_folder(tmp_path / "yumi")
     motion = [t for t in system.tasks if t.motion]
     assert [(t.name, t.mechanical_unit_group) for t in motion] == [
-        ("T_ROB_L", "rob_L"),
-        ("T_ROB_R", "rob_R"),
+        ("T_ROB_R", "rob_r"),
+        ("T_ROB_L", "rob_l"),
     ]
     assert len(system.tasks) == 10
     assert {t.type for t in system.tasks if not t.motion} == {"SEMISTATIC"}

@@ -5,11 +5,12 @@ import os
 
 import pytest
 
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.system import (
     CrossConnection,
     EventRoutine,
     MechanicalUnitGroup,
+    ModuleFile,
     SignalSpec,
     System,
     SystemInput,
@@ -282,6 +283,52 @@ def test_model_to_text_and_back():
     assert crosses_of(eio_text) == system.cross
 
 
+@pytest.mark.parametrize("robotware", [(5, 15), (5, 61), (6, 13), (7, 6)])
+def test_system_signals_and_hooks_of_each_release(robotware):
+    """Outputs have a unit in Arg1 and a task in Arg2, inputs a task in Arg7; 7 has them in SYS."""
+    system = System(
+        "cell",
+        (),
+        outputs=(
+            SystemOutput("MechUnitNotMoving", "doA", unit="ROB_1"),
+            SystemOutput("Error", "doB", task="T_ROB1"),
+        ),
+        inputs=(
+            SystemInput("Start", "diA", "CONT"),
+            SystemInput("PpToMain", "diB", task="T_ROB1"),
+        ),
+        events=(
+            EventRoutine("on_power", "POWER_ON", all_motion_tasks=True, order=1),
+            EventRoutine("on_stop", "STOP", all_tasks=True),
+        ),
+        robotware=robotware,
+    )
+    sys_text = parse_cfg(write_cfg(sys_cfg(system)))
+    eio_text = parse_cfg(write_cfg(eio_cfg(system)))
+    home, key = (sys_text, "Name") if robotware[0] >= 7 else (eio_text, "Signal")
+    first, second = home.instances("SYSSIG_OUT")
+    assert (first.text(key), first.text("Arg1"), first.text("Arg2")) == ("doA", "ROB_1", "")
+    assert (second.text(key), second.text("Arg1"), second.text("Arg2")) == ("doB", "", "T_ROB1")
+    assert outputs_of(eio_text, sys_text) == system.outputs
+    assert inputs_of(eio_text, sys_text) == system.inputs
+    assert events_of(sys_text) == system.events
+
+
+def test_nothing_of_the_controllers_is_written_on_top():
+    system = System(
+        "cell",
+        (
+            TaskSpec("T_ROB1", motion=True, modules=(ModuleFile("a", "", b"", "HOME:/a.sys"),)),
+            TaskSpec("T_SRV", "SEMISTATIC"),
+        ),
+        groups=(MechanicalUnitGroup("rob1", "ROB_1"),),
+    )
+    text = sys_cfg(system, on_top=True)
+    assert [s.name for s in text.sections] == ["CAB_TASKS", "CAB_TASK_MODULES"]
+    assert [i.text("Name") for i in text.instances("CAB_TASKS")] == ["T_SRV"]
+    assert [i.text("Task") for i in text.instances("CAB_TASK_MODULES")] == ["T_ROB1"]
+
+
 def test_shared_and_installed_modules(backup):
     """-Shared, -Install [code]; one instance stands for all tasks [K §14.3]."""
     cfg = backup / "SYSPAR/SYS.cfg"
@@ -311,3 +358,27 @@ def test_a_backup_tells_its_robots(backup):
         'MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n -name "ROB_1" -use_robot_type "ROB1_120_0.58_3"\n',
     )
     assert read_backup(backup).robot_types == (("ROB_1", "ROB1_120_0.58_3"),)
+
+
+def test_a_file_that_may_be_refused(tmp_path):
+    """The manifest names it: it is left out whole with a note, or not loaded at all."""
+    manifest = {
+        "format": 1, "robotware": [7, 6], "name": "x", "build_id": "0", "lines": {},
+        "files": [{"path": n, "kind": "cfg"} for n in ("EIO.cfg", "SYS_open.cfg")],
+        "optional": ["SYS_open.cfg"],
+        "configuration": {
+            "groups": [{"task": "T_ROB1", "mechanical_unit": "ROB_1", "external_units": []}]
+        },
+    }  # fmt: skip
+    put(tmp_path / "manifest.json", json.dumps(manifest))
+    put(tmp_path / "EIO.cfg", 'EIO:CFG_1.0:7:0::\nEIO_SIGNAL:\n -Name "doA" -SignalType "DO"\n')
+    put(
+        tmp_path / "SYS_open.cfg",
+        'SYS:CFG_1.0:7:0::\nSYSSIG_OUT:\n -Status "EmStop" -Name "doA"\n',
+    )
+    notes = []
+    assert read_folder(tmp_path, notes=notes, open_words=False).outputs == ()
+    assert [(note.code, note.severity) for note in notes] == [("RG722", Severity.WARNING)]
+    assert read_folder(tmp_path, without=("SYS_open.cfg",)).outputs == ()
+    taken = read_folder(tmp_path, open_words=True).outputs
+    assert [(o.status, o.signal) for o in taken] == [("EmStop", "doA")]

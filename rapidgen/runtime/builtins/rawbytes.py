@@ -6,7 +6,7 @@ empty container, motion_program_exec [code] for \\ASCII:=0.
 
 from collections.abc import Callable
 
-from rapidgen.rapid.numbers import single
+from rapidgen.rapid.numbers import dnum, single
 from rapidgen.runtime.anytype import target_of, value_of
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.rawbytes import (
@@ -102,7 +102,7 @@ def _unsigned_long(task: Task, value: int) -> float:
             raise RapidError("ERR_ARGVALERR", "\\IntX:=ULINT")
         case "single":
             return single(value)
-    return value
+    return dnum(value, int(task.controller.dialect.dnum_whole))
 
 
 def _no_format(name: str) -> FatalError:

@@ -7,6 +7,8 @@ from rapidgen.runtime.compiler.symbols import CannotCompile
 from rapidgen.runtime.values import BOOL, DNUM, STRING, TYPES, Type
 
 _COMPARE = {"=": "==", "<>": "!=", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
+_COUNTED = 1 << 52
+"""A dnum counts whole numbers so far, whatever is assumed."""
 POS, ORIENT = TYPES["pos"], TYPES["orient"]
 
 
@@ -137,6 +139,8 @@ def _arithmetic(unit: Unit, node: n.Binary, left: E, right: E) -> E:
             e.risky = left.risky or right.risky or not (left.literal or right.literal)
             e.fails = e.risky
     e.take(left, right)
+    if kind.kind == "dnum" and operator != "/" and not _is_counted(e):
+        e.code, e.fails = f"WHOLE({e.code})", True
     if dialect.num_rounding == "operation" and kind.kind == "num" and not _is_exact(e):
         e.code, e.exact, e.risky, e.fails = f"RND({e.code})", True, False, True
     return e
@@ -153,6 +157,11 @@ def _integer(unit: Unit, operator: str, left: E, right: E) -> str:
             return f"({a} {python} {b})"
         return f"(_y {python} {b} if (_y := {a}) >= 0 else -(-_y {python} {b}))"
     return f"{operator}({left.code}, {right.code})"
+
+
+def _is_counted(e: E) -> bool:
+    """Whether a dnum holds the result whatever it is."""
+    return e.range is not None and e.range[0] >= -_COUNTED and e.range[1] <= _COUNTED
 
 
 def _is_exact(e: E) -> bool:

@@ -7,6 +7,7 @@ from typing import Protocol
 
 from rapidgen.diagnostics import error
 from rapidgen.rapid.binding.symbols import Symbol
+from rapidgen.rapid.numbers import dnum
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import runtime
 from rapidgen.runtime.compiler.argname import arg_name
@@ -49,6 +50,7 @@ class Program:
             "ARGNAME": partial(arg_name, self.codes, self.find_data),
         }
         dialect = options.dialect
+        self.space["WHOLE"] = partial(dnum, bits=int(dialect.dnum_whole))
         if dialect.for_loop == "tested":
             self.space["STEPS"] = runtime.count_tested
         if dialect.integer_division == "floor":

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "502ae5c9a05f";
+    CONST string ROS_BUILD_MOTION := "fb32da408ca7";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -66,6 +66,7 @@ MODULE ROS_motion
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
+        ROS_stopped_2 := FALSE;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -322,7 +323,8 @@ MODULE ROS_motion
 
         start := CalcRobT(from_point, tool0 \WObj:=wobj0);
         end_point := CalcRobT(to_point, tool0 \WObj:=wobj0);
-        RETURN Distance(start.trans, end_point.trans) / seconds;
+        ! Not Distance: programs have a global of that name, which would hide it.
+        RETURN VectMagn(end_point.trans - start.trans) / seconds;
     ERROR
         SkipWarn;
         RETURN 9E9;
