@@ -17,6 +17,7 @@ from rapidgen.generate import layout
 from rapidgen.generate.cell import Cell, in_the_way, missing, used_signals
 from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
+from rapidgen.generate.naming import naming
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import OPEN_FILES, cfg_files
@@ -31,9 +32,9 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     """All files for one controller; for `cell`, to which `config` was fitted, what it lacks.
 
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
-    RG105 (the first line of a cfg file is not known for this RobotWare), RG110 (the cell has
-    something in another way), RG112 (its program has a name that ours needs), RG720..RG723 (it
-    would not load the files).
+    RG105 (the first line of a cfg file is not known for this RobotWare), RG106 (a name is taken in
+    RAPID), RG110 (the cell has something in another way), RG112 (its program has a name that ours
+    needs), RG720..RG723 (it would not load the files).
     """
     templates = data_folder("templates")
     build_id = make_build_id(config, templates)
@@ -121,6 +122,7 @@ def _modules(
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
         data = rendered.text.encode("ascii", errors="replace")
         files.append(OutputFile(path, data, "module", tasks, rendered.lines))
+    faults += naming(group, [file.data.decode("ascii", errors="replace") for file in files])
     if faults:
         raise DiagnosticError(faults)
     return files
