@@ -3,7 +3,7 @@
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
+from rapidgen.proving.link import STOP, RawLink, raw_point
 from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
@@ -169,8 +169,7 @@ def _silent_while_moving(bench: Bench) -> None:
     place, old = bench.position, bench.motion()
     for what, count in (("stream", 4), ("download", 15), ("stopped stream", 4)):
         old = _silent(bench, old, what, bench.wave(count))
-        old.send(point_frame(0, 2, place, 0.3) + point_frame(1, 2, place, 0.3))
-        bench.wait_until_at(place, 5)
+        bench.moves_through(old, bench.way_to(place))
 
 
 @case("server-breaks", "a server socket that breaks is opened again")

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "dfbbf0231cb8";
+    CONST string ROS_BUILD_STREAM := "45176ecb4db3";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -414,7 +414,7 @@ MODULE ROS_stream
             IF ROS_seconds < ROS_SHORTEST AND (NOT last) ROS_short_segment;
             ! The same place again: stand there for the duration.
             ROS_taken.dwell := (ROS_taken.target = ROS_before);
-            IF NOT ROS_tcp_in_time(ROS_taken.target, ROS_seconds) ROS_object ROS_REASON_TCP_TOO_FAST;
+            IF ROS_fault = ROS_REASON_NONE ROS_check_tcp;
         ENDIF
         IF ROS_fault <> ROS_REASON_NONE RETURN;
         ROS_count := ROS_count + 1;
@@ -436,9 +436,10 @@ MODULE ROS_stream
     LOCAL PROC begin_at_first()
         VAR num joint := 0;
 
-        ROS_reach_start CJointT(), ROS_taken.target, ROS_seconds, joint;
+        ROS_reach_start CJointT(), ROS_taken.target, ROS_seconds, joint, ROS_taken.least;
         IF joint > 0 ROS_object 100 * joint + ROS_REASON_START_TOO_FAR;
         ROS_first := FALSE;
-        ROS_begin_tcp ROS_taken.target;
+    ERROR
+        RAISE;
     ENDPROC
 ENDMODULE

@@ -10,7 +10,7 @@ MODULE ROS_control
     ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
     ! when nothing is left that could move. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "037b023b8881";
+    CONST string ROS_BUILD_CONTROL := "37c2092f713d";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.

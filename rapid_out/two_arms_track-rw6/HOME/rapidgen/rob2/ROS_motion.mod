@@ -9,25 +9,26 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "037b023b8881";
+    CONST string ROS_BUILD_MOTION := "37c2092f713d";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
     LOCAL CONST zonedata CORNER := z50;
-    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
-    ! this of each one's acceleration (deg/s^2, mm/s^2), lasts this long at least (s), and is not
-    ! smaller than this (mm, deg).
+    ! What an axis does of its acceleration without doubt (deg/s^2, mm/s^2).
     LOCAL CONST num TURN_1 := 300;
     LOCAL CONST num TURN_2 := 300;
     LOCAL CONST num TURN_3 := 300;
     LOCAL CONST num TURN_4 := 384;
     LOCAL CONST num TURN_5 := 384;
     LOCAL CONST num TURN_6 := 504;
+    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
+    ! that, lasts this long at least (s), and is not smaller than this (mm, deg).
     LOCAL CONST num SHORTEST_CORNER := 0.025;
     LOCAL CONST num SMALLEST_CORNER := 0.3;
     LOCAL CONST num SMALLEST_TURN := 0.03;
     ! mm/s of a TCP that moves no more than its place is known.
     LOCAL CONST num RESTING := 0.1;
+
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
@@ -35,8 +36,9 @@ MODULE ROS_motion
     LOCAL VAR num percent := 0;
     LOCAL VAR num bells := 0;
     LOCAL VAR ROS_point point;
-    ! The place of the point before it, and the corner at it.
+    ! The place of the point before it.
     LOCAL VAR jointtarget before;
+    ! The corner at it.
     LOCAL VAR zonedata bend;
     ! Trajectory under way here, and the point of it that comes next.
     LOCAL VAR num session := -1;
