@@ -103,6 +103,9 @@ motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
 
+schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
+	$(BIN)/python benchmarks/fast_stops.py --jobs 2
+
 driver-frames: $(STAMP) ## 30 min: 100,000 malformed openings, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2
 

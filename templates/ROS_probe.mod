@@ -14,6 +14,7 @@ MODULE ROS_probe
 
     LOCAL VAR intnum alarm;
     LOCAL PERS bool rung := FALSE;
+    LOCAL PERS num heard := 0;
     LOCAL VAR clock watch;
     LOCAL VAR signaldo no_signal;
     LOCAL VAR rawbytes bytes;
@@ -33,6 +34,8 @@ MODULE ROS_probe
         ask_alias_by_name;
         ask_axis_limits;
         ask_own_events;
+        ask_argument_error;
+        tell_interrupt_delay;
         tell_statement_time;
         tell_raw_bytes_time;
         ask_unhandled_error;
@@ -247,6 +250,42 @@ MODULE ROS_probe
         ELSE
             answer "! IError hears ErrWrite: no";
         ENDIF
+    ENDPROC
+
+    ! Does a handler get the error of an argument that an instruction refuses?
+    LOCAL PROC ask_argument_error()
+        VAR num large := 4294967296;
+
+        ClearRawBytes bytes;
+        answer "! If the program stops now: argument_error=fatal";
+        PackRawBytes large, bytes, 1 \IntX:=DINT;
+        answer "! PackRawBytes takes a DINT that does not fit";
+    ERROR
+        SkipWarn;
+        answer "argument_error=recoverable";
+        RETURN;
+    ENDPROC
+
+    ! How long does a TRAP let itself be waited for, after a change of a persistent?
+    LOCAL PROC tell_interrupt_delay()
+        VAR num longest := 0;
+        VAR num count := 50;
+
+        IDelete alarm;
+        CONNECT alarm WITH on_alarm;
+        IPers heard, alarm;
+        FOR i FROM 1 TO count DO
+            rung := FALSE;
+            ClkReset watch;
+            ClkStart watch;
+            heard := i;
+            WHILE NOT rung AND ClkRead(watch) < 1 DO
+            ENDWHILE
+            IF ClkRead(watch) > longest longest := ClkRead(watch);
+            ClkStop watch;
+        ENDFOR
+        IDelete alarm;
+        answer "! milliseconds from a PERS to its TRAP, at most: " + NumToStr(1000 * longest, 0);
     ENDPROC
 
     ! What a raw-bytes instruction costs here, for the cost model.

@@ -23,14 +23,22 @@ class Bootable:
     notes: tuple[Diagnostic, ...] = ()
 
 
-def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> Bootable:
+def load_target(
+    target: str,
+    robot: str = "",
+    overrides: Iterable[str] = (),
+    backup: Path | None = None,
+) -> Bootable:
     """Read a TARGET. `robot` names the mechanics of a backup, else its robot types tell them.
+    `backup` is of the controller that a generated folder is loaded onto.
 
     Raises DiagnosticError.
     """
     path = Path(target)
     if path.is_dir():
-        return _folder(path, robot)
+        return _folder(path, robot, backup)
+    if backup is not None:
+        raise only_of_folders(target)
     if path.is_file() and path.suffix.lower() not in (".yaml", ".yml"):
         raise _no_target(target)
     from rapidgen.config import load_config
@@ -42,20 +50,32 @@ def load_target(target: str, robot: str = "", overrides: Iterable[str] = ()) -> 
     return Bootable(config.name, system, config.groups, True, tuple(config.diagnostics))
 
 
-def _folder(path: Path, robot: str) -> Bootable:
+def _folder(path: Path, robot: str, backup: Path | None) -> Bootable:
     from rapidgen.config import from_manifest
     from rapidgen.controller.cell import in_its_cell
     from rapidgen.controller.mechanics import mechanics
-    from rapidgen.system import is_generated, read_manifest, read_system
+    from rapidgen.system import is_generated, read_folder, read_manifest, read_system
 
+    notes: list[Diagnostic] = []
     if is_generated(path):
         config = from_manifest(read_manifest(path)["configuration"])
-        system = in_its_cell(read_system(path), config)
-        return Bootable(config.name, system, config.groups, True)
-    notes: list[Diagnostic] = []
+        system = in_its_cell(read_folder(path, backup, notes=notes), config)
+        return Bootable(config.name, system, config.groups, True, tuple(notes))
+    if backup is not None:
+        raise only_of_folders(str(path))
     system = read_system(path, notes=notes)
     groups, more = mechanics(system, robot)
     return Bootable(system.name, system, groups, False, (*notes, *more))
+
+
+def only_of_folders(target: str) -> Exception:
+    """What is no generated folder is loaded onto no backup."""
+    return refusal(
+        "RG433",
+        None,
+        f"'{target}' is no generated folder, and --backup is what one is loaded onto",
+        "build it first: `rapidgen build CONFIG --backup FOLDER`",
+    )
 
 
 def _no_target(target: str) -> Exception:

@@ -10,6 +10,7 @@ from rapidgen.cli.terminal import use_colour
 from rapidgen.diagnostics import Diagnostic, refusal, render
 
 if TYPE_CHECKING:
+    from rapidgen.config.model import RobotConfig
     from rapidgen.generate import Change, Output
 
 
@@ -20,6 +21,13 @@ def build(
         typer.Option("--out", "-o", help="Output folder; default rapid_out/NAME.", metavar="DIR"),
     ] = None,
     overrides: options.Overrides = None,
+    backup: Annotated[
+        Path | None,
+        typer.Option(
+            help="Backup of the very controller: what it has is used, what it lacks is written.",
+            metavar="FOLDER",
+        ),
+    ] = None,
     package_path: Annotated[
         list[Path] | None,
         typer.Option(help="Folder with ROS packages, for $(find ...) in a xacro.", metavar="DIR"),
@@ -44,7 +52,16 @@ def build(
 
     model = load_config(config, overrides=overrides or (), package_paths=package_path or ())
     _tell(model.diagnostics)
-    output = generate(model)
+    cell = None
+    if backup is not None:
+        from rapidgen.generate.cell import fit, read_cell
+
+        cell = read_cell(backup)
+        # What modules a backup lacks is no matter of cfg.
+        _tell(tuple(note for note in cell.notes if note.code != "RG710"))
+        model = fit(model, cell)
+        typer.echo(_fitted(backup, model), err=True)
+    output = generate(model, cell)
     folder = out if out is not None else Path("rapid_out") / model.name
     if list_files:
         for file in output.files:
@@ -64,6 +81,13 @@ def build(
 
 def _tell(diagnostics: tuple[Diagnostic, ...]) -> None:
     typer.echo(render(diagnostics, colour=use_colour()), err=True, nl=False)
+
+
+def _fitted(backup: Path, model: "RobotConfig") -> str:
+    """What was taken from a backup."""
+    groups = ", ".join(f"{g.task} moves {g.mechanical_unit}" for g in model.groups)
+    main = "" if model.call_main else "; its own main calls ROS_run"
+    return f"for {backup}: RobotWare {model.robotware[0]}.{model.robotware[1]:02d}, {groups}{main}"
 
 
 def _summary(output: "Output", folder: Path) -> str:

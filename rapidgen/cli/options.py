@@ -16,6 +16,10 @@ Overrides = Annotated[
     list[str] | None,
     typer.Option("--set", help="Override one key of the configuration.", metavar="KEY=VALUE"),
 ]
+Backup = Annotated[
+    Path | None,
+    typer.Option(help="Backup of the controller that a generated folder is for.", metavar="FOLDER"),
+]
 Yes = Annotated[
     bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
 ]

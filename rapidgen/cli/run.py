@@ -74,6 +74,7 @@ def run(
     coverage: Annotated[
         Path | None, typer.Option("--coverage", metavar="F.lcov", help="Lines and branches.")
     ] = None,
+    backup: options.Backup = None,
     check: options.LoadCheck = True,
 ) -> None:
     """Run RAPID on the virtual clock.
@@ -93,7 +94,7 @@ def run(
     _limits(max_time, max_statements)
     for target in filter(None, (coverage, Path(profile) if profile not in ("", "-") else None)):
         _writable(target)
-    system = _system(files, task, entry)
+    system = _system(files, task, entry, backup)
     if check:
         refuse_unloadable(system)
     robots = None
@@ -142,9 +143,16 @@ def _print(_task: str, text: str) -> None:
     sys.stdout.write(letters(text).replace("\n", " ") + "\n")
 
 
-def _system(files: list[Path], tasks: list[str], entry: str) -> "System":
-    from rapidgen.system import is_backup, is_generated, read_files, read_system
+def _system(
+    files: list[Path], tasks: list[str], entry: str, backup: Path | None = None
+) -> "System":
+    from rapidgen.cli.bootable import only_of_folders
+    from rapidgen.system import is_backup, is_generated, read_files, read_folder, read_system
 
+    if backup is not None:
+        if tasks or len(files) != 1 or not is_generated(files[0]):
+            raise only_of_folders(" ".join(map(str, files)))
+        return read_folder(files[0], backup)
     by_task: dict[str, list[Path | str]] = {}
     for text in tasks:
         name, equals, names = text.partition("=")

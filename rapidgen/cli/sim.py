@@ -57,6 +57,7 @@ def sim(
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
     overrides: options.Overrides = None,
+    backup: options.Backup = None,
     check: options.LoadCheck = True,
 ) -> int:
     """Run a virtual controller in real time.
@@ -75,7 +76,7 @@ def sim(
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
-    chosen = load_target(target, robot, overrides or ())
+    chosen = load_target(target, robot, overrides or (), backup)
     _tell(chosen.notes)
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None

@@ -54,6 +54,13 @@ def test(
         Path | None, typer.Option(help="Write a report with plots.", metavar="FILE")
     ] = None,
     overrides: options.Overrides = None,
+    backup: Annotated[
+        Path | None,
+        typer.Option(
+            help="Prove the driver that is built for the controller of this backup.",
+            metavar="FOLDER",
+        ),
+    ] = None,
 ) -> int:
     """Prove the driver for this robot: every behaviour, stops and faults in many schedules.
 
@@ -69,6 +76,8 @@ def test(
     from rapidgen.proving.settings import assumed
 
     model = load_config(config, overrides=overrides or ())
+    if backup is not None:
+        model = _fitted(model, backup)
     if replay is not None:
         return _replay(model, replay, trace)
     _check_names(case or [])
@@ -95,6 +104,17 @@ def test(
     else:
         _show(report, uncovered)
     return 0 if report.passed else 1
+
+
+def _fitted(model: "RobotConfig", backup: Path) -> "RobotConfig":
+    """The driver for a cell: its names, release, main; its own programs do not run."""
+    from rapidgen.generate import build
+    from rapidgen.generate.cell import fit, read_cell
+
+    cell = read_cell(backup)
+    fitted = fit(model, cell)
+    build(fitted, cell)
+    return fitted
 
 
 def _check_names(names: list[str]) -> None:

@@ -145,6 +145,8 @@ class GroupConfig:
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
+    unit_group: str = field(default="", metadata=SPARSE)
+    """Name of the mechanical unit group, where a backup tells another than the unit's."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -140,7 +140,7 @@ class VirtualController:
             network = FaultyNetwork(network, self.scheduler, faults.network)
         self.network = network
         self.sockets = SocketTable(network, limited=self.dialect.sockets_limited)
-        self.files = FileSystem(folder, home=system.home)
+        self.files = FileSystem(folder, home=system.home, home_below=system.home_below)
         self.operator = Operator(self.scheduler, answers)
         self.texts = TextTables()
         self.statements = Statements()

@@ -34,9 +34,15 @@ class Operation:
         self.failed = False
         """SYS FAIL: a task of trust level SysFail stopped; nothing starts until a restart."""
         self.halted = False
-        self.execution_error = False
+        self.in_error: set[str] = set()
+        """Tasks that an error has stopped since the last start."""
         self.changed = WaitSet()
         """Whatever of the state changed."""
+
+    @property
+    def execution_error(self) -> bool:
+        """Whether an error has stopped a task."""
+        return bool(self.in_error)
 
     @property
     def _groups(self) -> tuple[MotionGroup, ...]:
@@ -146,7 +152,7 @@ class Operation:
             log.warning(_REFUSED, "Program start refused", obstacle)
             return False
         if self.execution_error:
-            self.execution_error = False
+            self.in_error.clear()
             log.info(10_021, "Execution error reset")
         log.info(10_151, "Program started")
         for task in self._host.rapid_tasks.values():
@@ -214,7 +220,7 @@ class Operation:
 
     def reset_error(self) -> None:
         """Acknowledge the error that stopped a task."""
-        self.execution_error = False
+        self.in_error.clear()
         self.changed.notify()
 
     def perform(self, action: str) -> None:
@@ -238,7 +244,7 @@ class Operation:
         if fatal.span is not None:
             place = f"{fatal.span.path}:{fatal.span.line}"
         log.error(fatal.event, fatal.title, place, *text, calls, task=task.name)
-        self.execution_error = True
+        self.in_error.add(task.name)
         trust = task.spec.trust
         if task.spec.type == "NORMAL":
             self._stop_others(task)

@@ -26,7 +26,7 @@ class SystemSignals:
             case "StartMain":
                 operation.pp_to_main()
                 operation.start_program()
-            case "Stop" | "StopCycle" | "StopInstr":
+            case "Stop" | "StopCycle" | "StopInstr" | "SoftStop":
                 operation.stop_program()
             case "QuickStop":
                 operation.stop_program(quick=True, event="QSTOP")
@@ -37,7 +37,7 @@ class SystemSignals:
             case "MotOnStart" | "MotorOnStart":
                 operation.set_motors(True)
                 operation.start_program()
-            case "PPMain":
+            case "PPMain" | "PpToMain":
                 operation.pp_to_main()
             case "ResetEstop":
                 operation.set_e_stop(False)
@@ -63,6 +63,7 @@ class SystemSignals:
         running = [t.state == "running" for t in tasks]
         for task, runs in zip(tasks, running, strict=True):
             report("TaskExecuting", runs, task.name)
+            report("Error", task.name in operation.in_error, task.name)
         report("CycleOn", any(running))
         report("MotorOn", operation.motors_on)
         report("MotorOff", not operation.motors_on)

@@ -40,8 +40,9 @@ def apply(
 ) -> None:
     """Do exactly what `plan` says; nothing when it is empty.
 
-    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535 (conflicts), RG522 (the controller
-    moved on), RG527 (cut while switching); TransportFault before that: nothing old was changed.
+    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537 (conflicts), RG522
+    (the controller moved on), RG527 (cut while switching); TransportFault before that: then
+    nothing old was changed.
     """
     conflicts = conflicts_of(plan, overwrite=overwrite)
     if conflicts:
@@ -68,12 +69,24 @@ def apply(
 
 
 def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
-    """RG520, RG521, RG531: only `overwrite` replaces that; RG534, RG535: nothing does."""
+    """RG520, RG521, RG531: only `overwrite` replaces that; the others: nothing does."""
     found = [] if overwrite else [_conflict(change) for change in plan.conflicts]
     if plan.damaged and not overwrite:
         found.insert(0, error("RG531", None, plan.damaged, DAMAGED))
     if plan.neighbour is not None:
         found.append(_beside(plan, plan.neighbour))
+    if plan.in_memory:
+        found.append(
+            error(
+                "RG537",
+                None,
+                f"{plan.target} is a backup that holds {len(plan.in_memory)} modules with names of "
+                "ours as its programs: it would restore those",
+                "delete them from the backup (its HOME and SYSPAR load ours), or deploy to HOME of "
+                "the controller itself",
+                notes=plan.in_memory,
+            )
+        )
     found += [
         error(
             "RG535",

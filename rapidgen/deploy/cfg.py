@@ -17,6 +17,7 @@ from rapidgen.system import Attribute, CfgText, Instance, Section
 _KEYS: dict[str, tuple[str, ...]] = {
     "CAB_TASK_MODULES": ("File", "Task"),
     "CAB_EXEC_HOOKS": ("Routine", "Shelf", "Task"),
+    # The signal is in -Signal to RobotWare 6 and in -Name from 7 on.
     "SYSSIG_OUT": ("Status", "Signal", "Name", "Arg1", "Arg2"),
     "SYSSIG_IN": ("Signal", "Name", "Action"),
     "EIO_CROSS": ("Res",),

@@ -1,9 +1,10 @@
 """Another driver on the same controller: which cfg instances have to go before ours is loaded.
 
 abb_driver's modules have names of ours (ROS_common, ROS_socket, ROS_messages, ROS_motion, ...),
-and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]; two modules
-of one name in a task make it unusable [VC 6.15: 40160]. The same is true of a driver that was
-copied there by hand. Its files are never touched.
+and three of them are loaded into every task [backup 6.06 with abb_driver: `-AllTask`]. Which of two
+modules of one name a task gets nobody has told; that both give it their data is 40160 and a task
+that does not run [VC 6.15]. The same is true of a driver that was copied there by hand. Its files
+are never touched.
 """
 
 import re
@@ -107,6 +108,31 @@ def find_neighbour(
     ]
     files = [_path(row.text("File")) for row in out if sources[row.text("File")] is not None]
     return Neighbour(tuple(instances), tuple(dict.fromkeys(files)))
+
+
+def in_memory(transport: Transport, modules: dict[str, frozenset[str]]) -> tuple[str, ...]:
+    """Modules with names of ours that a backup holds as its programs: RAPID/TASKn/PROGMOD, SYSMOD.
+
+    They were in the tasks' memory when it was made [backup 6.06], and are what it restores, not
+    the files in HOME. Raises TransportFault.
+    """
+    found = []
+    for folder in _folders(transport, "", "rapid"):
+        for task in _folders(transport, folder, "task"):
+            for kind in _folders(transport, task, ""):
+                for entry in transport.entries(kind):
+                    stem = entry.name.rpartition(".")[0].casefold()
+                    if stem in modules and entry.folder is not True:
+                        found.append(f"{kind}/{entry.name}")
+    return tuple(found)
+
+
+def _folders(transport: Transport, place: str, beginning: str) -> list[str]:
+    return [
+        f"{place}/{entry.name}".lstrip("/")
+        for entry in transport.entries(place)
+        if entry.folder is not False and entry.name.casefold().startswith(beginning)
+    ]
 
 
 def _is_other(row: Instance, source: bytes | None, mine: Beside) -> bool:

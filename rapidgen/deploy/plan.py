@@ -98,6 +98,8 @@ class Plan:
     """cfg instances that earlier deployments brought."""
     neighbour: Neighbour | None = None
     """Another driver that has to go first."""
+    in_memory: tuple[str, ...] = ()
+    """A backup's programs with names of ours: they would be restored in the place of ours."""
     damaged: str = ""
     """Why the manifest on the controller cannot be used, if so: only `overwrite` replaces it."""
     copies: int = 0

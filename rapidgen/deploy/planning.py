@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from rapidgen._json import Members
-from rapidgen.deploy.cfg import compare, keyed, name_of
+from rapidgen.deploy.cfg import compare, keyed, may_be_refused, name_of
 from rapidgen.deploy.driverset import FENCE, NEW, STATE, DriverSet, digest
 from rapidgen.deploy.mend import copies, mended
-from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour
+from rapidgen.deploy.neighbour import MODULE, Beside, Neighbour, find_neighbour, in_memory
 from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb, lines_of
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
@@ -56,13 +56,19 @@ def make_plan(
     _check_robotware(texts, wanted, transport.shown)
     old_cfg = _old_cfg(changes)
     wanted_cfg = wanted.cfg if wanted else ()
+    seen = bool(syspar) and transport.reach.writes_cfg
+    if seen:
+        # A system that starts from these files has nobody who could leave a row out.
+        wanted_cfg = tuple(t for t in wanted_cfg if not may_be_refused(t))
     present = texts if texts else old_cfg
     ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
     cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
-    seen = bool(syspar) and transport.reach.writes_cfg
-    neighbour = None
+    neighbour: Neighbour | None = None
+    restored: tuple[str, ...] = ()
     if wanted is not None and verb == "deploy":
         neighbour = _neighbour(transport, layout, texts, wanted, ours, frozenset(base.known))
+        if layout.syspar:
+            restored = in_memory(transport, _names(wanted))
     originals = {
         r.path: f"{layout.home}{STATE}/backup/{r.stored}"
         for r in base.origin.values()
@@ -137,6 +143,7 @@ def make_plan(
         texts,
         ours,
         neighbour,
+        restored,
         damaged,
         copies(transport, layout.home) if damaged else len(base.origin),
     )
@@ -277,14 +284,19 @@ def _neighbour(
     ours: frozenset[str],
     known: frozenset[str],
 ) -> Neighbour | None:
-    modules = {
-        found[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
-        for file in wanted.files
-        if file.kind == "module" and (found := MODULE.search(file.data))
-    }
+    modules = _names(wanted)
     instances = ours | frozenset(map(name_of, keyed(wanted.cfg)))
     paths = known | {file.path for file in wanted.files}
     return find_neighbour(transport, layout.home, texts, Beside(modules, instances, paths))
+
+
+def _names(wanted: DriverSet | None) -> dict[str, frozenset[str]]:
+    """Our module names with the tasks that load them, without case."""
+    return {
+        found[1].decode("latin-1").casefold(): frozenset(task.casefold() for task in file.tasks)
+        for file in (wanted.files if wanted else ())
+        if file.kind == "module" and (found := MODULE.search(file.data))
+    }
 
 
 def _edited_lines(record: FileRecord | None, current: bytes, pristine: bytes) -> str:

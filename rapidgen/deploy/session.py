@@ -125,7 +125,7 @@ def apply_all(job: FleetJob, plans: Sequence[Plan], say: Say) -> list[TargetOutc
 
 
 def refuse_conflicts(job: FleetJob, plans: Sequence[Plan]) -> None:
-    """RG520, RG521, RG534, RG535 of all targets, before anything is changed on any."""
+    """RG520, RG521, RG531, RG534 to RG537 of all targets, before anything is changed on any."""
     found = [d for plan in plans for d in conflicts_of(plan, overwrite=job.overwrite)]
     if found:
         raise DiagnosticError(found, exit_code=1)

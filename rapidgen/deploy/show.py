@@ -42,6 +42,7 @@ def plan_text(plan: Plan) -> str:
     if plan.neighbour is not None:
         out += [f"  x {n.domain}: {n.shown}: another driver's" for n in plan.neighbour.instances]
         out += [f"  x HOME:/{path}: another driver's, stays" for path in plan.neighbour.files]
+    out += [f"  x {path}: would be restored in the place of ours" for path in plan.in_memory]
     for domain in sorted({c.domain for c in plan.cfg}):
         out += _cfg_lines(plan, domain)
     for step in plan.steps:

@@ -107,6 +107,11 @@ def steps_beside(neighbour: Neighbour) -> tuple[ManualStep, ...]:
         *steps,
         ManualStep("pendant", "Restart of the controller (menu > Restart)", stops_motion=True),
         ManualStep(
+            "pendant",
+            "unload what of its modules is still in a task (Program Editor > Modules), ROS_motion "
+            "with its main above all",
+        ),
+        ManualStep(
             "you", "plan again (over FTP and SFTP with a new backup: --backup); its files stay"
         ),
     )
@@ -140,7 +145,8 @@ def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualSte
     """Files that hold something new. Adding refuses what is there already (120006 [real 6.03])."""
     changes = {(c.domain, c.key): c for c in cfg}
     steps = []
-    for text in wanted:
+    # By name: signals (EIO) come before what names them (SYS).
+    for text in sorted(wanted, key=lambda text: text.path):
         rows = [(s.name, i) for s in text.sections for i in s.instances]
         mine = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
         new = sum(c.action == "add" for c in mine)

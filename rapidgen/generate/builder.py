@@ -3,30 +3,36 @@
 import hashlib
 import json
 import os
+from collections.abc import Collection
+from dataclasses import replace
 from pathlib import Path
 
 from rapidgen import __version__
 from rapidgen._data import data_folder
-from rapidgen._json import Members
+from rapidgen._json import Members, members
 from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
+from rapidgen.generate.cell import Cell, missing
 from rapidgen.generate.context import group_context
 from rapidgen.generate.lint import lint
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
-from rapidgen.generate.parameters import cfg_files
+from rapidgen.generate.parameters import OPEN_FILES, cfg_files
 from rapidgen.generate.readme import readme_context
 from rapidgen.generate.render import Renderer
-from rapidgen.system import ModuleFile, System, expand_lines, write_cfg
+from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cfg
+from rapidgen.system.interpret import ModuleEntry
+from rapidgen.system.onto import Under, additions, delivered, of_backup, onto
 
 
-def build(config: RobotConfig) -> Output:
-    """All files for one controller.
+def build(config: RobotConfig, cell: Cell | None = None) -> Output:
+    """All files for one controller; for `cell`, to which `config` was fitted, what it lacks.
 
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
-    RG105 (the first line of a cfg file is not known for this RobotWare).
+    RG105 (the first line of a cfg file is not known for this RobotWare), RG110 (the cell has
+    something in another way), RG720..RG723 (it would not load the files).
     """
     templates = data_folder("templates")
     build_id = make_build_id(config, templates)
@@ -34,18 +40,30 @@ def build(config: RobotConfig) -> Output:
     renderer.add_filter("num", literal)
     system = layout.make_system(config, build_id)
     parameters = cfg_files(config, system)
+    if cell is not None:
+        parameters = missing(parameters, cell)
     files = [
         *(f for group in config.groups for f in _modules(config, group, build_id, renderer)),
         *(_cfg(name, write_cfg(text)) for name, text in parameters),
     ]
     readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
-    files.append(manifest_file(files, _head(config, build_id)))
-    return Output(config.name, build_id, tuple(files))
+    files.append(manifest_file(files, _head(config, build_id, files)))
+    output = Output(config.name, build_id, tuple(files))
+    if cell is not None:
+        make_system(config, output, under=of_backup(cell.cfg, cell.system))
+    return output
 
 
-def make_system(config: RobotConfig, output: Output) -> System:
-    """The System that the output describes, without a detour over the disk."""
+def make_system(
+    config: RobotConfig,
+    output: Output,
+    *,
+    under: Under | None = None,
+    without: Collection[str] = (),
+    open_words: bool = False,
+) -> System:
+    """The controller that the output makes, as `system.read_folder` without the disk."""
     modules = {}
     for file in output.files:
         if file.kind == "module":
@@ -53,7 +71,16 @@ def make_system(config: RobotConfig, output: Output) -> System:
             origin = expand_lines(file.lines, file.data.count(b"\n"))
             target = "HOME:/" + file.path.removeprefix("HOME/")
             modules[target] = ModuleFile(name, file.path, file.data, target, origin)
-    return layout.with_data(layout.make_system(config, output.build_id), modules)
+
+    def load(task: TaskSpec, entries: tuple[ModuleEntry, ...], _: str) -> tuple[ModuleFile, ...]:
+        ours = (modules[entry.file] for entry in entries if entry.loads_into(task))
+        return (*task.modules, *ours)
+
+    manifest = members(json.loads(output.files[-1].data))
+    texts = {file.path: file.data for file in output.files if file.kind == "cfg"}
+    given = additions(manifest, texts, without, Path())
+    system = onto(under or delivered(manifest), given, load, open_words=open_words)
+    return replace(system, name=config.name, build_id=output.build_id)
 
 
 def make_build_id(config: RobotConfig, templates: Path) -> str:
@@ -100,13 +127,15 @@ def _cfg(path: str, text: str) -> OutputFile:
     return OutputFile(path, text.replace("\n", "\r\n").encode("ascii"), "cfg")
 
 
-def _head(config: RobotConfig, build_id: str) -> Members:
+def _head(config: RobotConfig, build_id: str, files: list[OutputFile]) -> Members:
     return {
         "format": 1,
         "rapidgen": __version__,
         "name": config.name,
         "build_id": build_id,
         "robotware": list(config.robotware),
+        # What a controller may refuse as a whole.
+        "optional": [f.path for f in files if f.path in OPEN_FILES],
         "groups": {
             group.name: {
                 "task": group.task,

@@ -41,6 +41,9 @@ _SUMS = (
     {"name": "swinging", "field": "zone_reax", "least": "SMALLEST_TURN"},
     {"name": "sliding", "field": "zone_leax", "least": "SMALLEST_CORNER"},
 )
+# What the controller says of movement is believed for so long, s, and for so many messages.
+_BELIEF = 10.0
+_BELIEF_MESSAGES = 5
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
     {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
@@ -85,7 +88,8 @@ def group_context(
                 "known": f"has_{signal.function}",
                 "function": signal.function,
                 "text": signal.text,
-                "open": signal.is_open(config.robotware[0]),
+                "otherwise": "seen_executing()" if signal.by_routines else "ROS_TRI_UNKNOWN",
+                "doubted": signal.one_when_well and signal.is_open(config.robotware[0]),
             }
             for signal in STATUS_SIGNALS
         ],
@@ -98,6 +102,7 @@ def group_context(
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
         "state_period": config.state_period,
+        "belief": max(_BELIEF, _BELIEF_MESSAGES * config.state_period),
         "tcp_speed": group.tcp_speed_limit * _MM,
         "tcp_check": group.tcp_speed_limit < _DEFAULT_TCP_SPEED,
         "receive_timeout": config.receive_timeout,

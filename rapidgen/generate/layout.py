@@ -4,7 +4,7 @@ The structure (one reader, one supervisor, one state server and the motion task 
 group) and its reasons are in docs/use/driver.md.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rapidgen.config.model import GroupConfig, Joint, RobotConfig
 from rapidgen.generate.status import STATUS_SIGNALS, StatusSignal
@@ -149,19 +149,13 @@ def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
     )
 
 
-def with_data(system: System, files: dict[str, ModuleFile]) -> System:
-    """`system` with the modules that were rendered, by their HOME: path."""
-    return replace(
-        system,
-        tasks=tuple(
-            replace(task, modules=tuple(files[m.target] for m in task.modules))
-            for task in system.tasks
-        ),
-    )
-
-
 def unit_group(group: GroupConfig) -> str:
-    """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_L of ROB_L."""
+    """Name of the mechanical unit group as controllers have it: rob1 of ROB_1, rob_l of ROB_L."""
+    return _robot(group).lower()
+
+
+def _robot(group: GroupConfig) -> str:
+    """What the ARMs of a robot begin with: rob1 of ROB_1, rob_L of ROB_L."""
     head, _, tail = group.mechanical_unit.partition("_")
     return f"{head.lower()}{tail}" if tail.isdigit() else f"{head.lower()}_{tail}".rstrip("_")
 
@@ -175,9 +169,9 @@ def arm(group: GroupConfig, joint: Joint) -> str:
     """
     kind, _, letter = joint.axis.partition("_")
     if kind == "rax":
-        return f"{unit_group(group)}_{letter}"
+        return f"{_robot(group)}_{letter}"
     if not group.external_units:
-        return f"{unit_group(group)}_{7 + 'abcdef'.index(letter)}"
+        return f"{_robot(group)}_{7 + 'abcdef'.index(letter)}"
     external = [j for j in group.joints if j.axis.startswith("eax_")]
     if len(external) != len(group.external_units):
         return ""
@@ -199,7 +193,9 @@ def _task(config: RobotConfig, group: GroupConfig, role: TaskRole) -> TaskSpec:
         trust="SysFail" if motion else "NoSafety" if role.name == "state" else "SysStop",
         entry="main",
         motion=motion,
-        mechanical_unit_group=unit_group(group) if is_multimove(config) else "",
+        mechanical_unit_group=(
+            (group.unit_group or unit_group(group)) if is_multimove(config) else ""
+        ),
         modules=modules,
     )
 

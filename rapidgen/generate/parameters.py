@@ -7,11 +7,12 @@ controller may refuse them as a whole, and the driver serves and stops without t
 from dataclasses import replace
 
 from rapidgen.config.model import RobotConfig
-from rapidgen.diagnostics import refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 from rapidgen.generate.layout import open_signals
 from rapidgen.system import Attribute, CfgText, Instance, Section, System, eio_cfg, sys_cfg
 from rapidgen.system.releases import known_digits
 
+OPEN_FILES = ("EIO_open.cfg", "SYS_open.cfg")
 _FIREWALL_SINCE = 7
 _SERVICE_PORT = "192.168.125.1"
 
@@ -37,16 +38,20 @@ def cfg_files(config: RobotConfig, system: System) -> tuple[tuple[str, CfgText],
     texts = [
         ("EIO.cfg", eio_cfg(sure)),
         ("SYS.cfg", sys_cfg(sure, on_top=True)),
-        ("EIO_open.cfg", eio_cfg(unsure)),
-        ("SYS_open.cfg", sys_cfg(unsure, on_top=True)),
+        *zip(OPEN_FILES, (eio_cfg(unsure), sys_cfg(unsure, on_top=True)), strict=True),
     ]
     if config.robotware[0] >= _FIREWALL_SINCE:
         texts.append(("SIO.cfg", _firewall(config)))
-    return tuple(
-        (name, replace(text, version=_digits(config, text.domain)))
-        for name, text in texts
-        if text.sections
-    )
+    present = [(name, text) for name, text in texts if text.sections]
+    given = {name: (major, minor) for name, major, minor in config.cfg_header}
+    digits = {
+        text.domain: given.get(text.domain) or known_digits(text.domain, config.robotware)
+        for _, text in present
+    }
+    missing = [_unknown(config, domain) for domain, known in digits.items() if known is None]
+    if missing:
+        raise DiagnosticError(missing)
+    return tuple((n, replace(t, version=digits[t.domain] or t.version)) for n, t in present)
 
 
 def _firewall(config: RobotConfig) -> CfgText:
@@ -66,23 +71,18 @@ def _firewall(config: RobotConfig) -> CfgText:
     return CfgText("SIO", (7, 0), (Section("FIREWALL_MANAGEMENT", (rule,)),))
 
 
-def _digits(config: RobotConfig, domain: str) -> tuple[int, int]:
-    """Digits of a file's first line: those given, else those of the release."""
-    given = {name: (major, minor) for name, major, minor in config.cfg_header}
-    found = given.get(domain) or known_digits(domain, config.robotware)
-    if found is None:
-        major, minor = config.robotware
-        raise refusal(
-            "RG105",
-            None,
-            f"the first line of {domain}.cfg is not known for RobotWare {major}.{minor:02d}",
-            f"it is the first line of SYSPAR/{domain}.cfg in a backup of the controller (or save "
-            f"the parameters from RobotStudio, Controller, Configuration): if that reads "
-            f"'{domain}:CFG_1.0:{major}:0::', write "
-            f'`controller: {{cfg_header: {{{domain}: "{major}:0"}}}}`',
-            notes=(
-                "a file with other digits is refused by the controller (event 120003)",
-                "known without it: 5.15, 5.61, and every RobotWare 6 and 7",
-            ),
-        )
-    return found
+def _unknown(config: RobotConfig, domain: str) -> Diagnostic:
+    major, minor = config.robotware
+    return error(
+        "RG105",
+        None,
+        f"the first line of {domain}.cfg is not known for RobotWare {major}.{minor:02d}",
+        f"it is the first line of SYSPAR/{domain}.cfg in a backup of the controller (or save "
+        f"the parameters from RobotStudio, Controller, Configuration): if that reads "
+        f"'{domain}:CFG_1.0:{major}:0::', write "
+        f'`controller: {{cfg_header: {{{domain}: "{major}:0"}}}}`',
+        notes=(
+            "a file with other digits is refused by the controller (event 120003)",
+            "known without it: 5.15, 5.61, and every RobotWare 6 and 7",
+        ),
+    )

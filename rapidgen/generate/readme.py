@@ -24,6 +24,7 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "omnicore": major >= 7,
         "collision_parameter": config.robotware >= (6, 4),
         "address": _address(config),
+        "yumi": all(group.model.startswith("irb140") for group in config.groups),
         "multi": len(config.groups) > 1,
         "commissioning": config.commissioning,
         "call_main": config.call_main,

@@ -21,6 +21,10 @@ class StatusSignal:
     """Status in SYSSIG_OUT, from which RobotWare on."""
     seen: frozenset[int]
     """Generations of which somebody's cfg file has the status so; the others are open."""
+    one_when_well: bool = False
+    """It is 1 while the robot waits for work: one that was never 1 may have nothing behind it."""
+    by_routines: bool = False
+    """Event routines of the motion task see its end, too."""
     of: Literal["", "unit", "task"] = ""
     """What it is the status of: the controller, or a group's mechanical unit or motion task."""
 
@@ -40,6 +44,7 @@ STATUS_SIGNALS = (
         "Are the motors on?",
         {5: "MotOnState", 7: "MotorOn"},
         frozenset({6, 7}),
+        one_when_well=True,
     ),
     StatusSignal(
         "signalRobotEStop",
@@ -62,6 +67,7 @@ STATUS_SIGNALS = (
         "Does the robot stand?",
         {5: "MechUnitNotMoving"},
         frozenset({6}),
+        one_when_well=True,
         of="unit",
     ),
     StatusSignal(
@@ -70,6 +76,8 @@ STATUS_SIGNALS = (
         "Is the program of the motion task running?",
         {5: "TaskExecuting"},
         frozenset({5, 6}),
+        one_when_well=True,
+        by_routines=True,
         of="task",
     ),
 )

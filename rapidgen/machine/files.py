@@ -88,16 +88,23 @@ class FileSystem:
     """Disks of one controller in `folder`, or in a scratch folder that `close` removes.
 
     A scratch folder is made when it is needed: few drivers touch a file. A controller that nobody
-    closed takes its own with it, too. HOME: starts as a copy of `home`; links in it are left out.
+    closed takes its own with it, too. HOME: starts as a copy of `home`, over one of `home_below`;
+    links in them are left out.
     """
 
-    def __init__(self, folder: Path | None = None, *, home: Path | None = None) -> None:
+    def __init__(
+        self,
+        folder: Path | None = None,
+        *,
+        home: Path | None = None,
+        home_below: Path | None = None,
+    ) -> None:
         self._room = CAPACITY
         self._open: dict[IODevice | Directory, str] = {}
         self._scratch: weakref.finalize[[Path], FileSystem] | None = None
         self._folder = None if folder is None else _with_devices(folder)
-        if home is not None:
-            shutil.copytree(home, self.folder / "HOME", ignore=_links, dirs_exist_ok=True)
+        for source in filter(None, (home_below, home)):
+            shutil.copytree(source, self.folder / "HOME", ignore=_links, dirs_exist_ok=True)
 
     @property
     def folder(self) -> Path:

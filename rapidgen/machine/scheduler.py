@@ -113,9 +113,7 @@ class Scheduler:
         self.speed = speed
         self.quantum = quantum
         self.schedule: Schedule = schedule
-        self.seed = seed
-        self.rng = random.Random(f"{seed}")
-        self._order = random.Random(f"{seed} schedule")
+        self.draw_from(seed)
         self.ready: deque[Runnable] = deque()
         self.running: Runnable | None = None
         self.deadline = 0
@@ -135,6 +133,12 @@ class Scheduler:
         self._pipe: tuple[int, int] | None = None
         self._served_at = 0
         self._origin = (0, time.monotonic_ns())
+
+    def draw_from(self, seed: int) -> None:
+        """Take all chances from another seed: copies of one machine differ from here on."""
+        self.seed = seed
+        self.rng = random.Random(f"{seed}")
+        self._order = random.Random(f"{seed} schedule")
 
     # -- time and events -------------------------------------------------------------------------
 

@@ -162,6 +162,7 @@ class PathExecution:
             self.drive.put(motion.law, motion.start, path, path.target)
         else:
             self.path = Path(motion.rest)
+            self.path.left_at(path.target)
             now, rest = self._scheduler.now, motion.rest
             self.drive.put(TimeLaw(0.0), now, self.path, rest, motion.coast)
         self._rearm()

@@ -163,8 +163,14 @@ class MotionGroup:
 
     @property
     def off_path(self) -> tuple[float, float]:
-        """How far (m, rad of the TCP) a standing robot is from where its path goes on."""
-        way = self._execution.path.way_back(self._drive.place())
+        """How far (m, rad of the TCP) a standing robot is from where its path goes on.
+
+        With `cleared_distance` "counts" also from where one that was cleared would have.
+        """
+        path, place = self._execution.path, self._drive.place()
+        way = path.way_back(place)
+        if way is None and self.settings.cleared_distance == "counts":
+            way = path.left_behind(place)
         return (0.0, 0.0) if way is None else self.planner.apart(*way)
 
     def jump(self, posture: Posture) -> None:
@@ -366,6 +372,12 @@ class MotionGroup:
         self._execution.clear()
         self._execution.settle()
 
+    def release(self, reason: str) -> None:
+        """Take a stop back without moving: what is left of the path goes, and is forgotten."""
+        self.clear_path()
+        self._execution.path.forget()
+        self.start(reason)
+
     @property
     def path_level(self) -> int:
         """1 on the original path, one more for each StorePath."""
@@ -401,6 +413,7 @@ class MotionGroup:
     def reset(self) -> None:
         """PP to main: no path, no stops by programs, default speeds."""
         self.clear_path()
+        self._execution.path.forget()
         for aside in self._stored:
             self._execution.finish(list(aside.path.legs), cleared=True)
         self._stored.clear()

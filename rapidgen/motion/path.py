@@ -27,7 +27,7 @@ NOTHING_M = 1e-9
 class Path:
     """Pieces from the one that the robot is on, and the legs that it has not finished."""
 
-    __slots__ = ("_back", "end", "legs", "pieces", "tail", "target")
+    __slots__ = ("_back", "_left", "end", "legs", "pieces", "tail", "target")
 
     def __init__(self, posture: Posture) -> None:
         self.pieces: tuple[Piece, ...] = ()
@@ -39,6 +39,8 @@ class Path:
         """Where the path ends."""
         self._back: Piece | None = None
         """The way back to the path, when it is the first piece."""
+        self._left: tuple[Posture, Posture] | None = None
+        """Where the robot stands, and where on a path that was cleared it would have to be."""
 
     def extend(
         self,
@@ -131,6 +133,9 @@ class Path:
 
     def cut(self, place: float) -> list[Leg]:
         """Let the path end at `place`; returns the legs that are lost."""
+        if self._back is not None:
+            self._left = self.way_back(place)
+            self._back = None
         lost = list(self.legs)
         self.legs.clear()
         self.tail = None
@@ -171,6 +176,21 @@ class Path:
         if back is None or place >= back.end:
             return None
         return back.at(back.start), back.at(back.end)
+
+    def left_at(self, there: Posture) -> None:
+        """The robot stands at the end of this path, off one that was cleared, at `there`."""
+        self._left = self.target, there
+
+    def left_behind(self, place: float) -> tuple[Posture, Posture] | None:
+        """Where the robot stands, and where a path ends that was cleared while it was off that.
+
+        None once it has moved on, or was never off.
+        """
+        return self._left if place <= self.end and not self.legs else None
+
+    def forget(self) -> None:
+        """Nobody asks any more for the path that was cleared."""
+        self._left = None
 
     def at(self, place: float) -> Posture:
         """Axis values at a place."""

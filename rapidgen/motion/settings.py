@@ -33,8 +33,10 @@ class MotionSettings:
     refresh_timed: bool = True
     """SpeedRefresh stretches moves with \\T, too. No source."""
 
-    cleared_move: Literal["return", "hang"] = "return"
-    """What happens to a move instruction that waits for a path that ClearPath removes."""
+    cleared_move: Literal["hang", "return"] = "hang"
+    """What a move instruction does whose path ClearPath removes while it waits: it never returns,
+    as seen on a RobotWare 7.21 controller in two programs of one author
+    (Nantaphat-Yoktaworn/node-red-contrib-abb-gofa), or it does."""
 
     range_error: Literal["recoverable", "fatal"] = "recoverable"
     """A target outside the axis ranges: ERR_ROBLIMIT (RobotWare 6), or event 50027 and stop."""
@@ -64,6 +66,15 @@ class MotionSettings:
 
     path_distance: float = 0.01
     """m off the path beyond which StartMove fails with ERR_PATHDIST (S4 datasys 2-StartMove-1)."""
+
+    cleared_distance: Literal["counts", "forgotten"] = "counts"
+    """Whether StartMove, and a start of the program, still ask how far a robot is from a path that
+    ClearPath has removed while it stood off it. No source; the strict answer."""
+
+    stop_move_reset: Literal["releases", "keeps"] = "releases"
+    """StopMoveReset takes back a StopMove of its kind of task, however far the robot is from its
+    path, and nothing moves (3HAC050917: it resets the stop move status without starting any
+    movement); or it resets what an error has stopped only, and a StopMove stays."""
 
     path_angle: float = 0.3490658503988659
     """rad (20 degrees) of the TCP off the path, the same (S4 datasys 2-StartMove-1)."""

@@ -58,7 +58,7 @@ def prove(
     """
     global _shared  # noqa: PLW0603 - workers inherit it by fork
     output = build(config)
-    system = in_its_cell(make_system(config, output), config)
+    system = in_its_cell(make_system(config, output, open_words=True), config)
     _shared = (config, system)
     started = time.monotonic()
     report = Proof(config.name, output.build_id)
@@ -115,7 +115,8 @@ def _blame(broken: _Broken) -> dict[str, tuple[str, ...]]:
         with Bench(config, system, assumed(texts)) as bench:
             return not _verdict(CASES[broken.case], bench).passed
 
-    return blamed(broken.rows, breaks)
+    # A controller leaves things behind in its process.
+    return blamed(broken.rows, lambda texts: in_a_fork(lambda: breaks(texts)))
 
 
 def _attempt(job: _Job) -> Verdict:
@@ -177,5 +178,5 @@ def _explore(seed: int) -> Explored:
 
 def replay(config: RobotConfig, seed: int, trace: TextIO | None = None) -> Explored:
     """One schedule again, exactly; every statement of RAPID goes to `trace`."""
-    system = in_its_cell(make_system(config, build(config)), config)
+    system = in_its_cell(make_system(config, build(config), open_words=True), config)
     return explore(config, system, seed, trace=trace)

@@ -48,20 +48,25 @@ STRENGTHS = ("default", "alone", "pairs", "triples")
 """How many assumptions meet in a row of settings, by number."""
 
 
+def answers_to(switches: Switches | MotionSettings) -> dict[str, tuple[Answer, ...]]:
+    """Every switch that is a choice, with what may be chosen; as it is set comes first."""
+    found: dict[str, tuple[Answer, ...]] = {}
+    for switch in fields(switches):
+        chosen = getattr(switches, switch.name)
+        if switch.name in FIGURES:
+            found[switch.name] = (chosen, FIGURES[switch.name])
+        elif isinstance(chosen, bool):
+            found[switch.name] = (chosen, not chosen)
+        elif others := get_args(switch.type):
+            found[switch.name] = (chosen, *(other for other in others if other != chosen))
+    return found
+
+
 def questions() -> dict[str, tuple[Answer, ...]]:
     """What a driver can notice of its controller, with the answers to it; the default first."""
-    asked: dict[str, tuple[Answer, ...]] = {}
-    for switches in (Switches(), MotionSettings()):
-        for switch in fields(switches):
-            default = getattr(switches, switch.name)
-            if switch.name in NEEDED | NOT_THE_DRIVERS | NOT_ITS_MOVES:
-                continue
-            if switch.name in FIGURES:
-                asked[switch.name] = (default, FIGURES[switch.name])
-            elif isinstance(default, bool):
-                asked[switch.name] = (default, not default)
-            elif others := get_args(switch.type):
-                asked[switch.name] = (default, *(other for other in others if other != default))
+    switches = answers_to(Switches()) | answers_to(MotionSettings())
+    left_out = NEEDED | NOT_THE_DRIVERS | NOT_ITS_MOVES
+    asked = {name: own for name, own in switches.items() if name not in left_out}
     return asked | {"costs": COSTS, "schedule": SCHEDULES}
 
 

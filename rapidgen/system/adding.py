@@ -5,7 +5,7 @@ exists), 71391 (a system input or output) [real 6.03]. Where a controller refuse
 event, or nobody has tried, the strictest reading is taken and marked [mem].
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
@@ -63,7 +63,7 @@ def add(base: ControllerCfg, files: Iterable[Addition], *, open_words: bool = Fa
     for addition in given:
         if addition.optional:
             cfg, found = _loaded(cfg, [addition], open_words)
-            notes += map(_note, found)
+            notes += _left_out(addition.file, found)
     return Loaded(cfg, (), tuple(notes))
 
 
@@ -191,6 +191,19 @@ def _exists(text: CfgText, section: str, new: Instance, old: Instance) -> Diagno
 def identity_text(section: str, instance: Instance) -> tuple[str, ...]:
     """`identity` as it is written."""
     return tuple(instance.text(n) for n in _IDENTITY.get(section, ("Name",)))
+
+
+def _left_out(text: CfgText, found: Sequence[Diagnostic]) -> Iterator[Diagnostic]:
+    if found:
+        first = found[0]
+        yield error(
+            first.code,
+            Span(text.path, 1, 1),
+            f"counts as refused, whole: {first.message}",
+            "nothing: the driver does without; only the controller can tell",
+            notes=tuple(f"line {d.span.line}: {d.message}" for d in found[1:] if d.span),
+            severity=Severity.WARNING,
+        )
 
 
 def _note(found: Diagnostic) -> Diagnostic:

@@ -7,24 +7,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from rapidgen._json import Json, Members, items, members, text, whole
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, refusal
-from rapidgen.system.adding import Addition, add
+from rapidgen.diagnostics import Diagnostic
 from rapidgen.system.backup import backup_cfg, read_backup
-from rapidgen.system.base import Robot, base_system
-from rapidgen.system.cfg import parse_cfg
-from rapidgen.system.controller_cfg import ControllerCfg
-from rapidgen.system.interpret import (
-    crosses_of,
-    events_of,
-    groups_of,
-    inputs_of,
-    modules_of,
-    outputs_of,
-    signals_of,
-    tasks_of,
-)
+from rapidgen.system.interpret import ModuleEntry
 from rapidgen.system.loading import Origin, load_entries
-from rapidgen.system.model import System
+from rapidgen.system.model import ModuleFile, System, TaskSpec
+from rapidgen.system.onto import Under, additions, bad_manifest, delivered, of_backup, onto
 from rapidgen.system.paths import inside, read_limited
 
 MANIFEST = "manifest.json"
@@ -40,17 +28,19 @@ def read_manifest(folder: Path) -> Members:
     try:
         manifest: Json = json.loads(read_limited(path))
     except (ValueError, RecursionError) as fault:
-        raise _bad(path, f"it is not JSON: {fault}") from fault
+        raise bad_manifest(path, f"it is not JSON: {fault}") from fault
     if not isinstance(manifest, dict) or not isinstance(manifest.get("format"), int):
-        raise _bad(path, "it has no format number")
+        raise bad_manifest(path, "it has no format number")
     if manifest["format"] != FORMAT:
-        raise _bad(path, f"its format is {manifest['format']}, this rapidgen reads {FORMAT}")
+        raise bad_manifest(
+            path, f"its format is {manifest['format']}, this rapidgen reads {FORMAT}"
+        )
     ware = manifest.get("robotware")
     if not (isinstance(ware, list) and len(ware) == 2 and all(isinstance(n, int) for n in ware)):
-        raise _bad(path, "'robotware' is not a pair of numbers")
+        raise bad_manifest(path, "'robotware' is not a pair of numbers")
     for key, kind in (("name", str), ("build_id", str), ("files", list), ("lines", dict)):
         if not isinstance(manifest.get(key), kind):
-            raise _bad(path, f"'{key}' is missing or has the wrong type")
+            raise bad_manifest(path, f"'{key}' is missing or has the wrong type")
     return manifest
 
 
@@ -74,100 +64,38 @@ def read_folder(
     folder = Path(folder)
     manifest = read_manifest(folder)
     collected: list[Diagnostic] = [] if notes is None else notes
-    under, base = _under(manifest, backup, collected)
-    given = files = _additions(folder, manifest, without)
-    if any(task.motion for text in given for task in tasks_of(text.file)):
-        # A folder that describes its motion tasks itself is a whole controller.
-        under, base = System("", ()), _bare(base, given)
-        given = ()
-    loaded = add(base, given, open_words=open_words)
-    if loaded.faults:
-        raise DiagnosticError(loaded.faults)
-    collected += loaded.notes
     home = inside(folder, "HOME")
     origins = _origins(folder, manifest)
-    own = [text.file for text in files if text.file.domain == "SYS"]
-    entries = tuple(entry for text in own for entry in modules_of(text))
-    sys_path = own[0].path if own else ""
-    there = {task.name.casefold(): task.modules for task in under.tasks}
-    sys, eio = loaded.cfg.domain("SYS"), loaded.cfg.domain("EIO")
-    tasks = []
-    for task in tasks_of(sys):
-        before = there.get(task.name.casefold(), ())
-        modules = load_entries(task, entries, home, before, sys_path, None, origins)
-        tasks.append(replace(task, modules=modules))
-    return System(
+
+    def load(
+        task: TaskSpec, entries: tuple[ModuleEntry, ...], cfg_path: str
+    ) -> tuple[ModuleFile, ...]:
+        return load_entries(task, entries, home, task.modules, cfg_path, None, origins)
+
+    paths = {
+        text(entry["path"]): inside(folder, text(entry["path"]))
+        for entry in map(members, items(manifest["files"]))
+        if entry["kind"] == "cfg"
+    }
+    texts = {path: read_limited(place) for path, place in paths.items()}
+    given = additions(manifest, texts, without, folder)
+    system = onto(
+        _under(manifest, backup, collected), given, load, open_words=open_words, notes=collected
+    )
+    return replace(
+        system,
         name=text(manifest["name"]),
-        tasks=tuple(tasks),
-        signals=signals_of(eio),
-        outputs=outputs_of(eio),
-        inputs=inputs_of(eio),
-        cross=crosses_of(eio),
-        events=events_of(sys),
-        groups=groups_of(sys),
-        robotware=base.robotware,
-        home=home,
         build_id=text(manifest["build_id"]),
+        home=home,
+        home_below=system.home,
     )
 
 
-def _bare(base: ControllerCfg, given: Collection[Addition]) -> ControllerCfg:
-    cfg = ControllerCfg(base.robotware, ())
-    for addition in given:
-        cfg = cfg.plus(addition.file)
-    return cfg
-
-
-def _under(
-    manifest: Members, backup: Path | str | None, notes: list[Diagnostic]
-) -> tuple[System, ControllerCfg]:
-    """What the folder is loaded onto, as a system and as cfg."""
-    if backup is not None:
-        system = read_backup(backup, notes=notes)
-        return system, backup_cfg(Path(backup), system.robotware, notes)
-    base = delivered(manifest)
-    return System("", tasks_of(base.domain("SYS"))), base
-
-
-def delivered(manifest: Members) -> ControllerCfg:
-    """A controller as it is delivered, for what a manifest tells of it.
-
-    Raises DiagnosticError RG711.
-    """
-    try:
-        configuration = members(manifest["configuration"])
-        robots = []
-        for group in map(members, items(configuration["groups"])):
-            further = [text(unit) for unit in items(group["external_units"])]
-            further += [text(members(one)["unit"]) for one in items(group.get("positioners") or [])]
-            unit = text(group["mechanical_unit"])
-            robots.append(Robot(text(group["task"]), unit, tuple(dict.fromkeys(further))))
-        header = {
-            text(domain): (whole(major), whole(minor))
-            for domain, major, minor in map(items, items(configuration.get("cfg_header") or []))
-        }
-        major, minor = map(whole, items(manifest["robotware"]))
-        multimove = bool(configuration.get("multimove"))
-        return base_system((major, minor), robots, multimove=multimove, digits=header)
-    except (KeyError, TypeError, ValueError) as fault:
-        label = "its 'configuration' does not tell the robots"
-        raise _bad(Path(MANIFEST), label) from fault
-
-
-def _additions(folder: Path, manifest: Members, without: Collection[str]) -> tuple[Addition, ...]:
-    """The folder's cfg files in the order of the manifest."""
-    optional = {str(name) for name in items(manifest.get("optional") or [])}
-    found = []
-    for entry in items(manifest["files"]):
-        name = text(entry["path"]) if isinstance(entry, dict) and entry["kind"] == "cfg" else ""
-        if not name or name in without:
-            continue
-        path = inside(folder, name)
-        data = read_limited(path)
-        file = parse_cfg(data, path=str(path))
-        # Services of the firewall exist on a delivered controller: they are set, not added.
-        found.append(Addition(file, name in optional, file.domain == "SIO", data.isascii()))
-    return tuple(found)
+def _under(manifest: Members, backup: Path | str | None, notes: list[Diagnostic]) -> Under:
+    if backup is None:
+        return delivered(manifest)
+    system = read_backup(backup, notes=notes)
+    return of_backup(backup_cfg(Path(backup), system.robotware, notes), system)
 
 
 def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
@@ -189,7 +117,9 @@ def _origins(folder: Path, manifest: Members) -> dict[str, Origin]:
             runs = [(whole(a), text(b), whole(c)) for a, b, c in map(items, lines)]
             origins[relative] = expand_lines(runs, data.count(b"\n"))
         except (TypeError, ValueError) as fault:
-            raise _bad(folder / MANIFEST, f"the line map of {relative} is damaged") from fault
+            raise bad_manifest(
+                folder / MANIFEST, f"the line map of {relative} is damaged"
+            ) from fault
     return origins
 
 
@@ -200,16 +130,6 @@ def expand_lines(runs: Sequence[tuple[int, str, int]], count: int) -> Origin:
         (line, template, start + line - first)
         for (first, template, start), end in zip(runs, ends, strict=True)
         for line in range(first, end)
-    )
-
-
-def _bad(path: Path, label: str) -> DiagnosticError:
-    return refusal(
-        "RG711",
-        Span(str(path), 1, 1),
-        "manifest.json is not one that rapidgen wrote",
-        "build the folder again with 'rapidgen build'",
-        label=label,
     )
 
 

@@ -143,6 +143,8 @@ class System:
     robotware: tuple[int, int] = (6, 0)
     home: Path | None = None
     """Folder whose files HOME: starts with; it is copied, never written."""
+    home_below: Path | None = None
+    """HOME of the controller that a build is loaded onto: `home` is copied over it."""
     build_id: str = ""
     """BUILD_ID of a generated folder, else empty."""
     robot_types: tuple[tuple[str, str], ...] = ()

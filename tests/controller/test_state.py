@@ -88,6 +88,29 @@ def test_an_error_is_shown():
         assert outputs(c)[2:] == [0, 1]
 
 
+def test_an_error_is_shown_for_the_task_that_the_output_names():
+    """Backups and ABB's own files give Error a task in -Arg2."""
+    fails = b"MODULE ends\nPROC main()\nVAR num x;\nx := 1 / x;\nENDPROC\nENDMODULE"
+    names = ("T_ROB1", "T_SIDE")
+    system = System(
+        "cell",
+        (
+            TaskSpec("T_ROB1", modules=(ModuleFile("work", "work.mod", LOOP.encode()),)),
+            TaskSpec(
+                "T_SIDE", "SEMISTATIC", "NoSafety", modules=(ModuleFile("e", "e.mod", fails),)
+            ),
+        ),
+        signals=tuple(SignalSpec(f"do{name}", "DO") for name in (*names, "Any")),
+        outputs=(
+            *(SystemOutput("Error", f"do{name}", task=name) for name in names),
+            SystemOutput("Error", "doAny"),
+        ),
+    )
+    with VirtualController(system) as controller:
+        controller.run_for(1)
+        assert [int(controller.signals[f"do{n}"]) for n in (*names, "Any")] == [0, 1, 1]
+
+
 def test_system_inputs_stop_and_start(cell):
     cell.signals["diStop"] = 1
     passes = cell.task("T_ROB1")["work:passes"]

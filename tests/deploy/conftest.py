@@ -30,6 +30,7 @@ def driver_files(
     signals: tuple[str, ...] = ("signalMotorOn",),
     motion_task: bool = True,
     outputs: str = "",
+    opened: tuple[str, ...] = (),
 ) -> dict[str, bytes]:
     """The files of a generated folder by path, manifest.json among them."""
     files: dict[str, bytes] = {}
@@ -58,8 +59,13 @@ def driver_files(
     for signal in signals:
         eio += f'\n      -Name "{signal}" -SignalType "DO"\n'
     files["EIO.cfg"] = (eio + outputs).encode()
+    if opened:
+        text = eio.partition("EIO_SIGNAL:")[0] + "EIO_SIGNAL:\n"
+        for signal in opened:
+            text += f'\n      -Name "{signal}" -SignalType "DO"\n'
+        files["EIO_open.cfg"] = text.encode()
     files["README.md"] = b"# not for the controller\n"
-    kinds = {"SYS.cfg": "cfg", "EIO.cfg": "cfg", "README.md": "readme"}
+    kinds = {name: "cfg" for name in files if name.endswith(".cfg")} | {"README.md": "readme"}
     manifest = {
         "format": 1,
         "rapidgen": "0.1.0",

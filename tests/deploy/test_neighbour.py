@@ -227,6 +227,19 @@ def test_a_driver_of_ours_that_was_copied_by_hand_is_another_driver_too(kit, con
     ]
 
 
+def test_a_backup_that_restores_modules_with_our_names_is_refused(kit, controller):
+    (controller / "SYSPAR/SYS.cfg").write_text(CLEAN)
+    (controller / "RAPID/TASK1/SYSMOD").mkdir(parents=True)
+    (controller / "RAPID/TASK1/SYSMOD/ROS_COMMON.sys").write_text("MODULE ROS_common\nENDMODULE\n")
+    (controller / "RAPID/TASK1/SYSMOD/user.sys").write_text("MODULE user\nENDMODULE\n")
+    transport = FolderTransport(controller)
+    before = files(controller)
+    plan = make_plan(transport, kit.driver(BUILD))
+    assert plan.in_memory == ("RAPID/TASK1/SYSMOD/ROS_COMMON.sys",)
+    assert refused(apply, transport, plan, overwrite=True) == ["RG537"]
+    assert files(controller) == before
+
+
 def test_a_folder_without_syspar_is_no_backup(tmp_path):
     assert refused(loaded_cfg, tmp_path) == ["RG536"]
 

@@ -27,13 +27,13 @@ from tests.acceptance.frames import (
 
 # Its documentation wires these virtual signals to system outputs by hand.
 SIGNALS = (
-    ("signalExecutionError", "Error", ""),
-    ("signalMotionPossible", "RunchOk", ""),
-    ("signalMotorOn", "MotOnState", ""),
-    ("signalRobotActive", "MechUnitActive", "ROB_1"),
-    ("signalRobotEStop", "EmStop", ""),
-    ("signalRobotNotMoving", "MechUnitNotMoving", "ROB_1"),
-    ("signalRosMotionTaskExecuting", "TaskExecuting", "T_ROB1"),
+    ("signalExecutionError", "Error", "", ""),
+    ("signalMotionPossible", "RunchOk", "", ""),
+    ("signalMotorOn", "MotOnState", "", ""),
+    ("signalRobotActive", "MechUnitActive", "ROB_1", ""),
+    ("signalRobotEStop", "EmStop", "", ""),
+    ("signalRobotNotMoving", "MechUnitNotMoving", "ROB_1", ""),
+    ("signalRosMotionTaskExecuting", "TaskExecuting", "", "T_ROB1"),
 )
 
 
@@ -67,8 +67,10 @@ def read_system(folder: Path) -> System:
             server("T_RECV", "SysStop", "ROS_motionServer.mod"),
             server("T_STATE", "NoSafety", "ROS_stateServer.mod"),
         ),
-        signals=tuple(SignalSpec(name, "DO") for name, _, _ in SIGNALS),
-        outputs=tuple(SystemOutput(status, name, what) for name, status, what in SIGNALS),
+        signals=tuple(SignalSpec(name, "DO") for name, *_ in SIGNALS),
+        outputs=tuple(
+            SystemOutput(status, name, unit, task) for name, status, unit, task in SIGNALS
+        ),
     )
 
 

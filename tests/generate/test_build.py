@@ -149,6 +149,24 @@ def test_an_undefined_name_is_an_error(tmp_path):
         Renderer(tmp_path).render("x.j2")
 
 
+@pytest.mark.parametrize("name", ["zelle_ü", "ячейка"])
+def test_text_beyond_ascii_is_refused_with_the_reason(irb120, name):
+    """It stands in comments; a virtual 6.15 did not load a system module for one character."""
+    with pytest.raises(DiagnosticError) as caught:
+        build(replace(irb120, name=name))
+    found = caught.value.diagnostics[0]
+    assert found.code == "RG101"
+    assert "did not load" in found.notes[0]
+
+
+def test_what_a_controller_loads_is_ascii(irb120):
+    """Names of joints may be anything: they are not written."""
+    first, *others = irb120.groups[0].joints
+    group = replace(irb120.groups[0], joints=(replace(first, name="drehung_ü"), *others))
+    for file in build(replace(irb120, groups=(group,))).files:
+        assert file.kind == "readme" or file.data.isascii(), file.path
+
+
 def test_names_too_long_for_rapid_are_refused(irb120):
     tool = Tool(name="gripper_for_heavy_castings_of_line_7")
     group = replace(irb120.groups[0], tool=tool)

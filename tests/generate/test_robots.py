@@ -77,8 +77,8 @@ def test_tasks_of_two_arms(tmp_path):
     system = read_folder(tmp_path / "yumi")
     motion = [t for t in system.tasks if t.motion]
     assert [(t.name, t.mechanical_unit_group) for t in motion] == [
-        ("T_ROB_L", "rob_L"),
-        ("T_ROB_R", "rob_R"),
+        ("T_ROB_R", "rob_r"),
+        ("T_ROB_L", "rob_l"),
     ]
     assert len(system.tasks) == 10
     assert {t.type for t in system.tasks if not t.motion} == {"SEMISTATIC"}
@@ -122,7 +122,7 @@ def test_without_geometry_corners_are_those_of_the_zone():
     )
     assert b"shape_corner" in known
     assert b"shape_corner" not in plain
-    assert b", CORNER, tool0" in plain
+    assert b"move CORNER;" in plain
 
 
 @pytest.mark.parametrize("name", ["irb120", "irb14000", "irb14050", "irb120_track", "irb460"])

@@ -144,7 +144,7 @@ def cartesian_program(cell: Cell, rng: random.Random) -> Callable[[Task], None]:
 def run(seed: int, kind: str, ramp: float = MotionSettings().ramp_time) -> Outcome:
     """One program to its end, sampled every 2 ms."""
     rng = random.Random(seed)
-    cell = Cell(settings=MotionSettings(ramp_time=ramp))
+    cell = Cell(settings=MotionSettings(ramp_time=ramp, cleared_move="return"))
     moves: list[object] = []
     cell.group.listeners.append(moves.append)
     if kind == "flat":

@@ -55,7 +55,8 @@ def test_each_axis_slows_down_by_itself(cell, joint):
     assert coasting[0] == pytest.approx(strongest, rel=1e-3)
 
 
-def test_a_path_that_is_cleared_while_it_coasts_is_gone(cell, joint):
+def test_a_path_that_is_cleared_while_it_coasts_is_gone(make_cell, joint):
+    cell = make_cell(settings=MotionSettings(cleared_move="return"))
     group = cell.group
 
     def halt():
@@ -123,9 +124,10 @@ def test_an_axis_at_the_end_of_its_range_does_not_coast_at_all(cell):
     assert all(q < end for q, end in zip(back.posture(back.end), here, strict=True))
 
 
-def test_after_a_quick_stop_whose_path_is_cleared_it_stands_before_it_goes_on(cell, joint):
+def test_after_a_quick_stop_whose_path_is_cleared_it_stands_before_it_goes_on(make_cell, joint):
     # The hard stop cannot be taken back for the new path: the robot comes to rest, and the ramp
     # of its acceleration with it.
+    cell = make_cell(settings=MotionSettings(cleared_move="return"))
     group = cell.group
 
     def abort():
@@ -195,6 +197,34 @@ def test_start_move_refuses_a_path_that_is_not_near(rapid):
     )
     assert rapid(body, data.replace("WAY", "9")).run() == []
     assert rapid(body, data.replace("WAY", "11")).run() == ["far"]
+
+
+@pytest.mark.parametrize("cleared_distance", ["counts", "forgotten"])
+@pytest.mark.parametrize("stop_move_reset", ["releases", "keeps"])
+def test_behind_a_path_that_was_cleared_far_off(rapid, cleared_distance, stop_move_reset):
+    # Open questions, each answered both ways; what is released moves nothing.
+    data = DATA + (
+        "VAR intnum i;\nTRAP aside\nStopMove;\nWaitTime 1;\nClearPath;\nStartMove;\n"
+        'IF IsStopMoveAct() StopMoveReset;\nIF IsStopMoveAct() TPWrite "held";\n'
+        'ERROR\nIF ERRNO = ERR_PATHDIST TPWrite "far";\nTRYNEXT;\nENDTRAP\n'
+    )
+    body = (
+        HOME
+        + "CONNECT i WITH aside; ITimer \\Single, 3, i; MoveL Offs(p,0,100,0), v20, fine, tool0;"
+    )
+    program = rapid(body, data)
+    controller, group = program.controller, program.group
+    controller.motion.settings = MotionSettings(
+        cleared_distance=cleared_distance, stop_move_reset=stop_move_reset
+    )
+    controller.run_for(4.0)
+    here = group.positions()
+    group.jog((here[0] + 0.1, *here[1:]))
+    wanted = []
+    if cleared_distance == "counts":
+        wanted = ["far", "held"] if stop_move_reset == "keeps" else ["far"]
+    assert program.run(5) == wanted
+    assert group.positions()[0] == pytest.approx(here[0] + 0.1)
 
 
 def test_only_a_standing_robot_is_jogged(cell, joint):

@@ -1,6 +1,7 @@
 """The probe, run on the virtual controller, tells how that one is switched."""
 
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -8,50 +9,40 @@ from rapidgen._data import data_folder
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
+from rapidgen.proving.settings import answers_to, said
 from rapidgen.rapid import check, parse
-from rapidgen.rapid.switches import Switches, parse_switches
+from rapidgen.rapid.switches import Switches
+from tests.proving.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe.mod"
-ASKED = {
-    "num_rounding": ("store", "operation"),
-    "dnum_whole": ("52", "53"),
-    "for_loop": ("kernel", "tested"),
-    "integer_division": ("truncate", "floor"),
-    "negative_mod": ("allow", "error"),
-    "wait_until": ("polled", "event"),
-    "unpack_ulint": ("exact", "single", "error"),
-    "unpack_beyond": ("error", "zero"),
-    "pack_beyond": ("zero", "error"),
-    "find_behind": ("none", "error"),
-    "byte_to_str": ("character", "code"),
-    "axis_limits_told": (True, False),
-    "alias_by_name": (True, False),
-    "unhandled_error": ("propagate", "stop"),
-}
+TEXT = PROBE.read_text(encoding="ascii")
+TEXT = PROBE.read_text(encoding="ascii")
+ASKED = asked(TEXT)
+CASES = [(n, value) for n, own in answers_to(Switches()).items() if n in ASKED for value in own]
 
 
-def answers(dialect):
+def run(path, dialect):
+    """Lines on the pendant, and whether an error stopped the program."""
     lines = []
     robots = load_config("irb120").groups
     with VirtualController.from_files(
-        [PROBE], robots=robots, dialect=dialect, cycle="once"
+        [path], robots=robots, dialect=dialect, cycle="once"
     ) as controller:
         controller.operator.subscribe(lambda _task, text: lines.append(text))
         controller.run(max_time=60)
-        state = controller.task("T_ROB1").state
-    if state == "error":
-        assert lines[-1].startswith("! If the program stops now: ")
-        lines.append(lines[-1].rpartition(": ")[2])
-    return ",".join(line for line in lines if not line.startswith("!"))
+        return lines, controller.task("T_ROB1").state == "error"
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, value) for name, values in ASKED.items() for value in values]
-)
-def test_an_answer_is_the_switch(name, value):
+@pytest.mark.parametrize(("name", "value"), CASES)
+def test_an_answer_is_the_switch(name, value, tmp_path):
     set_so = replace(Switches(), **{name: value})
-    told = parse_switches(answers(set_so))
-    assert {n: getattr(told, n) for n in ASKED} == {n: getattr(set_so, n) for n in ASKED}
+    told = answers(TEXT, tmp_path / PROBE.name, partial(run, dialect=set_so))
+    assert len(told) == len(ASKED)
+    assert set(told) == {said(asked, getattr(set_so, asked)) for asked in ASKED}
+
+
+def test_it_asks():
+    assert {"dnum_whole", "unhandled_error", "argument_error", "unpack_ulint"} <= set(ASKED)
 
 
 def test_the_probe_is_clean_rapid(tmp_path):

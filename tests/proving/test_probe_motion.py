@@ -22,6 +22,9 @@ ASKED = {
     "range_error": ("recoverable", "fatal"),
 }
 
+# A move that never returns ends the questions.
+BASE = MotionSettings(cleared_move="return")
+
 
 def run(settings, consent="Yes"):
     """Lines on the pendant, and axis 6 over time."""
@@ -44,7 +47,7 @@ def run(settings, consent="Yes"):
     ("name", "value"), [(name, value) for name, values in ASKED.items() for value in values]
 )
 def test_an_answer_is_the_switch(name, value):
-    settings = replace(MotionSettings(), **{name: value})
+    settings = replace(BASE, **{name: value})
     lines, places = run(settings)
     told = dict(re.findall(r"^(\w+)=(\w+)$", "\n".join(lines), re.MULTILINE))
     wanted = {asked: str(getattr(settings, asked)).lower() for asked in ASKED}

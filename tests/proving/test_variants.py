@@ -79,7 +79,7 @@ ON_ANY = (
 @cache
 def configured(*overrides):
     config = load_config("irb120", overrides=overrides)
-    return config, in_its_cell(make_system(config, build(config)), config)
+    return config, in_its_cell(make_system(config, build(config), open_words=True), config)
 
 
 def broken(config, system, names, setting=None):

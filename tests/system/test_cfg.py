@@ -38,6 +38,27 @@ def test_layout_of_a_controllers_file():
     assert module.text("File") == "HOME:\\ros\\a.sys"
 
 
+ABBS = """SYS:CFG_1.0:7:0::
+# Modules
+sysSig_Out:
+-Name "doA" -Status "MotorOn"
+# between two
+   -name "doB" -STATUS "Error" -Arg2 "T_ROB1"
+CAB_TASKS:
+      -Name "T_SRV" -TrustLevel "None"
+#CTRL_SIGNATURE:0123456789ABCDEF0123456789ABCDEF
+"""
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"])
+def test_layout_of_files_that_abb_writes(end):
+    """No blank lines, any indentation, comments anywhere, a signature; names without case."""
+    cfg = parse_cfg(ABBS.replace("\n", end))
+    one, other = cfg.instances("SYSSIG_OUT")
+    assert (one.text("name"), other.text("Name"), other.text("arg2")) == ("doA", "doB", "T_ROB1")
+    assert [task.text("Name") for task in cfg.instances("cab_tasks")] == ["T_SRV"]
+
+
 @pytest.mark.parametrize(
     ("written", "is_set"),
     [

@@ -10,6 +10,7 @@ from rapidgen.system import (
     CrossConnection,
     EventRoutine,
     MechanicalUnitGroup,
+    ModuleFile,
     SignalSpec,
     System,
     SystemInput,
@@ -280,6 +281,52 @@ def test_model_to_text_and_back():
     assert outputs_of(eio_text) == system.outputs
     assert inputs_of(eio_text) == system.inputs
     assert crosses_of(eio_text) == system.cross
+
+
+@pytest.mark.parametrize("robotware", [(5, 15), (5, 61), (6, 13), (7, 6)])
+def test_system_signals_and_hooks_of_each_release(robotware):
+    """Outputs have a unit in Arg1 and a task in Arg2, inputs a task in Arg7; 7 has them in SYS."""
+    system = System(
+        "cell",
+        (),
+        outputs=(
+            SystemOutput("MechUnitNotMoving", "doA", unit="ROB_1"),
+            SystemOutput("Error", "doB", task="T_ROB1"),
+        ),
+        inputs=(
+            SystemInput("Start", "diA", "CONT"),
+            SystemInput("PpToMain", "diB", task="T_ROB1"),
+        ),
+        events=(
+            EventRoutine("on_power", "POWER_ON", all_motion_tasks=True, order=1),
+            EventRoutine("on_stop", "STOP", all_tasks=True),
+        ),
+        robotware=robotware,
+    )
+    sys_text = parse_cfg(write_cfg(sys_cfg(system)))
+    eio_text = parse_cfg(write_cfg(eio_cfg(system)))
+    home, key = (sys_text, "Name") if robotware[0] >= 7 else (eio_text, "Signal")
+    first, second = home.instances("SYSSIG_OUT")
+    assert (first.text(key), first.text("Arg1"), first.text("Arg2")) == ("doA", "ROB_1", "")
+    assert (second.text(key), second.text("Arg1"), second.text("Arg2")) == ("doB", "", "T_ROB1")
+    assert outputs_of(eio_text, sys_text) == system.outputs
+    assert inputs_of(eio_text, sys_text) == system.inputs
+    assert events_of(sys_text) == system.events
+
+
+def test_nothing_of_the_controllers_is_written_on_top():
+    system = System(
+        "cell",
+        (
+            TaskSpec("T_ROB1", motion=True, modules=(ModuleFile("a", "", b"", "HOME:/a.sys"),)),
+            TaskSpec("T_SRV", "SEMISTATIC"),
+        ),
+        groups=(MechanicalUnitGroup("rob1", "ROB_1"),),
+    )
+    text = sys_cfg(system, on_top=True)
+    assert [s.name for s in text.sections] == ["CAB_TASKS", "CAB_TASK_MODULES"]
+    assert [i.text("Name") for i in text.instances("CAB_TASKS")] == ["T_SRV"]
+    assert [i.text("Task") for i in text.instances("CAB_TASK_MODULES")] == ["T_ROB1"]
 
 
 def test_shared_and_installed_modules(backup):

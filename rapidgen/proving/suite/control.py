@@ -1,12 +1,12 @@
 """The control connection: stop, pause, speed and heartbeats, which no point delays."""
 
 import math
-from dataclasses import replace
+from collections.abc import Callable
 
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import HELLO, Bench
-from rapidgen.proving.instructions import fails, watched_orders
+from rapidgen.proving.instructions import Instruction, fails, watched_orders, wrapped
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawStreamFlag, RawTrajectoryState
 from rapidgen.proving.model import Broken
@@ -220,29 +220,39 @@ def _nobody_answers(bench: Bench) -> None:
     done(control.ask(messages.RawSpeed(50)), "SPEED")
 
 
-@case("own-stop", "a StopMove that only its own task takes back")
-def _own_stop(bench: Bench) -> None:
-    """Where a StopMove belongs to its task, the control server takes back its own."""
-    motion = replace(bench.setting.motion, stop_owner="task")
-    with bench.beside(bench.system, setting=replace(bench.setting, motion=motion)) as other:
-        control, link = other.control(), other.motion()
-        for leaves, failing in ((False, False), (True, False), (False, True)):
-            other.sets_off(link, other.wave(12), 0.3)
-            if failing:
-                fails(other, "ROS_control", "StartMove", "ERR_PATHDIST", 2)
-            stop(control)
-            if leaves:
-                control.close()
-            other.rests(3, 1, "it was stopped over the control port")
-            other.moves_through(link, other.wave(3))
-            if leaves:
-                control = other.control()
-        other.sets_off(link, other.wave(12))
-        done(control.ask(messages.RawPause(1)), "PAUSE")
-        other.wait_until_standing(3)
-        stop(control)
-        other.stays(1, "it was paused, and stopped over the control port")
-        other.moves_through(link, other.wave(3))
+@case("one-stops", "one background task alone stops and starts the robot", "R7b")
+def _one_stops(bench: Bench) -> None:
+    """ABB's manual is remembered to allow StopMove and StartMove from one background task only."""
+    control, link = bench.control(), bench.motion()
+    used: set[str] = set()
+
+    def watched(name: str) -> Callable[[Instruction], Instruction]:
+        def wrap(as_before: Instruction) -> Instruction:
+            def call(*arguments: object) -> object:
+                used.add(name)
+                return as_before(*arguments)
+
+            return call
+
+        return wrap
+
+    tasks = bench.controller.rapid_tasks
+    for name, task in tasks.items():
+        for instruction in ("StopMove", "StartMove", "StopMoveReset"):
+            wrapped(task, instruction, watched(name))
+    for port in (control, link):
+        bench.sets_off(link, bench.wave(12), 0.3)
+        stop(port)
+        bench.rests(3, 1, "it was stopped")
+    bench.sets_off(link, bench.wave(12), 0.3)
+    done(control.ask(messages.RawPause(1)), "PAUSE")
+    done(control.ask(messages.RawPause(0)), "the end of a pause")
+    control.ask(messages.RawHeartbeat(0.25))
+    bench.wait_until_standing(3)
+    bench.moves_through(link, bench.wave(3))
+    beside = [name for name in used if not tasks[name].spec.motion]
+    if beside != [bench.task("ROS_supervisor")]:
+        raise Broken(f"the robot is stopped and started by {beside}")
 
 
 @case("heartbeats", "a missing heartbeat stops the robot", "R12")
@@ -318,7 +328,6 @@ def _instructions_fail(bench: Bench) -> None:
         ("SocketAccept", "ERR_SOCK_CLOSED"),
         ("UnpackRawBytes", "ERR_OUTOFBND"),
         ("CopyRawBytes", "ERR_OUTOFBND"),
-        ("StopMove", "ERR_PATH_STOP"),
     ):
         control, link = bench.control(), bench.motion()
         points = bench.wave(30)

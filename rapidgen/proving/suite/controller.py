@@ -3,9 +3,12 @@
 from dataclasses import replace
 from functools import partial
 
+from rapidgen.generate.layout import open_signals, signal_name
+from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench, with_module
+from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawMode, RawReason, RawTrajectoryState, RawTriState
 from rapidgen.proving.model import Broken
 
@@ -117,6 +120,84 @@ def _without_signals(bench: Bench) -> None:
         if status.drives_powered != RawTriState.UNKNOWN:
             raise Broken(f"without signals STATUS says {status}")
         other.moves_through(link, other.wave(4))
+
+
+@case("open-files", "signals that the controller refused, or that nothing drives")
+def _open_files(bench: Bench) -> None:
+    """Status signals that no controller's file was seen to have, absent and without an output."""
+    opened = open_signals(bench.config) | {_name(bench, "standing")}
+    # What is open on RobotWare 7 the driver does without on every other, too.
+    absent = opened | {_name(bench, function) for function in ("executing", "emergency_stop")}
+    for without, undriven in ((absent, absent), (frozenset(), opened)):
+        signals = tuple(s for s in bench.system.signals if s.name not in without)
+        outputs = tuple(o for o in bench.system.outputs if o.signal not in undriven)
+        with bench.beside(replace(bench.system, signals=signals, outputs=outputs)) as other:
+            _serves_and_stops(other)
+
+
+def _serves_and_stops(bench: Bench) -> None:
+    """A trajectory arrives, STOP ends one, and STATUS says of both when they are over."""
+    state, link, period = bench.state(), bench.motion(), bench.config.state_period
+    bench.run(2 * period)
+    bench.moves_through(link, bench.wave(4))
+    _is_over(bench, state, "a trajectory has arrived")
+    points, since = bench.wave(10), bench.now
+    bench.sets_off(link, points, 0.5)
+    if bench.status(state, 2 + period).in_motion != 1:
+        raise Broken("a trajectory is under way, STATUS says that nothing moves")
+    link.send(STOP)
+    bench.rests(5, 1, "STOP was sent")
+    bench.followed([p for p, _ in points], since=since)
+    _is_over(bench, state, "STOP has ended a trajectory")
+    _stopped_meanwhile(bench, link)
+    bench.sets_off(bench.motion(), bench.wave(10), 0.3)
+    bench.controller.perform("e-stop")
+    bench.rests(10, 2, "an emergency stop")
+    _back_to_work(bench)
+    bench.stays(5, "the program was started again, nobody asked for motion")
+    bench.moves_through(bench.motion(), bench.wave(3))
+
+
+def _stopped_meanwhile(bench: Bench, link: RawLink) -> None:
+    """What two clients send while the program is stopped is nothing, also when it starts."""
+    if bench.config.commissioning:
+        return
+    bench.controller.perform("stop")
+    bench.run(0.5)
+    data = bench.download(bench.wave(4))
+    link.send(data)
+    other = bench.motion()
+    other.send(data)
+    bench.stays(2, "the program is stopped")
+    bench.controller.perform("start")
+    bench.stays(4, "the program was started; what was sent before is nothing")
+    other.close(then=1.5)
+
+
+def _is_over(bench: Bench, state: RawLink, what: str) -> None:
+    bench.run(bench.setting.motion.settle + 2.5 * bench.config.state_period)
+    status = bench.status(state, 2 + bench.config.state_period)
+    if status.in_motion != 0:
+        raise Broken(f"{what}, STATUS says {status}")
+
+
+@case("standing-forgotten", "a signal that says for ever that the robot moves")
+def _standing_forgotten(bench: Bench) -> None:
+    """Nothing drives it any more: STATUS believes it for ten seconds, or five messages."""
+    state, period = bench.state(), bench.config.state_period
+    bench.run(2 * period)
+    bench.controller.signals[_name(bench, "standing")] = 0
+    bench.run(1.5 * period)
+    if bench.status(state, 2 + period).in_motion != 1:
+        raise Broken("the controller says that the robot moves, STATUS does not")
+    bench.run(max(10, 5 * period))
+    _is_over(bench, state, "no axis has moved for ten seconds")
+    bench.controller.signals[_name(bench, "standing")] = 1
+
+
+def _name(bench: Bench, function: str) -> str:
+    (found,) = (s for s in STATUS_SIGNALS if s.function == function)
+    return signal_name(bench.config, bench.group, found)
 
 
 @case("mixed-builds", "modules of different builds refuse to move", once=True)

@@ -214,9 +214,7 @@ def _while_moving(bench: Bench, table: Table) -> None:
     since = bench.now
     table.ask()
     halted = bench.now
-    # A move that does not return is rung out, at the sixth bell (docs/use/driver.md).
-    longest = 0.9 if bench.setting.motion.cleared_move == "return" else 2.5
-    if not since + 0.02 < halted < since + longest + bench.setting.motion.settle:
+    if not since + 0.02 < halted < since + 0.9 + bench.setting.motion.settle:
         raise Broken(f"a trajectory under way was halted in {halted - since:.3f} s")
     bench.wait_until_standing(5)
     bench.followed([here, away], since=since - 0.6 * seconds)

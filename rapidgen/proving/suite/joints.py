@@ -132,9 +132,8 @@ def _one_signal_missing(bench: Bench) -> None:
         bench.run(0.5)
         bench.controller.perform("stop")
         bench.run(0.5)
-        # Without the signal nobody sees that the program was stopped before it is asked.
-        possible = 1 if missing.function == "executing" else 0
-        _shown(bench, state, "stopped", missing.function, on, off, possible)
+        # Without the signal of the program its event routines tell that it was stopped.
+        _shown(bench, state, "stopped", missing.function, on, off, 0)
         bench.controller.perform("e-stop")
         bench.run(0.5)
         _shown(bench, state, "e-stop", missing.function, off, on, 0)

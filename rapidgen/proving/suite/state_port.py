@@ -277,7 +277,7 @@ def _not_over_yet(bench: Bench) -> None:
         ("leaves", RawTrajectoryState.FAILED, RawReason.CLIENT_LOST),
     ):
         bench.sets_off(motion, bench.wave(8), 0.6)
-        fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 3)
+        end = fails(bench, "ROS_motion", "ClearPath", "ERR_PATH_STOP", 999)
         if ending == "STOP":
             motion.send(STOP)
         else:
@@ -291,9 +291,10 @@ def _not_over_yet(bench: Bench) -> None:
                 raise Broken(f"{ending} came, its path is not cleared yet, PROGRESS says {told}")
             if (status.in_motion, status.motion_possible) != (0, 0):
                 raise Broken(f"{ending} came, its path is not cleared yet, STATUS says {status}")
-        bench.run(3)
+        end()
+        bench.run(1)
         if not bench.status(link).motion_possible:
-            raise Broken(f"{ending} came 3 s ago, no motion is possible")
+            raise Broken(f"{ending} came, the path is cleared, no motion is possible")
         motion = bench.motion()
 
 

@@ -126,8 +126,7 @@ def _state_tells_of_the_stop(bench: Bench) -> None:
     bench.sets_off(link, bench.wave(10))
     link.stop(1)
     bench.wait_until_standing(5)
-    # Where a move does not return when its path is cleared its task is begun anew.
-    bench.run(1 if bench.setting.motion.cleared_move == "return" else 2.5)
+    bench.run(1)
     status = bench.status(state)
     if (status.in_error, status.in_motion, status.motion_possible) != (0, 0, 1):
         raise Broken(f"after a STOP STATUS says {status}")

@@ -6,11 +6,10 @@ MODULE ROS_control
     ! builds take no trajectory.
     !
     ! STOP, PAUSE, SPEED and HEARTBEAT, which no point delays. On STOP and on a missing
-    ! heartbeat this task stops the robot at once, and asks the supervisor to see to the rest.
-    ! It never starts the robot: only the supervisor does, or tells it to take back its own stop
-    ! when nothing is left that could move. It may hang in a send.
+    ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
+    ! starts it again. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "45176ecb4db3";
+    CONST string ROS_BUILD_CONTROL := "5d50f8f7465c";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -45,7 +44,6 @@ MODULE ROS_control
             ROS_BUILD_CONTROL = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_speed_of := -1;
-        ClkStart since_look;
         ROS_listen server, PORT;
         WHILE TRUE DO
             serve client_1, client_2;
@@ -61,13 +59,14 @@ MODULE ROS_control
         VAR num received;
 
         IF NOT taken_over THEN
-            WHILE NOT welcome(client, 1) DO
-                take_back_stop;
+            WHILE NOT welcome(client, WAIT_MAX) DO
+                ! A stranger, or the server socket broke and was opened again.
             ENDWHILE
         ENDIF
         taken_over := FALSE;
         linked := TRUE;
         told_dead := ROS_dead;
+        set_back since_look;
         ROS_begin_frames;
         WHILE linked AND (NOT taken_over) DO
             received := ROS_receive(client, ROS_chunk, patience());
@@ -75,15 +74,14 @@ MODULE ROS_control
                 take_chunk client, received;
             ELSEIF received < 0 THEN
                 linked := FALSE;
-            ELSEIF heartbeat > 0 AND ClkRead(since_heartbeat) > heartbeat THEN
+            ENDIF
+            IF linked AND is_late() THEN
                 heartbeat := 0;
                 ask_stop ROS_REASON_CLIENT_LOST;
             ENDIF
             IF linked tell_end client;
             IF linked AND ClkRead(since_look) >= LOOK_PERIOD THEN
-                ClkReset since_look;
-                ClkStart since_look;
-                take_back_stop;
+                set_back since_look;
                 taken_over := welcome(newcomer, 0.001);
             ENDIF
         ENDWHILE
@@ -94,6 +92,17 @@ MODULE ROS_control
         SocketClose client;
         RETURN;
     ENDPROC
+
+    ! A clock counts 49 days: none is read that nobody has set back for long.
+    LOCAL PROC set_back(VAR clock one)
+        ClkReset one;
+        ClkStart one;
+    ENDPROC
+
+    LOCAL FUNC bool is_late()
+        IF heartbeat = 0 RETURN FALSE;
+        RETURN ClkRead(since_heartbeat) > heartbeat;
+    ENDFUNC
 
     LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
         TEST ROS_accept(server, client, seconds)
@@ -220,31 +229,10 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! Stop the robot, and ask the supervisor for a halt: before, so that nobody starts it again,
-    ! and after, so that this stop is taken back when nothing is left of the path.
+    ! Ask the supervisor for a halt: it stops the robot.
     LOCAL PROC ask_stop(num reason)
         ROS_control_reason := reason;
         ROS_control_asked := ROS_next(ROS_control_asked);
-        IF NOT ROS_active() RETURN;
-        stop_robot;
-        ROS_control_asked := ROS_next(ROS_control_asked);
-    ENDPROC
-
-    LOCAL PROC stop_robot()
-        StopMove;
-    ERROR
-        ! Nothing moves, or it is stopped already.
-        SkipWarn;
-        TRYNEXT;
-    ENDPROC
-
-    ! Where a StopMove belongs to its task, the supervisor cannot take back this one's.
-    LOCAL PROC take_back_stop()
-        IF ROS_take_back StartMove;
-    ERROR
-        ! Not now: the supervisor asks again.
-        SkipWarn;
-        TRYNEXT;
     ENDPROC
 
     ! TRUE when all that was `asked` is `done`, FALSE if it is not within a second.
@@ -307,8 +295,7 @@ MODULE ROS_control
             RETURN;
         ENDIF
         heartbeat := seconds;
-        ClkReset since_heartbeat;
-        ClkStart since_heartbeat;
+        set_back since_heartbeat;
         ROS_look newest;
         ROS_pack_header answer, 20, ROS_MSG_HEARTBEAT, ROS_COMM_REPLY, ROS_REPLY_SUCCESS;
         PackRawBytes newest.trajectory, answer, 17 \IntX:=DINT;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "45176ecb4db3";
+    CONST string ROS_BUILD_MOTION := "5d50f8f7465c";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -35,13 +35,19 @@ MODULE ROS_motion
     ! s in which an acceleration is there and gone again.
     LOCAL CONST num BUILD_UP := 0.1;
     ! Part of the highest TCP speed with which the point at hand is left behind.
-    LOCAL VAR num arriving := 0;
+    LOCAL VAR num left_at := 0;
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
     ! Percent of the programmed speed, as it was set last.
     LOCAL VAR num percent := 0;
-    LOCAL VAR num bells := 0;
+    ! Leaves a move whose path is gone, by a long jump out of the trap.
+    LOCAL VAR errnum path_gone := -1;
+    ! Main moves, or is about to: there the trap may end what it does.
+    LOCAL VAR bool in_move := FALSE;
+    LOCAL VAR bool cleared := FALSE;
+    ! StartMove was refused because the robot stands too far from its path.
+    LOCAL VAR bool far_off := FALSE;
     LOCAL VAR ROS_point point;
     ! The place of the point before it.
     LOCAL VAR jointtarget before;
@@ -63,7 +69,10 @@ MODULE ROS_motion
     PROC ROS_run()
         ROS_start_task ROS_shown_motion,
             ROS_BUILD_MOTION = ROS_BUILD_ID;
+        in_move := FALSE;
+        IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
+        ROS_stopped := FALSE;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -93,14 +102,17 @@ MODULE ROS_motion
     ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
     ! left the old path, and then go on with it.
     PROC ROS_on_stop()
+        ROS_stopped := TRUE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_start()
+        ROS_stopped := FALSE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_power()
+        ROS_stopped := TRUE;
         interrupted ROS_REASON_POWER_FAILURE;
     ENDPROC
 
@@ -134,9 +146,17 @@ MODULE ROS_motion
         ! Read first: a request that comes meanwhile is not answered by this.
         asked := ROS_abort;
         clear_path;
+        IF NOT cleared THEN
+            ! Unanswered: while there may be a path, nobody lets the robot move.
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
         drop_points reason;
         start_robot;
-        bells := 0;
+        IF IsStopMoveAct(\FromMoveTask) THEN
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
         ! A fault of the trajectory that ends here must not end the next one.
         fault := ROS_REASON_NONE;
         ROS_abort_done := asked;
@@ -194,10 +214,10 @@ MODULE ROS_motion
         ROS_tail := next;
         ROS_planned := arrived;
         stops := first OR stops_before(next);
-        IF first arriving := 0;
+        IF first left_at := 0;
         IF stops OR point.dwell THEN
             take_time 0;
-            arriving := 0;
+            left_at := 0;
         ELSE
             take_time part_after(next);
         ENDIF
@@ -207,17 +227,30 @@ MODULE ROS_motion
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF stops THEN
-            MoveAbsJ point.target, SPEED \T:=point.duration, fine, torch \WObj:=table;
+            move fine;
         ELSE
             shape_corner next;
-            MoveAbsJ point.target, SPEED \T:=point.duration, bend, torch \WObj:=table;
+            move bend;
             ! The robot is now somewhere before this point, and has passed the one before.
             arrived := passed;
         ENDIF
-        ! A move also returns because its path was cleared: then nothing was reached.
-        IF ROS_abort <> ROS_abort_done RETURN;
+        IF fault <> ROS_REASON_NONE OR ROS_abort <> ROS_abort_done RETURN;
         ROS_reached := arrived;
+    ERROR (path_gone)
+        ! The trap comes here: nothing was reached.
+        in_move := FALSE;
+        RETURN;
+    ENDPROC
+
+    ! A move whose path was cleared never returns on some controllers; so the trap leaves it. A
+    ! request that comes before `in_move` is seen here, one that comes later by the trap.
+    LOCAL PROC move(zonedata zone)
+        in_move := TRUE;
+        IF ROS_abort = ROS_abort_done
+            MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=table;
+        in_move := FALSE;
     ERROR
+        in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;
         IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
         RETURN;
@@ -251,12 +284,12 @@ MODULE ROS_motion
             ramp_of point.target.robax.rax_4 - before.robax.rax_4, TURN_4, ramp;
             ramp_of point.target.robax.rax_5 - before.robax.rax_5, TURN_5, ramp;
             ramp_of point.target.robax.rax_6 - before.robax.rax_6, TURN_6, ramp;
-            seconds := (more(part, arriving) + more(part, after)) / (2 * part);
+            seconds := (more(part, left_at) + more(part, after)) / (2 * part);
             seconds := point.least + seconds * (BUILD_UP + ramp / point.duration);
             IF seconds > 2 * point.least seconds := 2 * point.least;
             IF seconds > point.duration point.duration := seconds;
         ENDIF
-        arriving := point.least / point.duration;
+        left_at := point.least / point.duration;
     ENDPROC
 
     ! The longest time, times its duration, in which an axis reaches its speed in the move at hand.
@@ -384,6 +417,10 @@ MODULE ROS_motion
             \RL2:="At point " + ValToStr(ROS_planned - 1) + ".";
         stop_robot;
         clear_path;
+        IF NOT cleared THEN
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
         drop_points fault;
         start_robot;
         fault := ROS_REASON_NONE;
@@ -397,33 +434,38 @@ MODULE ROS_motion
         TRYNEXT;
     ENDPROC
 
-    ! Take back this task's own stop; that of the supervisor stays.
+    ! Take back this task's own stop, when nothing is left of the path; that of the supervisor
+    ! stays. A robot that came to rest too far from the path that it left is not started by
+    ! StartMove; StopMoveReset takes back the stop, and nothing moves.
     LOCAL PROC start_robot()
+        far_off := FALSE;
         IF IsStopMoveAct(\FromMoveTask) StartMove;
+        IF far_off StopMoveReset;
     ERROR
         SkipWarn;
+        far_off := (ERRNO = ERR_PATHDIST);
         TRYNEXT;
     ENDPROC
 
+    ! `cleared`: the robot stands, and nothing is left of its path.
     LOCAL PROC clear_path()
+        cleared := FALSE;
         WaitRob \ZeroSpeed;
         ClearPath;
+        cleared := TRUE;
     ERROR
-        ! There was no path.
         SkipWarn;
-        TRYNEXT;
+        RETURN;
     ENDPROC
 
     ! The supervisor has stopped the robot and wants the path to be dropped. Main may be waiting
-    ! in a move: it returns when its path is gone, and then answers. If the bell rings
-    ! between main's last test and its move, the move begins after this and waits in its turn
-    ! for a robot that may not move; so the supervisor rings again until it has an answer.
+    ! in a move, which may never return when its path is gone: it is left. Main then answers.
     LOCAL TRAP on_bell
         IF ROS_speed_asked <> ROS_speed_done set_speed;
         IF ROS_abort = ROS_abort_done RETURN;
         clear_path;
-        bells := bells + 1;
-        ! Should a move not return on this controller: start main again, which drops the path.
-        IF bells > 5 ExitCycle;
+        IF in_move RAISE path_gone;
+    ERROR
+        RAISE;
     ENDTRAP
 ENDMODULE

@@ -61,10 +61,10 @@ def start_move(task: Task, all_tasks: bool | None) -> None:
 
 @builtin("StopMoveReset", cost="call")
 def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
-    """Takes back the stop without moving: what is left of the path is gone."""
+    """Takes back the stop without moving: what is left of the path is gone (`stop_move_reset`)."""
     for group in _groups(task, all_tasks):
-        group.clear_path()
-        group.start(_reason(task))
+        if group.settings.stop_move_reset == "releases":
+            group.release(_reason(task))
 
 
 @builtin("IsStopMoveAct")

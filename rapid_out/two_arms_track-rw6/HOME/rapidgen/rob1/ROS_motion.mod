@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "37c2092f713d";
+    CONST string ROS_BUILD_MOTION := "b575951134a4";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -33,12 +33,17 @@ MODULE ROS_motion
     ! TASK: another group may have one of the same name.
     TASK PERS tooldata torch := [TRUE,[[0,0,120],[1,0,0,0]],[1.2,[0,0,60],[1,0,0,0],0,0,0]];
 
-
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
     ! Percent of the programmed speed, as it was set last.
     LOCAL VAR num percent := 0;
-    LOCAL VAR num bells := 0;
+    ! Leaves a move whose path is gone, by a long jump out of the trap.
+    LOCAL VAR errnum path_gone := -1;
+    ! Main moves, or is about to: there the trap may end what it does.
+    LOCAL VAR bool in_move := FALSE;
+    LOCAL VAR bool cleared := FALSE;
+    ! StartMove was refused because the robot stands too far from its path.
+    LOCAL VAR bool far_off := FALSE;
     LOCAL VAR ROS_point point;
     ! The place of the point before it.
     LOCAL VAR jointtarget before;
@@ -60,7 +65,10 @@ MODULE ROS_motion
     PROC ROS_run()
         ROS_start_task ROS_shown_motion_1,
             ROS_BUILD_MOTION = ROS_BUILD_ID;
+        in_move := FALSE;
+        IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
+        ROS_stopped_1 := FALSE;
         ! After PP to main no order is left, after a return of main there is one.
         IDelete bell;
         CONNECT bell WITH on_bell;
@@ -90,14 +98,17 @@ MODULE ROS_motion
     ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
     ! left the old path, and then go on with it.
     PROC ROS_on_stop()
+        ROS_stopped_1 := TRUE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_start()
+        ROS_stopped_1 := FALSE;
         interrupted ROS_REASON_PROGRAM_STOPPED;
     ENDPROC
 
     PROC ROS_on_power()
+        ROS_stopped_1 := TRUE;
         interrupted ROS_REASON_POWER_FAILURE;
     ENDPROC
 
@@ -131,9 +142,17 @@ MODULE ROS_motion
         ! Read first: a request that comes meanwhile is not answered by this.
         asked := ROS_abort_1;
         clear_path;
+        IF NOT cleared THEN
+            ! Unanswered: while there may be a path, nobody lets the robot move.
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
         drop_points reason;
         start_robot;
-        bells := 0;
+        IF IsStopMoveAct(\FromMoveTask) THEN
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
         ! A fault of the trajectory that ends here must not end the next one.
         fault := ROS_REASON_NONE;
         ROS_abort_done_1 := asked;
@@ -195,17 +214,30 @@ MODULE ROS_motion
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF first OR stops_before(next) THEN
-            MoveAbsJ point.target, SPEED \T:=point.duration, fine, torch \WObj:=wobj0;
+            move fine;
         ELSE
             shape_corner next;
-            MoveAbsJ point.target, SPEED \T:=point.duration, bend, torch \WObj:=wobj0;
+            move bend;
             ! The robot is now somewhere before this point, and has passed the one before.
             arrived := passed;
         ENDIF
-        ! A move also returns because its path was cleared: then nothing was reached.
-        IF ROS_abort_1 <> ROS_abort_done_1 RETURN;
+        IF fault <> ROS_REASON_NONE OR ROS_abort_1 <> ROS_abort_done_1 RETURN;
         ROS_reached_1 := arrived;
+    ERROR (path_gone)
+        ! The trap comes here: nothing was reached.
+        in_move := FALSE;
+        RETURN;
+    ENDPROC
+
+    ! A move whose path was cleared never returns on some controllers; so the trap leaves it. A
+    ! request that comes before `in_move` is seen here, one that comes later by the trap.
+    LOCAL PROC move(zonedata zone)
+        in_move := TRUE;
+        IF ROS_abort_1 = ROS_abort_done_1
+            MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=wobj0;
+        in_move := FALSE;
     ERROR
+        in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;
         IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
         RETURN;
@@ -336,6 +368,10 @@ MODULE ROS_motion
             \RL2:="At point " + ValToStr(ROS_planned_1 - 1) + ".";
         stop_robot;
         clear_path;
+        IF NOT cleared THEN
+            WaitTime 0.1;
+            RETURN;
+        ENDIF
         drop_points fault;
         start_robot;
         fault := ROS_REASON_NONE;
@@ -349,33 +385,38 @@ MODULE ROS_motion
         TRYNEXT;
     ENDPROC
 
-    ! Take back this task's own stop; that of the supervisor stays.
+    ! Take back this task's own stop, when nothing is left of the path; that of the supervisor
+    ! stays. A robot that came to rest too far from the path that it left is not started by
+    ! StartMove; StopMoveReset takes back the stop, and nothing moves.
     LOCAL PROC start_robot()
+        far_off := FALSE;
         IF IsStopMoveAct(\FromMoveTask) StartMove;
+        IF far_off StopMoveReset;
     ERROR
         SkipWarn;
+        far_off := (ERRNO = ERR_PATHDIST);
         TRYNEXT;
     ENDPROC
 
+    ! `cleared`: the robot stands, and nothing is left of its path.
     LOCAL PROC clear_path()
+        cleared := FALSE;
         WaitRob \ZeroSpeed;
         ClearPath;
+        cleared := TRUE;
     ERROR
-        ! There was no path.
         SkipWarn;
-        TRYNEXT;
+        RETURN;
     ENDPROC
 
     ! The supervisor has stopped the robot and wants the path to be dropped. Main may be waiting
-    ! in a move: it returns when its path is gone, and then answers. If the bell rings
-    ! between main's last test and its move, the move begins after this and waits in its turn
-    ! for a robot that may not move; so the supervisor rings again until it has an answer.
+    ! in a move, which may never return when its path is gone: it is left. Main then answers.
     LOCAL TRAP on_bell
         IF ROS_speed_asked_1 <> ROS_speed_done_1 set_speed;
         IF ROS_abort_1 = ROS_abort_done_1 RETURN;
         clear_path;
-        bells := bells + 1;
-        ! Should a move not return on this controller: start main again, which drops the path.
-        IF bells > 5 ExitCycle;
+        IF in_move RAISE path_gone;
+    ERROR
+        RAISE;
     ENDTRAP
 ENDMODULE

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "37c2092f713d";
+    CONST string ROS_BUILD_STATE_SERVER := "b575951134a4";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -24,6 +24,9 @@ MODULE ROS_stateServer
     LOCAL CONST num PATIENCE := 0.1;
     ! deg or mm: an axis that has moved by less since the last message stands.
     LOCAL CONST num NOISE := 0.05;
+    ! s: the controller's word that the robot moves counts for so long while no axis leaves its
+    ! place. A signal that nothing drives any more would say so for ever.
+    LOCAL CONST num BELIEF_MAX := 10;
     ! Events of the controller that wait to be told.
     LOCAL CONST num EVENTS := 16;
 
@@ -64,6 +67,8 @@ MODULE ROS_stateServer
     ! What was told last, so that a movement between two messages is told too.
     LOCAL VAR num told_started := 0;
     LOCAL VAR jointtarget told_joints;
+    ! s that the controller's word is still believed; 0 until it has said that the robot stands.
+    LOCAL VAR num belief := 0;
 
     ! A send under way: its slot (0: none) and its number; and the one that the alarm found.
     LOCAL VAR intnum alarm;
@@ -104,6 +109,7 @@ MODULE ROS_stateServer
 
     LOCAL PROC wait_for_client()
         WHILE clients = 0 DO
+            IF ROS_standing() = ROS_TRI_TRUE belief := BELIEF_MAX;
             welcome WAIT_MAX;
         ENDWHILE
         ticks := 0;
@@ -262,11 +268,23 @@ MODULE ROS_stateServer
         VAR bool moved;
 
         started := ROS_started_1;
-        moved := started <> told_started OR ROS_standing() = ROS_TRI_FALSE OR (NOT near(joints));
+        moved := started <> told_started OR (NOT near(joints));
+        IF turning(moved) moved := TRUE;
         IF ROS_active() AND (NOT held()) moved := TRUE;
         told_started := started;
         told_joints := joints;
         RETURN moved;
+    ENDFUNC
+
+    ! TRUE if the controller says that the robot moves, and is to be believed.
+    LOCAL FUNC bool turning(bool seen)
+        VAR num standing;
+
+        standing := ROS_standing();
+        IF standing = ROS_TRI_TRUE OR (seen AND belief > 0) belief := BELIEF_MAX;
+        IF standing <> ROS_TRI_FALSE OR belief <= 0 RETURN FALSE;
+        belief := belief - PERIOD;
+        RETURN TRUE;
     ENDFUNC
 
     ! TRUE if the trajectory under way stands: halted, paused or without a next point.

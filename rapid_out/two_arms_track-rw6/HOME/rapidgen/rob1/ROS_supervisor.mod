@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "37c2092f713d";
+    CONST string ROS_BUILD_SUPERVISOR := "b575951134a4";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -20,7 +20,13 @@ MODULE ROS_supervisor
     LOCAL VAR num mode := 0;
     LOCAL VAR clock since_bell;
     LOCAL VAR clock since_halt;
-    ! It was said that the motion task does not answer.
+    ! Bells since the halt, and how many of them at most: a program that does not hear them
+    ! would end with too many of them waiting.
+    LOCAL VAR num bells := 0;
+    LOCAL CONST num MOST_BELLS := 12;
+    ! StartMove was refused because the robot stands too far from its path.
+    LOCAL VAR bool far_off := FALSE;
+    ! It was said why the robot stays stopped.
     LOCAL VAR bool told := FALSE;
     ! Rounds for which the tasks have shown different builds.
     LOCAL VAR num rounds_mixed := 0;
@@ -75,7 +81,6 @@ MODULE ROS_supervisor
         ENDIF
         asked := ROS_control_asked_1;
         IF asked <> ROS_control_done_1 THEN
-            ! The control server has stopped the robot by itself if there was something to stop.
             IF ROS_active() OR IsStopMoveAct(\FromNonMoveTask) halt ROS_control_reason_1;
             ROS_not_ready_1 := obstacle();
             ROS_control_done_1 := asked;
@@ -142,8 +147,8 @@ MODULE ROS_supervisor
 
         stop_robot;
         ROS_latched_1 := TRUE;
-        ROS_take_back_1 := FALSE;
         told := FALSE;
+        bells := 0;
         IF under_way() THEN
             ! The first reason counts.
             ROS_halt_reason_1 := reason;
@@ -152,8 +157,7 @@ MODULE ROS_supervisor
         ENDIF
         ROS_paused_1 := -1;
         ROS_abort_1 := ROS_next(ROS_abort_1);
-        ClkReset since_halt;
-        ClkStart since_halt;
+        set_back since_halt;
         ring;
         ! Whoever stands beside the robot learns of all other reasons in another way.
         IF lost ErrWrite \W, "ROS: trajectory ended early", ROS_reason_text(reason);
@@ -163,23 +167,41 @@ MODULE ROS_supervisor
     LOCAL PROC release()
         IF ROS_abort_done_1 = ROS_abort_1 THEN
             IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
-            IF NOT started() RETURN;
-            IF IsStopMoveAct(\FromNonMoveTask) AND (NOT stop_asked()) THEN
-                ! A StopMove of the control server that only its own task can take back. Nothing
-                ! is left of the path, and nothing new is let in before it has.
-                ROS_take_back_1 := TRUE;
+            IF NOT released() THEN
+                tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
                 RETURN;
             ENDIF
-            ROS_take_back_1 := FALSE;
             ROS_latched_1 := FALSE;
             RETURN;
         ENDIF
-        IF ROS_executing() <> ROS_TRI_FALSE AND (NOT told) AND ClkRead(since_halt) > 2 THEN
-            ErrWrite \W, "ROS: the motion task does not answer", "The robot stays stopped."
-                \RL2:="Start the program of T_ROB1 from main.";
-            told := TRUE;
+        IF ROS_executing() = ROS_TRI_FALSE THEN
+            ! It cannot answer, nor hear a bell: the time for that begins when it runs.
+            set_back since_halt;
+            set_back since_bell;
+            RETURN;
         ENDIF
-        IF ClkRead(since_bell) > 0.25 ring;
+        IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
+            tell "ROS: the robot stays stopped", "The motion task cannot take back its stop.";
+        ELSE
+            tell "ROS: the motion task does not answer", "The robot stays stopped.";
+        ENDIF
+        ! Clocks count 49 days: they are not read for long.
+        IF bells < MOST_BELLS THEN
+            IF ClkRead(since_bell) > 0.25 ring;
+        ENDIF
+    ENDPROC
+
+    LOCAL PROC set_back(VAR clock one)
+        ClkReset one;
+        ClkStart one;
+    ENDPROC
+
+    ! Say once what is wrong, when the program has run for two seconds since the halt.
+    LOCAL PROC tell(string title, string what)
+        IF told RETURN;
+        IF ClkRead(since_halt) <= 2 RETURN;
+        ErrWrite \W, title, what \RL2:="Start the program of T_ROB1 from main.";
+        told := TRUE;
     ENDPROC
 
     ! Stop the robot on its path and keep that. Gives why not, 0: done.
@@ -226,8 +248,8 @@ MODULE ROS_supervisor
     ENDFUNC
 
     LOCAL PROC ring()
-        ClkReset since_bell;
-        ClkStart since_bell;
+        bells := bells + 1;
+        set_back since_bell;
         ROS_bell_1 := ROS_next(ROS_bell_1);
     ENDPROC
 
@@ -241,8 +263,21 @@ MODULE ROS_supervisor
 
     ! Take back the stop. FALSE: not now (motors off, program stopped), it stays in force.
     LOCAL FUNC bool started()
+        far_off := FALSE;
         IF IsStopMoveAct(\FromNonMoveTask) StartMove;
         RETURN TRUE;
+    ERROR
+        SkipWarn;
+        far_off := (ERRNO = ERR_PATHDIST);
+        RETURN FALSE;
+    ENDFUNC
+
+    ! Take back the stop when nothing is left of the path. Where the robot came to rest too far
+    ! from it, which is of no interest any more, StopMoveReset does, and nothing moves.
+    LOCAL FUNC bool released()
+        IF started() RETURN TRUE;
+        IF far_off StopMoveReset;
+        RETURN far_off AND (NOT IsStopMoveAct(\FromNonMoveTask));
     ERROR
         SkipWarn;
         RETURN FALSE;

@@ -1,0 +1,193 @@
+"""A build for a controller that exists: what its backup has is used, what it lacks is written."""
+
+import pytest
+
+from rapidgen.config import from_manifest, load_config
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.generate import build, write
+from rapidgen.generate.cell import fit, read_cell
+from rapidgen.system import parse_cfg, read_folder, read_manifest
+from rapidgen.system.adding import identity
+from tests.generate.cell_backup import write_backup
+
+ABB_DRIVER = '  -File "HOME:/ROS/ROS_common.sys" -ModName "ROS_common" -AllTask\n'
+
+
+@pytest.fixture
+def backup(tmp_path):
+    return write_backup(tmp_path / "cell")
+
+
+def edit(backup, name, old, new):
+    path = backup / "SYSPAR" / name
+    text = path.read_text()
+    assert old in text
+    path.write_text(text.replace(old, new))
+
+
+def built(backup, name="irb120"):
+    cell = read_cell(backup)
+    config = fit(load_config(name), cell)
+    output = build(config, cell)
+    texts = {f.path: parse_cfg(f.data) for f in output.files if f.kind == "cfg"}
+    return config, output, texts
+
+
+def refused(backup, name="irb120"):
+    with pytest.raises(DiagnosticError) as caught:
+        built(backup, name)
+    return caught.value.diagnostics
+
+
+def names(text, section, attribute="Name"):
+    return [instance.text(attribute) for instance in text.instances(section)]
+
+
+def test_what_the_cell_has_is_taken(backup):
+    config, _, texts = built(backup)
+    (group,) = config.groups
+    assert config.robotware == (6, 7)
+    assert (group.task, group.mechanical_unit) == ("T_MOVE", "ROB_1")
+    assert not config.call_main
+    assert "signalMotorOn" not in names(texts["EIO.cfg"], "EIO_SIGNAL")
+    assert "signalRobotEStop" in names(texts["EIO.cfg"], "EIO_SIGNAL")
+    assert "MotOnState" not in names(texts["EIO.cfg"], "SYSSIG_OUT", "Status")
+
+
+def test_a_program_without_main_gets_ours(backup):
+    (backup / "RAPID/TASK1/PROGMOD/theirs.mod").write_text("MODULE theirs\nENDMODULE\n")
+    assert built(backup)[0].call_main
+
+
+def test_a_hook_has_an_order_of_its_own(backup):
+    orders = {
+        hook.text("Shelf"): hook.number("SeqNo")
+        for hook in built(backup)[2]["SYS.cfg"].instances("CAB_EXEC_HOOKS")
+    }
+    assert orders["STOP"] == 51
+    assert orders["START"] == 50
+
+
+def test_the_result_loads_and_only_adds(backup, tmp_path):
+    _, output, texts = built(backup)
+    for text in texts.values():
+        cell = read_cell(backup).cfg
+        for section in text.sections:
+            there = {identity(section.name, i) for i in cell.instances(text.domain, section.name)}
+            assert not there & {identity(section.name, i) for i in section.instances}
+    write(output, tmp_path / "out")
+    system = read_folder(tmp_path / "out", backup)
+    assert [task.name for task in system.tasks[:2]] == ["T_MOVE", "T_PLC"]
+    move, _, *added = system.tasks
+    assert [m.name for m in move.modules][:2] == ["theirs", "user"]
+    assert "ROS_motion" in [m.name for m in move.modules]
+    assert all(task.modules[0].name == "user" for task in added)
+    assert "signalMotorOn" in [o.signal for o in system.outputs if o.status == "MotOnState"]
+    assert (system.home_below, system.home) == (backup / "HOME", tmp_path / "out/HOME")
+    config = from_manifest(read_manifest(tmp_path / "out")["configuration"])
+    assert config.groups[0].task == "T_MOVE"
+
+
+def test_a_second_build_finds_nothing_missing(backup):
+    _, output, _ = built(backup)
+    for file in output.files:
+        if file.kind == "cfg":
+            path = backup / "SYSPAR" / file.path
+            more = file.data.decode().replace("\r\n", "\n").split("\n", 1)[1]
+            path.write_text(path.read_text() + more)
+        if file.path == "HOME/rapidgen/ROS_motion.mod":
+            # A controller saves what it has loaded, too.
+            (backup / "RAPID/TASK1/PROGMOD/ROS_motion.mod").write_bytes(file.data)
+            place = backup / file.path
+            place.parent.mkdir()
+            place.write_bytes(file.data)
+    config, _, texts = built(backup)
+    assert texts == {}
+    assert not config.call_main
+
+
+def test_a_driver_that_is_there_is_no_users_main(backup):
+    (backup / "RAPID/TASK1/PROGMOD/theirs.mod").write_text("MODULE theirs\nENDMODULE\n")
+    _, output, _ = built(backup)
+    (motion,) = (f for f in output.files if f.path == "HOME/rapidgen/ROS_motion.mod")
+    assert b"PROC main()" in motion.data
+    cfg = backup / "SYSPAR/SYS.cfg"
+    entry = '  -File "HOME:/rapidgen/ROS_motion.mod" -ModName "ROS_motion" -Task "T_MOVE"\n'
+    cfg.write_text(cfg.read_text().replace("CAB_EXEC_HOOKS:\n", entry + "CAB_EXEC_HOOKS:\n"))
+    (backup / "RAPID/TASK1/PROGMOD/ROS_motion.mod").write_bytes(motion.data)
+    assert built(backup)[0].call_main
+
+
+def test_a_signal_of_another_type_is_refused(backup):
+    edit(backup, "EIO.cfg", '"DO" -Category', '"DI" -Category')
+    (fault,) = refused(backup)
+    assert fault.code == "RG110"
+    assert "signalMotorOn" in fault.message
+    assert fault.span.line == 3
+
+
+def test_a_task_of_that_name_is_refused(backup):
+    edit(backup, "SYS.cfg", '"T_PLC"', '"T_ROS_STATE" -Type "NORMAL"')
+    (fault,) = refused(backup)
+    assert (fault.code, fault.span.line) == ("RG110", 4)
+
+
+def test_abb_driver_is_refused_by_its_instances(backup):
+    """HONG: three common modules with -AllTask."""
+    edit(backup, "SYS.cfg", "CAB_EXEC_HOOKS:\n", ABB_DRIVER + "CAB_EXEC_HOOKS:\n")
+    (fault,) = refused(backup)
+    assert (fault.code, fault.span.line) == ("RG110", 7)
+    assert "HOME:/ROS/ROS_common.sys" in fault.message
+
+
+def test_a_module_in_the_program_is_refused(backup):
+    place = backup / "RAPID/TASK1/PROGMOD/ROS_motion.mod"
+    place.write_text("MODULE ROS_motion\nENDMODULE\n")
+    (fault,) = refused(backup)
+    assert fault.code == "RG110"
+    assert fault.span.path == str(place)
+
+
+GROUPS = """MECHANICAL_UNIT_GROUP:
+  -Name "rob21" -Robot "ROB_1" -MechanicalUnit_1 "TRACK_1" -UseMotionPlanner "motion_planner_1"
+"""
+
+
+def test_the_unit_group_of_the_cell(backup):
+    """A gantry cell of 6.03 calls it rob21."""
+    edit(backup, "SYS.cfg", "CAB_EXEC_HOOKS:\n", GROUPS + "CAB_EXEC_HOOKS:\n")
+    edit(backup, "SYS.cfg", "-MotionTask", '-MotionTask -UseMechanicalUnitGroup "Rob21"')
+    edit(backup, "SYS.cfg", '"None"', '"None" -UseMechanicalUnitGroup "rob21"')
+    config, _, texts = built(backup)
+    assert config.multimove
+    added = texts["SYS.cfg"].instances("CAB_TASKS")
+    assert {task.text("UseMechanicalUnitGroup") for task in added} == {"Rob21"}
+
+
+def test_digits_of_the_cell(backup):
+    edit(backup, "EIO.cfg", "6:1", "6:2")
+    assert built(backup)[2]["EIO.cfg"].version == (6, 2)
+
+
+@pytest.mark.parametrize("name", ["irb14000", "irb120_track", "crb15000"])
+def test_a_configuration_of_another_cell(backup, name):
+    (fault,) = refused(backup, name)
+    assert fault.code == "RG111"
+
+
+def test_the_firewall_of_the_cell_stays_open(backup):
+    """A GoFa whose RapidSockets are open on the I/O net."""
+    for file in ("SYS", "EIO", "MOC"):
+        edit(
+            backup, f"{file}.cfg", "CFG_1.0:6:1" if file == "EIO" else "CFG_1.0:6:0", "CFG_1.0:7:0"
+        )
+    (backup / "BACKINFO/backinfo.txt").write_text("RobotWare Version: 7.6.1\n")
+    (backup / "SYSPAR/EIO.cfg").write_text("EIO:CFG_1.0:7:0::\n")
+    sio = 'SIO:CFG_1.0:7:0::\nFIREWALL_MANAGEMENT:\n  -Name "RapidSockets" -EnableOnIONet\n'
+    (backup / "SYSPAR/SIO.cfg").write_text(sio)
+    (rule,) = built(backup, "crb15000")[2]["SIO.cfg"].instances("FIREWALL_MANAGEMENT")
+    assert rule.flag("EnableOnIONet")
+    assert rule.flag("EnableOnPublicNet")
+    opened = sio.replace("-EnableOnIONet", "-EnableOnPublicNet -EnableOnPrivateNet")
+    (backup / "SYSPAR/SIO.cfg").write_text(opened)
+    assert "SIO.cfg" not in built(backup, "crb15000")[2]
