@@ -40,6 +40,20 @@ def hands_on(routine):
     )
 
 
+def test_no_task_writes_on_the_pendant():
+    """A burst of TPWrite blocks its task for more than 75 s (41617, RobotWare 6.15)."""
+    for file in build(load_config("irb120")).files:
+        if file.kind == "module":
+            assert b"TPWrite" not in file.data, file.path
+
+
+def test_no_bytes_are_read_eight_at_a_time():
+    """What a controller makes of a ULINT above 2^52 is in no manual."""
+    for file in build(load_config("irb120")).files:
+        if file.kind == "module":
+            assert b"LINT" not in file.data, file.path
+
+
 @pytest.mark.parametrize("overrides", [[], ["signals.valve={kind: DO, access: write}"]])
 def test_no_error_ends_a_task(overrides):
     modules = [

@@ -350,6 +350,5 @@ def _one_more(bench: Bench) -> None:
         text = messages.text_of(reason)
         if said != [f"{text} Point 0. {place} {more}".split()]:
             raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
-        if lines != [f"ROS refused: {text}"]:
+        if lines:
             raise Broken(f"{at_once} refusals for {reason.name}, the pendant says {lines}")
-        lines.clear()

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "5d50f8f7465c";
+    CONST string ROS_BUILD_ACCEPTANCE := "ea0f7e4cff45";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -59,7 +59,7 @@ MODULE ROS_acceptance
 
     ! Stops by the control server that came before the trajectory did.
     LOCAL VAR num stops_seen := 0;
-    ! Lines on the pendant are rationed.
+    ! Warnings are rationed.
     LOCAL VAR clock since_line;
     LOCAL VAR num silent_lines := 0;
     LOCAL VAR bool clock_runs := FALSE;
@@ -155,8 +155,8 @@ MODULE ROS_acceptance
         VAR num turned := 0;
         VAR num pieces;
         VAR jointtarget place;
-        VAR robtarget here;
-        VAR robtarget there;
+        VAR robtarget tcp_before;
+        VAR robtarget tcp;
         VAR num way;
         VAR num before := -1;
         VAR num longest := 0;
@@ -188,7 +188,7 @@ MODULE ROS_acceptance
         step_5 := step_5 / pieces;
         step_6 := step_6 / pieces;
         place := start;
-        here := CalcRobT(place, torch \WObj:=table);
+        tcp_before := CalcRobT(place, torch \WObj:=table);
         FOR piece FROM 1 TO pieces DO
             place.robax.rax_1 := place.robax.rax_1 + step_1;
             place.robax.rax_2 := place.robax.rax_2 + step_2;
@@ -196,12 +196,12 @@ MODULE ROS_acceptance
             place.robax.rax_4 := place.robax.rax_4 + step_4;
             place.robax.rax_5 := place.robax.rax_5 + step_5;
             place.robax.rax_6 := place.robax.rax_6 + step_6;
-            there := CalcRobT(place, torch \WObj:=table);
-            way := Distance(here.trans, there.trans);
+            tcp := CalcRobT(place, torch \WObj:=table);
+            way := Distance(tcp_before.trans, tcp.trans);
             IF way > longest longest := way;
             IF before >= 0 AND Abs(way - before) > change change := Abs(way - before);
             before := way;
-            here := there;
+            tcp_before := tcp;
         ENDFOR
         RETURN MARGIN * (longest + change / 2) * pieces / TCP_SPEED;
     ERROR
@@ -290,7 +290,8 @@ MODULE ROS_acceptance
         ROS_report code, index;
     ENDPROC
 
-    ! One line on the pendant and one in the event log, at most one each a second.
+    ! One warning in the event log a second, at most. No line on the pendant: one that comes at a bad
+    ! moment holds up its task, and this one reads STOP.
     PROC ROS_report(num code, num index)
         VAR string place := "";
 
@@ -303,7 +304,6 @@ MODULE ROS_acceptance
         IF silent_lines > 0 place := place + ValToStr(silent_lines) + " more like it.";
         silent_lines := 0;
         ErrWrite \W, "ROS: trajectory refused", ROS_reason_text(code MOD 100) \RL2:=place;
-        TPWrite "ROS refused: " + ROS_reason_text(code MOD 100);
         ClkReset since_line;
         ClkStart since_line;
         clock_runs := TRUE;
