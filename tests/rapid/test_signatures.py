@@ -92,7 +92,18 @@ def test_marks_behind_headers():
 def test_names_behind_marks_are_parameters():
     for signature in signatures.routines().values():
         names = {p.name.lower() for p in signature.parameters}
-        assert {n for words in signature.marks.values() for n in words} <= names
+        marked = [words for mark, words in signature.marks.items() if mark not in ("came", "went")]
+        marked += [
+            signature.marks[mark][1:] for mark in ("came", "went") if mark in signature.marks
+        ]
+        assert {name for words in marked for name in words} <= names
+
+
+def test_numbers_that_a_controller_told():
+    told = {"ERR_WHLSEARCH": 1072, "ERR_SIGSUPSEARCH": 1073, "ERR_SOCK_CLOSED": 1095}
+    assert {name: signatures.constant(name).value for name in told} == told
+    numbers = [d.value for d in signatures.predefined().values() if d.type == "errnum"]
+    assert len(set(numbers)) == len(numbers)
 
 
 def test_what_no_program_can_write():
