@@ -92,10 +92,9 @@ def test_marks_behind_headers():
 def test_names_behind_marks_are_parameters():
     for signature in signatures.routines().values():
         names = {p.name.lower() for p in signature.parameters}
-        marked = [words for mark, words in signature.marks.items() if mark not in ("came", "went")]
-        marked += [
-            signature.marks[mark][1:] for mark in ("came", "went") if mark in signature.marks
-        ]
+        versions = ("came", "went")
+        marked = [words for mark, words in signature.marks.items() if mark not in versions]
+        marked += [words[1:] for mark, words in signature.marks.items() if mark in versions]
         assert {name for words in marked for name in words} <= names
 
 
