@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "056532e822e1";
+    CONST string ROS_BUILD_SUPERVISOR := "50651cca3d7f";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -59,6 +59,7 @@ MODULE ROS_supervisor
             watch_builds;
             IF ROS_latched release;
             ROS_not_ready := obstacle();
+            ROS_pulse := ROS_next(ROS_pulse);
             IEnable;
             WaitTime 0.1;
         ENDWHILE

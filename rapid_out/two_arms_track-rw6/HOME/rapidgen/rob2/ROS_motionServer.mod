@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "d2c4310d8544";
+    CONST string ROS_BUILD_MOTION_SERVER := "1d2f74f17c7f";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -232,12 +232,12 @@ MODULE ROS_motionServer
 
     ! While the ring is being fed, look for bytes without waiting for them.
     LOCAL FUNC num short_look(VAR socketdev client)
-        VAR num waiting;
+        VAR num here;
 
-        waiting := ROS_peek(client);
-        IF waiting > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
-        IF waiting = 0 WaitTime LOOK_PERIOD;
-        RETURN waiting;
+        here := ROS_peek(client);
+        IF here > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
+        IF here = 0 WaitTime LOOK_PERIOD;
+        RETURN here;
     ENDFUNC
 
     LOCAL PROC take_chunk(VAR socketdev client, num received)

@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "d2c4310d8544";
+    CONST string ROS_BUILD_SUPERVISOR := "1d2f74f17c7f";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -59,6 +59,7 @@ MODULE ROS_supervisor
             watch_builds;
             IF ROS_latched_2 release;
             ROS_not_ready_2 := obstacle();
+            ROS_pulse_2 := ROS_next(ROS_pulse_2);
             IEnable;
             WaitTime 0.1;
         ENDWHILE
