@@ -115,6 +115,8 @@ def group_context(
         "wobj": _work_object(group.work_object),
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
+        # UnpackRawBytes has \ASCII no more on RobotWare 7; of PackRawBytes nobody tells.
+        "text_by_bytes": config.robotware[0] >= 7,
         "slots": STATE_CLIENTS + 1,
         "feedback_wrap": literal(spec.FEEDBACK_WRAP),
         "status_at": messages.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,

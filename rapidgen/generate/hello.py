@@ -59,7 +59,11 @@ def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[
         "batch": [str(messages.batch_points(len(joints)))],
         "signals": [str(len(config.signals) if group.ports.control else 0)],
     }
-    forms = {Wire.INT32: "\\IntX:=DINT", Wire.FLOAT32: "\\Float4", Wire.CHAR: "\\ASCII"}
+    forms = {
+        Wire.INT32: "PackRawBytes {}, data, {} \\IntX:=DINT",
+        Wire.FLOAT32: "PackRawBytes {}, data, {} \\Float4",
+        Wire.CHAR: "pack_text {}, data, {}",
+    }
     items = []
     offset = spec.PREFIX_BYTES + spec.HEADER_BYTES + 1
     for field in messages.HELLO.reply(ReplyCode.SUCCESS).fields:
@@ -67,7 +71,8 @@ def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[
         step = field.size if field.type is Wire.CHAR else field.type.size
         label = field.name.replace("_", " ") + (f", {field.unit}" if field.unit else "")
         for value in given:
-            part = {"value": value, "offset": offset, "form": forms[field.type], "label": ""}
+            packed = forms[field.type].format(value, offset)
+            part = {"value": value, "packed": packed, "label": ""}
             if value != "0":
                 part["label"], label = label, ""
             items.append(part)

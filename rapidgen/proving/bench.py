@@ -49,6 +49,10 @@ SAMPLE = 4_000_000
 """ns between two samples of the record while the robot moves ..."""
 SAMPLE_STANDING = 100_000_000
 """... and while it stands and says so."""
+CEILING = 5.0
+"""m/s: below it the TCP of a group has a ceiling that its driver looks at."""
+_PIECES = 60
+"""Of a way, to see how fast the TCP is on it."""
 LATE = 59_901
 """Event of the virtual controller: moves took longer than told. That they do not take much
 longer is measured."""
@@ -373,18 +377,27 @@ class Bench:
         needed = [2 * abs(there - value) / joint.speed for joint, value, there in joints]
         return max(0.5, 1.1 * self.tcp_seconds(here, target), *needed)
 
+    def tcp(self, place: Position) -> tuple[float, ...]:
+        """Where the TCP is (m) when the axes are at a place."""
+        geometry = self.motion_group.kinematics
+        assert geometry is not None
+        tool = (self.group.tool.frame.position, self.group.tool.frame.orientation)
+        return frames.compose(geometry.forward(place), tool)[0]
+
     def tcp_seconds(self, start: Position, end: Position) -> float:
-        """s from one point to another at the ceiling of TCP speed, as the driver looks at it.
+        """s from one point to another, the TCP at its ceiling where it is fastest.
 
         0 where there is none below what every robot may do.
         """
         limit = self.group.tcp_speed_limit
-        geometry = self.motion_group.kinematics
-        if limit >= 5 or geometry is None:
+        if limit >= CEILING or self.motion_group.kinematics is None:
             return 0.0
-        tool = (self.group.tool.frame.position, self.group.tool.frame.orientation)
-        one, other = (frames.compose(geometry.forward(p), tool)[0] for p in (start, end))
-        return frames.distance(one, other) / limit
+        shares = [n / _PIECES for n in range(_PIECES + 1)]
+        way = [
+            self.tcp(tuple(a + share * (b - a) for a, b in zip(start, end, strict=True)))
+            for share in shares
+        ]
+        return max(math.dist(one, other) for one, other in pairwise(way)) * _PIECES / limit
 
     def _step(self, axis: int, here: Position, duration: float, size: float) -> float:
         joint = self.group.joints[axis]
@@ -399,6 +412,10 @@ class Bench:
             point_frame(number, len(points), joints, duration, comm)
             for number, (joints, duration) in enumerate(points)
         )
+
+    def way_to(self, place: Position) -> list[Point]:
+        """A trajectory from where the robot stands."""
+        return [(self.position, 1.0), (place, self.seconds_to(place))]
 
     def sets_off(self, link: RawLink, points: Sequence[Point], then: float | None = None) -> None:
         """Send a trajectory, wait for the robot to move, and let it move for `then` s."""

@@ -40,6 +40,28 @@ def hands_on(routine):
     )
 
 
+def test_no_task_writes_on_the_pendant():
+    """A burst of TPWrite blocks its task for more than 75 s (41617, RobotWare 6.15)."""
+    for file in build(load_config("irb120")).files:
+        if file.kind == "module":
+            assert b"TPWrite" not in file.data, file.path
+
+
+def test_no_bytes_are_read_eight_at_a_time():
+    """What a controller makes of a ULINT above 2^52 is in no manual."""
+    for file in build(load_config("irb120")).files:
+        if file.kind == "module":
+            assert b"LINT" not in file.data, file.path
+
+
+def test_text_is_packed_in_a_way_that_robotware_7_has_for_sure():
+    """\\ASCII of UnpackRawBytes went with it: two drivers of RoboDK differ in that."""
+    seven = ["controller.robotware=7.10", "controller.type=omnicore"]
+    for overrides, wanted in ([], True), (seven, False):
+        files = build(load_config("irb120", overrides=overrides)).files
+        assert any(b"\\ASCII" in f.data for f in files if f.kind == "module") == wanted
+
+
 @pytest.mark.parametrize("overrides", [[], ["signals.valve={kind: DO, access: write}"]])
 def test_no_error_ends_a_task(overrides):
     modules = [

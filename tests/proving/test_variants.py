@@ -46,7 +46,7 @@ VARIANTS = {
     "RobotWare 5": (["controller.robotware=5.61"], "starves stream-control move-fails"),
     "RobotWare 7": (
         ["controller.robotware=7.10", "controller.type=omnicore"],
-        "starves stream-control move-fails",
+        "hello events starves stream-control move-fails",
     ),
 }
 CONTROLLERS = {

@@ -95,8 +95,32 @@ def test_array_parameters_have_three_dimensions_at_most():
     assert codes("", rest="PROC p(num a{*,*,*,*})\nENDPROC") == ["RG318"]
 
 
+@pytest.mark.parametrize(
+    ("body", "lasts"),
+    [
+        # Where from: rapidgen/rapid/builtins/*.rapid, beside each.
+        ("StopMove \\Quick;", "until"),
+        ("Break;", "until"),
+        ("DebugBreak;", "since"),
+        ("UnpackRawBytes r, 1, s \\ASCII:=4;", "until"),
+        ("UnpackRawBytes r, 1, s \\UTF8Encoding:=4;", "since"),
+        ("SearchL \\PStop, di, p, p, v100, tool0;", "until"),
+        ("StopMove;", "always"),
+        ("PackRawBytes s, r, 1 \\ASCII;", "always"),
+    ],
+)
+def test_what_robotware_7_has_and_lacks(body, lasts):
+    data = "VAR rawbytes r;\nVAR string s;\nVAR signaldi di;\nVAR robtarget p;"
+    six, seven = (codes(body, data, dialect=Dialect(v)) == ["RG325"] for v in ((6, 15), (7, 0)))
+    assert (six, seven) == {
+        "until": (False, True),
+        "since": (True, False),
+        "always": (False, False),
+    }[lasts]
+
+
 def test_a_routine_that_a_later_robotware_lacks(monkeypatch):
-    gone = Signature("Gone", "PROC", None, (), None, (6, 99))
+    gone = Signature("Gone", "PROC", None, (), None, (7, 0))
     found = signatures.routine
     monkeypatch.setattr(signatures, "routine", lambda n: gone if n == "gone" else found(n))
     assert codes("Gone;", dialect=Dialect((7, 0))) == ["RG325"]

@@ -4,6 +4,7 @@ from rapidgen.proving.behaviour import Behaviour, Theme
 from rapidgen.proving.suite import (
     batch_bytes,
     batches,
+    ceiling,
     compatible,
     configured,
     control,
@@ -81,6 +82,7 @@ CASES: tuple[Behaviour, ...] = tuple(
         supervisor,
         interrupted,
         configured,
+        ceiling,
     )
     for theme in vars(module).values()
     if isinstance(theme, Theme)

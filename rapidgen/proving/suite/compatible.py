@@ -4,9 +4,17 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, point_frame, raw_point
-from rapidgen.proving.messages import JOINT_POSITION, STATUS, RawComm, RawReplyCode, decode
+from rapidgen.proving.messages import (
+    JOINT_POSITION,
+    STATUS,
+    RawComm,
+    RawReason,
+    RawReplyCode,
+    decode,
+)
 from rapidgen.proving.model import Broken
-from rapidgen.proving.track import Point, distance
+from rapidgen.proving.suite.refusals import refused
+from rapidgen.proving.track import Point, Position, distance, inward
 
 case = Theme("compatible")
 
@@ -34,12 +42,26 @@ def _first_point_of_ten_seconds(bench: Bench) -> None:
         raise Broken(f"{asked:.1f} s of motion took {taken:.1f} s: the first 10 s were waited for")
 
 
-@case("single-point", "a single point, sent as -1 and -3, is reached")
+@case("single-point", "a single point, sent as -1 and -3, begins where the robot stands", "R8")
 def _single_point_sent_twice(bench: Bench) -> None:
-    target = bench.wave(3)[-1][0]
+    """As near as any first point it is reached; farther away it is refused as any other is."""
+    link, joints = bench.motion(), bench.group.joints
+
+    def away(part: float) -> Position:
+        return tuple(
+            inward(joint, here, part * bench.start_tolerance(joint))
+            for joint, here in zip(joints, bench.position, strict=True)
+        )
+
+    def twice(target: Position) -> bytes:
+        return point_frame(0, 2, target, 10.0) + point_frame(1, 2, target, 10.0)
+
+    near = away(0.9)
+    link.send(twice(near))
+    bench.wait_until_at(near, 40)
+    bench.wait_until_standing()
+    refused(bench, twice(away(1.1)), [RawReason.START_TOO_FAR], joint=1, point=0)
     link = bench.motion()
-    link.send(point_frame(0, 2, target, 10.0) + point_frame(1, 2, target, 10.0))
-    bench.wait_until_at(target, 40)
     # Two points of which only the second is elsewhere are a way like any other.
     bench.moves_through(link, bench.wave(2, duration=1.0))
 

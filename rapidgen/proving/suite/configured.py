@@ -4,10 +4,8 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.link import STOP, raw_point
-from rapidgen.proving.messages import RawReason
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
-from rapidgen.proving.suite.refusals import refused
 from rapidgen.proving.track import Point, changed, distance
 
 case = Theme("edges")
@@ -41,30 +39,6 @@ def _slowed_down(bench: Bench) -> None:
         if not any("slowed down" in str(e) for e in bench.controller.log.since(last)):
             raise Broken("a trajectory was slowed down, the event log does not say so")
         bench.run(1.5)
-
-
-@case("tcp-too-fast", "more speed than the TCP may have", "R10")
-def _tcp_too_fast(bench: Bench) -> None:
-    """No axis is too fast: the TCP alone is."""
-    if bench.config.trajectory.too_fast != "refuse" or bench.group.tcp_speed_limit >= 5:
-        return
-    seconds = max(0.2, bench.config.trajectory.min_segment)
-    step = 0.5 * seconds * bench.group.joints[0].speed
-    here = bench.position
-    away = changed(here, 0, here[0] + step)
-    if bench.tcp_seconds(here, away) < 1.2 * seconds:
-        return
-    points = [(here, 1.0), (away, seconds), (here, 9.0)]
-    refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
-    good = bench.wave(8)
-    stream = Streamer(bench)
-    stream.takes("the first points", good, BEGIN)
-    end = good[-1][0]
-    stream.put([(changed(end, 0, end[0] + step), seconds)], END)
-    told = stream.refused(RawReason.TCP_TOO_FAST, "a TCP that is too fast")
-    if (told.accepted, told.point, told.joint) != (8, 8, 0):
-        raise Broken(f"eight points were right, the reply is {told}")
-    bench.wait_until_at(end, 20)
 
 
 @links("strangers", "addresses that the configuration does not name are not served")

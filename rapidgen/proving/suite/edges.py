@@ -90,8 +90,7 @@ def _fastest(bench: Bench) -> None:
             if share < 1:
                 _taken(bench, points, f"joint {axis + 1} at its speed")
                 link = bench.motion()
-                link.send(point_frame(0, 2, here, 1.0) + point_frame(1, 2, here, 1.0))
-                bench.wait_until_at(here)
+                bench.moves_through(link, bench.way_to(here))
                 link.close(then=1.2)
             else:
                 refused(bench, bench.download(points), [RawReason.TOO_FAST], axis + 1, 1)
@@ -215,13 +214,13 @@ def _stop_in_a_stay(bench: Bench) -> None:
 @case("approach", "a single point is approached slowly, or as slowly as asked", "R8")
 def _approach(bench: Bench) -> None:
     """One point, sent twice: at approach speed, or slower where more time is given."""
-    link = bench.motion()
+    link, policy = bench.motion(), bench.config.trajectory
     for axis, joint in enumerate(bench.group.joints):
-        speed = bench.config.trajectory.approach_speed * joint.speed
-        for given in (0.2, 0.0):
-            step = min(1.0 * speed, 0.4 * (joint.upper - joint.lower))
-            needed = step / speed
-            seconds = given or 2 * needed
+        step = 0.9 * bench.start_tolerance(joint)
+        if not step:
+            continue
+        for seconds in (0.02, 1.0):
+            needed = max(policy.min_segment, step / (policy.approach_speed * joint.speed))
             target = changed(bench.position, axis, _inward(bench, axis, step))
             since = bench.now
             link.send(point_frame(0, 2, target, seconds) + point_frame(1, 2, target, seconds))
@@ -230,7 +229,7 @@ def _approach(bench: Bench) -> None:
             wanted = max(needed, seconds)
             if not 0.8 * wanted - 0.1 <= ended - begun <= 1.3 * wanted + 0.3:
                 raise Broken(
-                    f"joint {axis + 1}: {step:.3f} rad (m) in {seconds:.2f} s, or at approach "
+                    f"joint {axis + 1}: {step:.4f} rad (m) in {seconds:.2f} s, or at approach "
                     f"speed in {needed:.2f} s, took {ended - begun:.2f} s"
                 )
             bench.run(0.2)

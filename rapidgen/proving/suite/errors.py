@@ -192,7 +192,7 @@ def _serves_stop(bench: Bench) -> None:
 
 @case("clocks-end", "a clock at the end of its 49 days")
 def _clocks_at_their_end(bench: Bench) -> None:
-    """49 days without a refusal: the clock that rations lines on the pendant has ended."""
+    """49 days without a refusal: the clock that rations warnings has ended."""
     link = bench.motion()
     link.send(bench.download(bench.wave(4))[68:])
     bench.run(2)

@@ -4,7 +4,7 @@ from rapidgen.generate.layout import signal_name
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import RawLink, point_frame
+from rapidgen.proving.link import RawLink
 from rapidgen.proving.messages import RawReason, RawTriState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, Streamer
@@ -84,8 +84,7 @@ def _away_from_zero(bench: Bench) -> None:
     """Where no joint is near zero, short ways are short, and nothing else is changed."""
     link = bench.motion()
     there = tuple(0.4 * (j.upper if j.upper > -j.lower else j.lower) for j in bench.group.joints)
-    link.send(point_frame(0, 2, there, 9.0) + point_frame(1, 2, there, 9.0))
-    bench.wait_until_at(there, 60)
+    bench.moves_through(link, bench.way_to(there))
     bench.moves_through(link, bench.wave(5, duration=0.15))
     stream, since = Streamer(bench, link), bench.now
     points = way(bench, 12)

@@ -13,7 +13,7 @@ from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
-from rapidgen.proving.track import Point, distance
+from rapidgen.proving.track import Point, distance, inward
 
 case = Theme("moving")
 
@@ -177,8 +177,11 @@ def _step_by_step(bench: Bench) -> None:
         _goes_by(bench, watcher, begun, number, len(points), steps)
         bench.run(0.53)
         meter.end("when nothing is under way")
-        # One point, sent twice, from wherever the robot stands.
-        target = bench.wave(2, duration=2 * unit)[1][0]
+        # One point, sent twice, near where the robot stands.
+        target = tuple(
+            inward(joint, here, 0.9 * bench.start_tolerance(joint))
+            for joint, here in zip(bench.group.joints, bench.position, strict=True)
+        )
         begun = begins(bench, link, [(target, 2 * unit)] * 2)
         number += 1
         bench.run(3 * unit)

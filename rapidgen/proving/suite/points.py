@@ -121,6 +121,8 @@ def _each_value(bench: Bench) -> None:
             if ends is None:
                 continue
             places = [changed(here, axis, value) for value in ends]
+            if 1.1 * bench.tcp_seconds(places[0], places[1]) > seconds:
+                continue
             wrong = messages.RawRefused(RawReason.TOO_FAST, 2, axis + 1)
             for one, other in (places, places[::-1]):
                 table.row(_BEGIN, one, seconds, _TAKEN)
@@ -159,11 +161,10 @@ def _rounded(bench: Bench, table: Table) -> None:
             for off in (0.0002, 0.0001)
         )
         table.row(_BEGIN, one, _LONGEST, _TAKEN)
-        # One point, sent twice, may be anywhere.
-        table.accepted(two, _LONGEST)
+        # Whose ways have no length, and so need no time.
+        table.row(1, two, bench.config.trajectory.min_segment or 0.001, _TAKEN)
         table.ask()
-        table.stop()
-        bench.wait_until_standing(2)
+        bench.stays(0.1, "no trajectory was sent whole")
 
 
 @case("each-duration", "durations at their bounds and beyond", "R10")
@@ -349,6 +350,5 @@ def _one_more(bench: Bench) -> None:
         text = messages.text_of(reason)
         if said != [f"{text} Point 0. {place} {more}".split()]:
             raise Broken(f"{at_once} refusals for {reason.name}, the event log says {said}")
-        if lines != [f"ROS refused: {text}"]:
+        if lines:
             raise Broken(f"{at_once} refusals for {reason.name}, the pendant says {lines}")
-        lines.clear()

@@ -7,7 +7,7 @@ from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
-from rapidgen.proving.link import point_frame, raw_point
+from rapidgen.proving.link import raw_point
 from rapidgen.proving.messages import (
     RawComm,
     RawReason,
@@ -386,5 +386,4 @@ def _move_fails(bench: Bench) -> None:
     told = streams.stream.refused(RawReason.COLLISION, "a batch behind a collision")
     if told.trajectory != streams.trajectory or told.accepted != 10 or not 0 <= told.point < 10:
         raise Broken(f"a batch behind a collision is answered by {told}")
-    streams.link.send(point_frame(0, 2, points[0][0], 0.3) + point_frame(1, 2, points[0][0], 0.3))
-    bench.wait_until_at(points[0][0], 5)
+    bench.moves_through(streams.link, bench.way_to(points[0][0]))

@@ -6,7 +6,9 @@ for what belongs to the language, public code for names.
 
 Marks behind a header say what its parameters do not:
 
-    !since 6.10  !until 7.0   RobotWare versions that have it
+    !since 6.10  !until 7.0   RobotWare versions that have it: from the first, before the second
+    !came 7.0 UTF8Encoding    this argument came with that version, ...
+    !went 7.0 ASCII           ... or went with it
     !open                     the name is certain, its arguments are not well enough to check them
     !ends                     it never comes back
     !steps                    it changes the number in its first argument, where that stands
@@ -57,7 +59,10 @@ _HEADER: Final = re.compile(
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
 _NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
 _MARKS: Final = frozenset(
-    ("since", "until", "open", "ends", "steps", "inline", "inplace", "whole", "lazy", "index")
+    (
+        *("since", "until", "came", "went", "open", "ends", "steps", "inline", "inplace", "whole"),
+        *("lazy", "index"),
+    )
 )
 _READ_ONLY: Final = re.compile(r"^!readonly (.*)$", re.MULTILINE)
 
@@ -79,6 +84,11 @@ class Signature:
     until: Version | None = None
     marks: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """What stands behind the header: each mark with the lower-case names that follow it."""
+
+    def argument_version(self, mark: Literal["came", "went"], name: str) -> Version | None:
+        """With which RobotWare an argument came or went, None: it has always been there."""
+        words = self.marks.get(mark, ())
+        return _version(words) if name.lower() in words[1:] else None
 
     @property
     def checked(self) -> bool:

@@ -126,10 +126,21 @@ class CallChecker:
                 node.first,
                 help=f"this is checked for {robotware[0]}.{robotware[1]}; see --robotware",
             )
-        if until is not None and robotware > until:
+        if until is not None and robotware >= until:
             self.report(
                 "RG325", f"{symbol.name} went with RobotWare {until[0]}.{until[1]}", node.first
             )
+        for argument in node.arguments:
+            name = argument.name or ""
+            came = signature.argument_version("came", name)
+            went = signature.argument_version("went", name)
+            if came is not None and robotware < came:
+                what = f"came with RobotWare {came[0]}.{came[1]}"
+            elif went is not None and robotware >= went:
+                what = f"went with RobotWare {went[0]}.{went[1]}"
+            else:
+                continue
+            self.report("RG325", f"\\{name} of {symbol.name} {what}", argument)
 
     def _fitting(
         self, parameters: Sequence[Parameter], argument: Argument, these: Sequence[int]

@@ -184,6 +184,7 @@ def _handler(errors: Errors) -> int:
 
 _TOLD: dict[str, Callable[..., Value]] = {
     "Break": lambda task: task.stop_here(),  # not waiting for the movement [S4 2-Break-1]
+    "DebugBreak": lambda task: task.stop_here(),
     "RemainingRetries": lambda task: RETRIES - (task.errors.retry_number - task.errors.retry_base),
     "EventType": _event,
     "ExecLevel": lambda task: 2 if task.events.running else int(task.in_trap),

@@ -70,6 +70,7 @@ def unpack_raw_bytes(
     int_type: float | None,
     float4: bool | None,
     ascii_: float | None,
+    utf8: float | None,
 ) -> None:
     """Read one value out of a container."""
     value = target_of(argument)
@@ -84,14 +85,15 @@ def unpack_raw_bytes(
         value.set(float_from(raw, index, network=bool(network)))
     elif hex1:
         value.set(raw.take(index, 1)[0])
-    elif ascii_ is not None:
-        count = whole(ascii_, "ERR_ARGVALERR")
+    elif (characters := ascii_ if ascii_ is not None else utf8) is not None:
+        count = whole(characters, "ERR_ARGVALERR")
         text = value.type.kind == "string"
         # No characters: motion_program_exec reads wobj0's empty name so [code].
         if not (0 if text else 1) <= count <= 80:
             raise RapidError("ERR_ARGVALERR", f"\\ASCII:={count}")
         data = raw.take(index, count)
-        value.set(data.decode("latin-1") if text else data[0])
+        known = "latin-1" if utf8 is None else "utf-8"
+        value.set(data.decode(known, errors="replace") if text else data[0])
     else:
         raise _no_format("UnpackRawBytes")
 

@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "f9234671f3f1";
+    CONST string ROS_BUILD_DOWNLOAD := "056532e822e1";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;
@@ -121,6 +121,7 @@ MODULE ROS_download
             IF ROS_seconds < ROS_SHORTEST AND sequence <> ROS_SEQ_END ROS_short_segment;
             ! The same place again: stand there for the duration.
             ROS_taken.dwell := (ROS_taken.target = ROS_before);
+            IF ROS_fault = ROS_REASON_NONE ROS_check_tcp;
         ENDIF
         IF ROS_fault <> ROS_REASON_NONE THEN
             ROS_refuse_download ROS_fault, ROS_count, sequence = ROS_SEQ_END;
@@ -206,33 +207,22 @@ MODULE ROS_download
         here := CJointT();
         ! The client's duration for the first point is of no use: it is 10 s when its stamp is
         ! zero, and else the difference to a stamp of the trajectory before.
-        ROS_reach_start here, points{1}.target, needed, joint;
-        IF ROS_count = 2 AND points{1}.target = points{2}.target THEN
-            ! One point, sent twice: a move from wherever the robot stands, at approach speed
-            ! or in the duration given, whichever takes longer.
-            IF points{2}.duration > needed needed := points{2}.duration;
-            points{2}.duration := 0;
-            points{2}.dwell := FALSE;
-        ELSEIF joint > 0 THEN
+        ROS_reach_start here, points{1}.target, needed, joint, points{1}.least;
+        IF joint > 0 THEN
             ROS_refuse_download 100 * joint + ROS_REASON_START_TOO_FAR, 0, TRUE;
             RETURN;
         ENDIF
+        IF ROS_count = 2 AND points{2}.dwell THEN
+            ! One point, sent twice: a place to go to, not one to stay at; in the duration given, if
+            ! that is longer.
+            IF points{2}.duration > needed needed := points{2}.duration;
+            points{2}.duration := 0;
+            points{2}.dwell := FALSE;
+        ENDIF
         points{1}.duration := needed;
-        check_tcp_speed;
-        IF NOT ROS_receiving RETURN;
         ROS_receiving := FALSE;
         ROS_fed := 0;
         ROS_to_feed := ROS_count;
         ROS_hand_over;
-    ENDPROC
-
-    LOCAL PROC check_tcp_speed()
-        ROS_begin_tcp points{1}.target;
-        FOR n FROM 2 TO ROS_count DO
-            IF NOT ROS_tcp_in_time(points{n}.target, points{n}.duration) THEN
-                ROS_refuse_download ROS_REASON_TCP_TOO_FAST, n - 1, TRUE;
-                RETURN;
-            ENDIF
-        ENDFOR
     ENDPROC
 ENDMODULE

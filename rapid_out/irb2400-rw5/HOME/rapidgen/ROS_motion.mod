@@ -9,20 +9,20 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "f9234671f3f1";
+    CONST string ROS_BUILD_MOTION := "056532e822e1";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
     LOCAL CONST zonedata CORNER := z5;
-    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
-    ! this of each one's acceleration (deg/s^2, mm/s^2), lasts this long at least (s), and is not
-    ! smaller than this (mm, deg).
+    ! What an axis does of its acceleration without doubt (deg/s^2, mm/s^2).
     LOCAL CONST num TURN_1 := 150;
     LOCAL CONST num TURN_2 := 150;
     LOCAL CONST num TURN_3 := 150;
     LOCAL CONST num TURN_4 := 360;
     LOCAL CONST num TURN_5 := 360;
     LOCAL CONST num TURN_6 := 450;
+    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
+    ! that, lasts this long at least (s), and is not smaller than this (mm, deg).
     LOCAL CONST num SHORTEST_CORNER := 0.025;
     LOCAL CONST num SMALLEST_CORNER := 0.3;
     LOCAL CONST num SMALLEST_TURN := 0.03;
@@ -31,6 +31,11 @@ MODULE ROS_motion
     ! TASK: another group may have one of the same name.
     TASK PERS tooldata torch := [TRUE,[[0,0,310],[0.92387956,0,0.38268343,0]],[3.4,[0,0,120],[1,0,0,0],0.02,0.02,0.005]];
     TASK PERS wobjdata table := [FALSE,TRUE,"",[[900,0,450],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];
+
+    ! s in which an acceleration is there and gone again.
+    LOCAL CONST num BUILD_UP := 0.1;
+    ! Part of the highest TCP speed with which the point at hand is left behind.
+    LOCAL VAR num left_at := 0;
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
@@ -41,8 +46,9 @@ MODULE ROS_motion
     ! Main moves, or is about to: there the trap may end what it does.
     LOCAL VAR bool in_move := FALSE;
     LOCAL VAR ROS_point point;
-    ! The place of the point before it, and the corner at it.
+    ! The place of the point before it.
     LOCAL VAR jointtarget before;
+    ! The corner at it.
     LOCAL VAR zonedata bend;
     ! Trajectory under way here, and the point of it that comes next.
     LOCAL VAR num session := -1;
@@ -183,6 +189,7 @@ MODULE ROS_motion
         VAR num passed;
         VAR bool first;
         VAR bool waited;
+        VAR bool stops;
 
         before := point.target;
         point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
@@ -204,12 +211,20 @@ MODULE ROS_motion
         ROS_starved := -1;
         ROS_tail := next;
         ROS_planned := arrived;
+        stops := first OR stops_before(next);
+        IF first left_at := 0;
+        IF stops OR point.dwell THEN
+            take_time 0;
+            left_at := 0;
+        ELSE
+            take_time part_after(next);
+        ENDIF
         IF point.dwell THEN
             WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited
                 \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
-        ELSEIF first OR stops_before(next) THEN
+        ELSEIF stops THEN
             move fine;
         ELSE
             shape_corner next;
@@ -250,6 +265,50 @@ MODULE ROS_motion
         set_speed;
         IEnable;
     ENDPROC
+
+    ! In a move that begins or ends slower than it is in the middle the TCP exceeds its mean speed, at
+    ! most by as much again. Near the highest speed such a move gets the time of its ramps besides.
+    ! `after` is the part of the highest speed that follows.
+    LOCAL PROC take_time(num after)
+        VAR num part;
+        VAR num ramp := 0;
+        VAR num seconds;
+
+        IF point.duration <= 0 RETURN;
+        part := point.least / point.duration;
+        IF part > 0.5 THEN
+            ramp_of point.target.robax.rax_1 - before.robax.rax_1, TURN_1, ramp;
+            ramp_of point.target.robax.rax_2 - before.robax.rax_2, TURN_2, ramp;
+            ramp_of point.target.robax.rax_3 - before.robax.rax_3, TURN_3, ramp;
+            ramp_of point.target.robax.rax_4 - before.robax.rax_4, TURN_4, ramp;
+            ramp_of point.target.robax.rax_5 - before.robax.rax_5, TURN_5, ramp;
+            ramp_of point.target.robax.rax_6 - before.robax.rax_6, TURN_6, ramp;
+            seconds := (more(part, left_at) + more(part, after)) / (2 * part);
+            seconds := point.least + seconds * (BUILD_UP + ramp / point.duration);
+            IF seconds > 2 * point.least seconds := 2 * point.least;
+            IF seconds > point.duration point.duration := seconds;
+        ENDIF
+        left_at := point.least / point.duration;
+    ENDPROC
+
+    ! The longest time, times its duration, in which an axis reaches its speed in the move at hand.
+    LOCAL PROC ramp_of(num way, num acceleration, INOUT num ramp)
+        IF Abs(way) > acceleration * ramp ramp := Abs(way) / acceleration;
+    ENDPROC
+
+    LOCAL FUNC num more(num part, num than)
+        IF part > than RETURN part - than;
+        RETURN 0;
+    ENDFUNC
+
+    ! Part of the highest TCP speed with which the point behind the one at hand is approached.
+    LOCAL FUNC num part_after(num next)
+        VAR ROS_point after;
+
+        after := ROS_ring{next MOD ROS_RING_SIZE + 1};
+        IF after.duration <= 0 RETURN 0;
+        RETURN after.least / after.duration;
+    ENDFUNC
 
     ! TRUE if the robot has to stop at a point: its successor is not here yet, or is a dwell.
     LOCAL FUNC bool stops_before(num next)

@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "f9234671f3f1";
+    CONST string ROS_BUILD_STREAM := "056532e822e1";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -93,12 +93,6 @@ MODULE ROS_stream
         PackRawBytes told.reached, data, 37 \IntX:=DINT;
         PackRawBytes told.state, data, 41 \IntX:=DINT;
     ENDPROC
-
-    ! TRUE while the newest trajectory is a stream that more points may come for.
-    FUNC bool ROS_is_streaming()
-        IF ended OR code <> ROS_REASON_NONE OR (NOT handed_over) RETURN FALSE;
-        RETURN ROS_session = trajectory AND ROS_active();
-    ENDFUNC
 
     ! The client is gone: a stream that has not begun to move never will.
     PROC ROS_lose_stream()
@@ -414,7 +408,7 @@ MODULE ROS_stream
             IF ROS_seconds < ROS_SHORTEST AND (NOT last) ROS_short_segment;
             ! The same place again: stand there for the duration.
             ROS_taken.dwell := (ROS_taken.target = ROS_before);
-            IF NOT ROS_tcp_in_time(ROS_taken.target, ROS_seconds) ROS_object ROS_REASON_TCP_TOO_FAST;
+            IF ROS_fault = ROS_REASON_NONE ROS_check_tcp;
         ENDIF
         IF ROS_fault <> ROS_REASON_NONE RETURN;
         ROS_count := ROS_count + 1;
@@ -436,9 +430,10 @@ MODULE ROS_stream
     LOCAL PROC begin_at_first()
         VAR num joint := 0;
 
-        ROS_reach_start CJointT(), ROS_taken.target, ROS_seconds, joint;
+        ROS_reach_start CJointT(), ROS_taken.target, ROS_seconds, joint, ROS_taken.least;
         IF joint > 0 ROS_object 100 * joint + ROS_REASON_START_TOO_FAR;
         ROS_first := FALSE;
-        ROS_begin_tcp ROS_taken.target;
+    ERROR
+        RAISE;
     ENDPROC
 ENDMODULE

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "491861324a1c";
+    CONST string ROS_BUILD_ACCEPTANCE := "d2c4310d8544";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -56,7 +56,7 @@ MODULE ROS_acceptance
 
     ! Stops by the control server that came before the trajectory did.
     LOCAL VAR num stops_seen := 0;
-    ! Lines on the pendant are rationed.
+    ! Warnings are rationed.
     LOCAL VAR clock since_line;
     LOCAL VAR num silent_lines := 0;
     LOCAL VAR bool clock_runs := FALSE;
@@ -216,7 +216,8 @@ MODULE ROS_acceptance
         ROS_report code, index;
     ENDPROC
 
-    ! One line on the pendant and one in the event log, at most one each a second.
+    ! One warning in the event log a second, at most. No line on the pendant: one that comes at a bad
+    ! moment holds up its task, and this one reads STOP.
     PROC ROS_report(num code, num index)
         VAR string place := "";
 
@@ -229,7 +230,6 @@ MODULE ROS_acceptance
         IF silent_lines > 0 place := place + ValToStr(silent_lines) + " more like it.";
         silent_lines := 0;
         ErrWrite \W, "ROS: trajectory refused", ROS_reason_text(code MOD 100) \RL2:=place;
-        TPWrite "ROS refused: " + ROS_reason_text(code MOD 100);
         ClkReset since_line;
         ClkStart since_line;
         clock_runs := TRUE;

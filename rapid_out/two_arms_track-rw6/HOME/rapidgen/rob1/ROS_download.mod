@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "491861324a1c";
+    CONST string ROS_BUILD_DOWNLOAD := "d2c4310d8544";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;
@@ -219,15 +219,16 @@ MODULE ROS_download
         ! The client's duration for the first point is of no use: it is 10 s when its stamp is
         ! zero, and else the difference to a stamp of the trajectory before.
         ROS_reach_start here, points{1}.target, needed, joint;
-        IF ROS_count = 2 AND points{1}.target = points{2}.target THEN
-            ! One point, sent twice: a move from wherever the robot stands, at approach speed
-            ! or in the duration given, whichever takes longer.
+        IF joint > 0 THEN
+            ROS_refuse_download 100 * joint + ROS_REASON_START_TOO_FAR, 0, TRUE;
+            RETURN;
+        ENDIF
+        IF ROS_count = 2 AND points{2}.dwell THEN
+            ! One point, sent twice: a place to go to, not one to stay at; in the duration given, if
+            ! that is longer.
             IF points{2}.duration > needed needed := points{2}.duration;
             points{2}.duration := 0;
             points{2}.dwell := FALSE;
-        ELSEIF joint > 0 THEN
-            ROS_refuse_download 100 * joint + ROS_REASON_START_TOO_FAR, 0, TRUE;
-            RETURN;
         ENDIF
         points{1}.duration := needed;
         ROS_receiving := FALSE;

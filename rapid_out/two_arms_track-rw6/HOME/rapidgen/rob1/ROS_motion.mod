@@ -9,14 +9,12 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "491861324a1c";
+    CONST string ROS_BUILD_MOTION := "d2c4310d8544";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
     LOCAL CONST zonedata CORNER := z50;
-    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
-    ! this of each one's acceleration (deg/s^2, mm/s^2), lasts this long at least (s), and is not
-    ! smaller than this (mm, deg).
+    ! What an axis does of its acceleration without doubt (deg/s^2, mm/s^2).
     LOCAL CONST num TURN_1 := 300;
     LOCAL CONST num TURN_2 := 300;
     LOCAL CONST num TURN_3 := 300;
@@ -25,6 +23,8 @@ MODULE ROS_motion
     LOCAL CONST num TURN_6 := 504;
     LOCAL CONST num TURN_7 := 1200;
     LOCAL CONST num TURN_8 := 216;
+    ! A corner is as small as the axes follow without slowing down, and CORNER at most: it may take
+    ! that, lasts this long at least (s), and is not smaller than this (mm, deg).
     LOCAL CONST num SHORTEST_CORNER := 0.025;
     LOCAL CONST num SMALLEST_CORNER := 0.3;
     LOCAL CONST num SMALLEST_TURN := 0.03;
@@ -42,8 +42,9 @@ MODULE ROS_motion
     ! Main moves, or is about to: there the trap may end what it does.
     LOCAL VAR bool in_move := FALSE;
     LOCAL VAR ROS_point point;
-    ! The place of the point before it, and the corner at it.
+    ! The place of the point before it.
     LOCAL VAR jointtarget before;
+    ! The corner at it.
     LOCAL VAR zonedata bend;
     ! Trajectory under way here, and the point of it that comes next.
     LOCAL VAR num session := -1;
