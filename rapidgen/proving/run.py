@@ -20,6 +20,10 @@ from rapidgen.proving.workers import each, in_a_fork
 from rapidgen.system.model import System
 
 
+EXPLAINED = 20
+"""Cases of which the smallest pair is looked for: of a driver that breaks more, they tell enough."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Job:
     case: int
@@ -97,7 +101,7 @@ def _explained(
         _Broken(number, {v.setting: report.rows[v.setting] for v in broken if v.case == case.name})
         for number, case in enumerate(CASES)
         if case.name in {verdict.case for verdict in broken} - anyhow
-    ]
+    ][:EXPLAINED]
     found = each(work, _blame, jobs, "smallest pairs", progress)
     blame = {
         (CASES[one.case].name, setting): texts
