@@ -167,6 +167,39 @@ def test_the_list_of_robots(capsys):
     assert listed["irb120"]["unsure"] is False
 
 
+def test_robots_are_filtered_by_words(capsys):
+    robots(["palletiser", "rw7"])
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == [
+        "irb460",
+        "irb660",
+    ]
+    robots(["4600"])
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("irb4600 ")
+    assert any("IRB 4600-20/2.5" in line for line in lines)
+
+
+# Reach as in the types' names (m), of the wrist centre.
+@pytest.mark.parametrize(
+    ("name", "reach"),
+    [("irb120", 580), ("irb1600", 1225), ("IRB 4600-40/2.55", 2550), ("irb6640", 2800)],
+)
+def test_a_robot_is_shown_with_axes_reach_and_sources(capsys, name, reach):
+    robots(["show", name])
+    text = capsys.readouterr().out
+    assert text.count("rax_") >= 6
+    told = int(text.split("reach  ")[1].split()[0])
+    assert told == pytest.approx(reach, rel=0.03)
+    assert "limits: " in text
+    assert "coupling 0" in text
+
+
+def test_a_robot_that_nobody_knows_is_not_shown():
+    with pytest.raises(DiagnosticError) as caught:
+        robots(["show", "irb9999"])
+    assert [d.code for d in caught.value.diagnostics] == ["RG009"]
+
+
 def test_the_schema_is_json(capsys):
     schema()
     assert json.loads(capsys.readouterr().out)["properties"]["groups"]
