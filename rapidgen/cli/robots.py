@@ -15,7 +15,7 @@ def robots(
     ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array on stdout.")] = False,
 ) -> None:
-    """List the shipped models; `robots show NAME` prints axes, reach and sources."""
+    """List the shipped models. `robots show NAME` prints axes, reach and sources."""
     from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
     from rapidgen.config.library import variants
 

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from rapidgen.cli import asking
 from rapidgen.cli.new import new
 from rapidgen.cli.robots import robots
 from rapidgen.cli.schema import schema
@@ -138,6 +139,54 @@ def test_axes_are_said_on_the_command_line(tmp_path):
     new(path, urdf=tmp_path / "r.urdf", joint=said, track=["joint_3=eax_a"], coupling=0)
     assert axes_of(path) == ["rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6", "eax_a"]
     assert codes(path, urdf=tmp_path / "r.urdf", joint=["joint_1=rax_1"]) == (["RG020"], 2)
+
+
+@pytest.fixture
+def person(monkeypatch):
+    """Somebody who answers; what was asked."""
+    asked = []
+
+    def answers(*given):
+        left = iter(given)
+
+        def prompt(question, default=None, **_):
+            asked.append(question)
+            answer = next(left)
+            return default if answer is None else answer
+
+        monkeypatch.setattr(asking, "is_terminal", lambda: True)
+        monkeypatch.setattr(asking.typer, "prompt", prompt)
+        return asked
+
+    return answers
+
+
+def test_a_person_is_asked_for_what_is_open(tmp_path, person, capsys):
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
+    )
+    axes = ("rax_1", "rax_2", "eax_a", "rax_3", "axis 4", "rax_4", None, None)
+    asked = person(*axes, "0")
+    new(tmp_path / "cell.yaml", urdf=tmp_path / "r.urdf")
+    # What is usual comes first: behind rax_4 rax_5 and rax_6 are left.
+    joints = load_config(tmp_path / "cell.yaml").groups[0].joints
+    assert [(j.name[-1], j.axis) for j in joints] == [
+        ("1", "rax_1"), ("2", "rax_2"), ("3", "rax_3"), ("4", "rax_4"), ("5", "rax_5"),
+        ("6", "rax_6"), ("7", "eax_a"),
+    ]  # fmt: skip
+    assert len(asked) == 9
+    told = capsys.readouterr().err
+    assert "| ?      joint_7" in told
+    assert "one of rax_1" in told
+
+
+def test_a_person_names_the_robot(tmp_path, person):
+    person(None)
+    new(tmp_path / "cell.yaml")
+    assert load_config(tmp_path / "cell.yaml").groups == load_config("irb120").groups
+    person(str(URDFS / "irb2400.urdf"))
+    new(tmp_path / "cell.yaml", force=True)
+    assert load_config(tmp_path / "cell.yaml").groups[0].coupling == 1
 
 
 def test_a_file_is_only_replaced_when_told(tmp_path):
