@@ -214,3 +214,14 @@ def to_zyx(q: Quaternion) -> Vector:
 def from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """URDF's rpy: about fixed x, y, z, which is `from_zyx(yaw, pitch, roll)`."""
     return from_zyx(yaw, pitch, roll)
+
+
+def error(have: Pose, want: Pose) -> tuple[float, float, float, float, float, float]:
+    """Position (m) and rotation vector (rad) from one pose to the other."""
+    w, x, y, z = multiply(want[1], conjugate(have[1]))
+    if w < 0:
+        w, x, y, z = -w, -x, -y, -z
+    size = sqrt(x * x + y * y + z * z)
+    factor = 2.0 if size < 1e-12 else 2 * atan2(size, w) / size
+    (a, b, c), (d, e, f) = want[0], have[0]
+    return a - d, b - e, c - f, factor * x, factor * y, factor * z

@@ -9,14 +9,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, floor, hypot, pi
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from rapidgen.axes import frames
+from rapidgen.axes.arm_angle import ArmAngle
+from rapidgen.axes.four_axes import BRANCHES as FOUR_BRANCHES
+from rapidgen.axes.four_axes import Branch as FourBranch
+from rapidgen.axes.four_axes import FourAxes, palletiser, scara
 from rapidgen.axes.frames import IDENTITY, Pose, Quaternion, Vector
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
 from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles, WristArm
 from rapidgen.config.model import ChainLink, GroupConfig
+
+if TYPE_CHECKING:
+    from rapidgen.axes.numeric import Search
 
 Posture = tuple[float, ...]
 """Controller axis values in wire order, rad and m."""
@@ -24,6 +31,9 @@ AxisConfiguration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
 ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
 """How far axes 1, 4 and 6 may be from their quarters, see `Kinematics.room`."""
+_SCARA = ("rax_1", "rax_2", "rax_3", "rax_4")
+_ENOUGH = 8
+"""Postures that an iteration looks for."""
 _NEAR = 1e-6
 _TURN = 2 * pi
 
@@ -123,7 +133,7 @@ class Kinematics:
     @property
     def is_closed_form(self) -> bool:
         """Whether the inverse is a formula."""
-        return self._arm is not None
+        return self._arm is not None or self._four is not None
 
     def follow(self, pose: Pose, near: Posture) -> Posture | None:
         """The posture on the same branch as `near`, turns as close to it as can be.
@@ -132,9 +142,12 @@ class Kinematics:
         branch there. Ranges are not looked at.
         """
         arm = self._arm
+        if self._four is not None:
+            four, _, places = self._four
+            branch = four.branch([self.map.to_urdf(near)[i] for i in places])
+            return self._of_four(pose, near, branch)
         if arm is None:
-            found = self._iterate(pose, near)
-            return found
+            return self._iterate(pose, near)
         values = self.map.to_urdf(near)
         angles = self._robot_angles(values)
         solved = arm[0].solve(self._from_base(pose, values), arm[0].branch(angles), angles[3])
@@ -142,8 +155,10 @@ class Kinematics:
 
     def reaches(self, pose: Pose, near: Posture) -> bool:
         """Whether any posture reaches a pose, ranges apart."""
+        if self._four is not None:
+            return any(self._of_four(pose, near, branch) is not None for branch in FOUR_BRANCHES)
         if self._arm is None:
-            return any(self._iterate(pose, start) is not None for start in self._starts(near))
+            return any(True for postures in self._rounds(pose, near) for _ in postures)
         values = self.map.to_urdf(near)
         based = self._from_base(pose, values)
         return any(self._arm[0].solve(based, branch, 0.0) is not None for branch in BRANCHES)
@@ -152,14 +167,23 @@ class Kinematics:
         """All postures within the ranges that reach a pose, external axes as in `near`.
 
         Axes that can turn more than once appear with every turn. Closest to `near` first.
-        Without a closed form: what iteration finds from `near` and from other starts.
+        Without a closed form: what iteration finds from `near` and from other starts, at least
+        one if there is any.
         """
         found: list[Posture] = []
-        if self._arm is None:
-            for start in self._starts(near):
-                posture = self._iterate(pose, start)
-                if posture is not None:
+        if self._four is not None:
+            for way in FOUR_BRANCHES:
+                four = self._of_four(pose, near, way)
+                if four is not None:
+                    found += [p for p in self._turned(four) if not _known(p, found)]
+        elif self._arm is None:
+            for number, postures in enumerate(self._rounds(pose, near)):
+                for posture in postures:
                     found += [p for p in self._turned(posture) if not _known(p, found)]
+                    if len(found) >= _ENOUGH:
+                        break
+                if found and number >= 1:
+                    break
         else:
             arm = self._arm[0]
             values = self.map.to_urdf(near)
@@ -172,6 +196,48 @@ class Kinematics:
                     found += [p for p in self._turned(posture) if not _known(p, found)]
         found.sort(key=lambda p: sum(abs(a - b) for a, b in zip(p, near, strict=True)))
         return found
+
+    # -- arms of seven axes -----------------------------------------------------------------
+
+    @cached_property
+    def seventh(self) -> int:
+        """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
+        own = [self.group.joints[i].axis for i in self._own]
+        return self._inner[0] if len(self._inner) == 1 and len(own) == 6 else -1
+
+    @cached_property
+    def _angle(self) -> ArmAngle:
+        # The reference points from an arm towards the middle between two (both home targets of
+        # public programs for the IRB 14000); for a single arm along y [mem].
+        side = self.steps[0].fixed[0][1]
+        return ArmAngle((0.0, -1.0 if side > 0 else 1.0, 0.0))
+
+    def arm_angle(self, posture: Posture) -> float:
+        """What eax_a of a robtarget is in a posture of an arm with seven axes (rad)."""
+        values = tuple(posture[i] for i in self._along)
+        return self._angle.of(self._search(posture, whole=True).lines(values)[1])
+
+    def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
+        """Postures within the ranges for a pose and an arm angle, as they are found from `near`."""
+        start = tuple(near[i] for i in self._along)
+        found: list[Posture] = []
+        for values in self._angle.postures(self._search(near, whole=True), pose, angle, start):
+            posture = list(near)
+            for place, value in zip(self._along, values, strict=True):
+                posture[place] = value
+            for turned in self._turned(self._near(tuple(posture), near)):
+                if self._fits_seventh(turned) and not _known(turned, found):
+                    found.append(turned)
+                    yield turned
+
+    def _fits_seventh(self, posture: Posture) -> bool:
+        joint = self.group.joints[self.seventh]
+        return joint.lower - ROUNDING <= posture[self.seventh] <= joint.upper + ROUNDING
+
+    @cached_property
+    def _along(self) -> tuple[int, ...]:
+        """Places of the arm's axes in the order of the chain."""
+        return tuple(s.joint for s in self.steps if s.joint in (*self._own, *self._inner))
 
     def _robot_angles(self, values: Posture) -> Angles:
         assert self._arm is not None
@@ -203,31 +269,87 @@ class Kinematics:
             urdf[place] = sign * (angle + _TURN * round((old - angle) / _TURN))
         return self.map.to_controller(urdf)
 
-    def _iterate(self, pose: Pose, start: Posture) -> Posture | None:
-        from rapidgen.axes.numeric import iterate  # numpy: only where there is no closed form
+    def _search(self, near: Posture, *, whole: bool = False) -> "Search":
+        """The search of this arm, with what carries it as in `near`; `whole`: with its seventh."""
+        key = whole, tuple(near[i] for i in self._outside)
+        if key not in self._searches:
+            for old in [k for k in self._searches if k[0] == whole]:
+                del self._searches[old]
+            places = self._along if whole else (*self._own, *self._inner)
+            free = len(places) if whole else len(self._own)
+            self._searches[key] = self._make_search(near, places, free)
+        return self._searches[key]
 
-        moving = [i for i, j in enumerate(self.group.joints) if j.axis.startswith("rax")]
-        values = iterate(
-            lambda urdf: _along(self.steps, urdf), pose, self.map.to_urdf(start), moving
+    def _make_search(self, near: Posture, places: tuple[int, ...], free: int) -> "Search":
+        from rapidgen.axes.numeric import Link, Search, linear  # numpy: where there is no formula
+
+        weights, constants = linear(self.map.to_urdf, near, places)
+        links = []
+        for step in self.steps:
+            parts = ((step.joint, 1.0),) if step.joint >= 0 else step.follows
+            moved = [sum(weights[i][n] * k for i, k in parts) for n in range(len(places))]
+            links.append(
+                Link(
+                    step.fixed,
+                    step.axis,
+                    step.prismatic,
+                    tuple(moved) if parts else (),
+                    sum(constants[i] * k for i, k in parts),
+                )
+            )
+        joints = [self.group.joints[place] for place in places]
+        return Search(
+            tuple(links),
+            tuple((joint.lower, joint.upper) for joint in joints),
+            tuple(joint.kind == "revolute" for joint in joints),
+            free,
         )
-        if values is None:
-            return None
-        return self._near(self.map.to_controller(values), start)
+
+    @cached_property
+    def _searches(self) -> dict[tuple[bool, tuple[float, ...]], "Search"]:
+        return {}
+
+    @cached_property
+    def _own(self) -> tuple[int, ...]:
+        """Places of the robot axes."""
+        return tuple(i for i, j in enumerate(self.group.joints) if j.axis.startswith("rax"))
+
+    @cached_property
+    def _inner(self) -> tuple[int, ...]:
+        """Places of the external axes inside of the arm: the seventh of a YuMi arm."""
+        order = [s.joint for s in self.steps if s.joint >= 0]
+        own = [order.index(i) for i in self._own if i in order]
+        among = range(min(own), max(own)) if own else range(0)
+        return tuple(order[n] for n in among if order[n] not in self._own)
+
+    @cached_property
+    def _outside(self) -> tuple[int, ...]:
+        """Places of the external axes under the arm, and of those that the chain does not name."""
+        arm = {*self._own, *self._inner}
+        return tuple(i for i in range(len(self.group.joints)) if i not in arm)
+
+    def _rounds(self, pose: Pose, near: Posture) -> Iterator[Iterator[Posture]]:
+        """Postures that iteration finds, as close in turns to `near` as can be."""
+        places = (*self._own, *self._inner)
+        for found in self._search(near).rounds(pose, tuple(near[i] for i in places)):
+            yield (self._near(self._placed(values, near), near) for values in found)
+
+    def _placed(self, values: Posture, near: Posture) -> Posture:
+        whole = list(near)
+        for place, value in zip((*self._own, *self._inner), values, strict=True):
+            whole[place] = value
+        return tuple(whole)
+
+    def _iterate(self, pose: Pose, start: Posture) -> Posture | None:
+        places = (*self._own, *self._inner)
+        values = self._search(start).near(pose, tuple(start[i] for i in places))
+        return None if values is None else self._near(self._placed(values, start), start)
 
     def _near(self, posture: Posture, near: Posture) -> Posture:
         return tuple(
             v + _TURN * round((n - v) / _TURN) if j.kind == "revolute" else v
             for v, n, j in zip(posture, near, self.group.joints, strict=True)
         )
-
-    def _starts(self, near: Posture) -> Iterator[Posture]:
-        """Where iteration begins: `near`, then spread over the ranges."""
-        yield near
-        for share in (0.5, 0.25, 0.75):
-            yield tuple(
-                j.lower + (j.upper - j.lower) * share if j.axis.startswith("rax") else n
-                for j, n in zip(self.group.joints, near, strict=True)
-            )
 
     def _turned(self, posture: Posture) -> list[Posture]:
         """The posture with every turn of its axes that lies within the ranges."""
@@ -313,7 +435,7 @@ class Kinematics:
     @property
     def _tells_branches(self) -> bool:
         """Whether cfx says on which of the eight branches a posture lies."""
-        return self.is_closed_form and not self.group.coupling
+        return self._arm is not None and not self.group.coupling
 
     @cached_property
     def _axes(self) -> dict[str, int]:
@@ -340,6 +462,54 @@ class Kinematics:
             return None
         points, axes, flange = self._zero_frame(steps[first:])
         return _recognise(points, axes, flange, first, tuple(places))
+
+    @cached_property
+    def _four(self) -> tuple[FourAxes, int, tuple[int, ...]] | None:
+        """The closed form of an arm with four axes, the number of steps before it, its places."""
+        steps = self.steps
+        names = tuple(axis for axis in self._axes if axis.startswith("rax"))
+        if sorted(names) not in (["rax_1", "rax_2", "rax_3", "rax_6"], sorted(_SCARA)):
+            return None
+        places = tuple(self._axes[axis] for axis in sorted(names))
+        if [s.joint for s in steps if s.joint in places] != list(places):
+            return None
+        first = next(i for i, s in enumerate(steps) if s.joint == places[0])
+        if any(s.joint >= 0 and s.joint not in places for s in steps[first:]):
+            return None
+        slides = [self._linear[i] for i in places]
+        passive = [i for i, s in enumerate(steps) if s.follows]
+        points, axes, flange = self._zero_frame(steps[first:])
+        if slides == [False, False, True, False] and not passive:
+            made: FourAxes | None = scara(points, axes, flange)
+        elif not any(slides) and len(passive) == 1:
+            step = steps[passive[0]]
+            signs = {places[1]: axes[1][1], places[2]: axes[2][1]}
+            wrist, kept = IDENTITY, steps[first : passive[0] + 1]
+            for before in kept:
+                wrist = frames.compose(wrist, before.fixed)
+            across = frames.rotate(wrist[1], step.axis)[1]
+            # The rods undo what axes 2 and 3 turn.
+            if {i: k * across for i, k in step.follows} != {i: -v for i, v in signs.items()}:
+                return None
+            made = palletiser(points, axes, wrist[0], flange)
+        else:
+            return None
+        return None if made is None else (made, first, places)
+
+    def _of_four(self, pose: Pose, near: Posture, branch: FourBranch) -> Posture | None:
+        assert self._four is not None
+        arm, first, places = self._four
+        values = self.map.to_urdf(near)
+        if first:
+            pose = frames.compose(frames.invert(_along(self.steps[:first], values)), pose)
+        solved = arm.solve(pose, branch)
+        if solved is None:
+            return None
+        urdf = list(values)
+        for place, value in zip(places, solved, strict=True):
+            turns = 0 if self._linear[place] else round((values[place] - value) / _TURN)
+            urdf[place] = value + _TURN * turns
+        return self.map.to_controller(urdf)
 
     @staticmethod
     def _zero_frame(steps: tuple[_Step, ...]) -> tuple[list[Vector], list[Vector], Pose]:

@@ -1,71 +1,324 @@
-"""Inverse kinematics by iteration, for arms without a closed form (numpy)."""
+"""Inverse kinematics by iteration, for arms without a closed form (numpy).
 
-from collections.abc import Callable, Sequence
-from math import sqrt
+From near, Newton's method on the six equations of a pose. From afar, many starts at once: those of
+some thousand random postures of the arm whose poses are closest, then more of them, then all over
+the ranges. Values are the controller's, of the arm's own axes.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
-from rapidgen.axes.frames import Pose, conjugate, multiply, subtract
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose, Vector, multiply, subtract
 
+Floats: TypeAlias = NDArray[np.float64]
 Values = tuple[float, ...]
-_ROUNDS = 60
-_POSITION, _ANGLE = 1e-9, 1e-9
-_STEP = 1e-6
-_LARGEST = 0.4
+_ROUNDS, _HOPELESS, _FAR = 60, 10, 1e-3
+"""Rounds of Newton's method: where an arm is singular it creeps, elsewhere ten are plenty."""
+_EXACT = 1e-10
+"""m and rad of a solution"""
+_LARGEST = 0.6
 """rad (or m) that one round may move a joint."""
+_HOPEFUL = 300
+_SINGLY = 6
+"""Starts that are tried one after the other: most often one of them arrives."""
+_STARTS = (24, 96, 400, 1600, 3800)
+_TOGETHER_ROUNDS = 40
+_CLOSE = 1e-5
+_SAMPLES = 6000
+_DAMPING = 1e-8
 
 
-def iterate(
-    forward: Callable[[Values], Pose], pose: Pose, start: Values, moving: Sequence[int]
-) -> Values | None:
-    """Values that reach a pose, from a start, changing only the joints in `moving`.
+@dataclass(frozen=True)
+class Link:
+    """A step of the chain: its fixed part, then how the arm's values turn or slide it."""
 
-    Damped least squares; None when it does not get there (out of reach, or a bad start).
+    fixed: Pose
+    axis: Vector
+    slides: bool
+    weights: Values
+    """Per value of the arm; the joint moves by their sum."""
+    constant: float
+
+
+@dataclass(frozen=True)
+class Search:
+    """Postures of one arm for poses in the frame where its chain begins.
+
+    `ranges` are those of the values, rad or m; `around` holds external axes of the arm that a
+    search leaves as they are, at the end of the values.
     """
-    values = list(start)
-    error = _error(forward(tuple(values)), pose)
-    damping = 1e-4
-    for _ in range(_ROUNDS):
-        size = _size(error)
-        if size < _POSITION:
-            return tuple(values)
-        columns = []
-        for index in moving:
-            shifted = values.copy()
-            shifted[index] += _STEP
-            there = _error(forward(tuple(shifted)), pose)
-            columns.append([(a - b) / _STEP for a, b in zip(error, there, strict=True)])
-        jacobian = np.array(columns).T
-        normal = jacobian.T @ jacobian
-        gradient = jacobian.T @ np.array(error)
-        for _ in range(8):
-            step = np.linalg.solve(normal + damping * np.eye(len(moving)), gradient)
+
+    links: tuple[Link, ...]
+    ranges: tuple[tuple[float, float], ...]
+    turning: tuple[bool, ...]
+    free: int
+    """How many of the values, from the first, a search may change: six or fewer."""
+
+    # -- one posture ------------------------------------------------------------------------
+
+    def pose(self, values: Sequence[float]) -> Pose:
+        """The flange."""
+        return self.lines(values)[0]
+
+    def lines(self, values: Sequence[float]) -> tuple[Pose, list[tuple[Vector, Vector]]]:
+        """The flange, and place and direction of each moving link's axis."""
+        place: Vector = (0.0, 0.0, 0.0)
+        q = frames.UNIT
+        found = []
+        for link in self.links:
+            (x, y, z), turned = link.fixed
+            if x or y or z:
+                place = frames.add(place, frames.rotate(q, link.fixed[0]))
+            if turned != frames.UNIT:
+                q = multiply(q, turned)
+            if not link.weights:
+                continue
+            amount = link.constant
+            for value, weight in zip(values, link.weights, strict=True):
+                if weight:
+                    amount += value * weight
+            direction = frames.rotate(q, link.axis)
+            found.append((place, direction))
+            if link.slides:
+                place = frames.add(place, frames.scale(direction, amount))
+            else:
+                q = multiply(q, frames.about(link.axis, amount))
+        return (place, q), found
+
+    def near(self, pose: Pose, start: Sequence[float]) -> Values | None:
+        """Values that reach a pose, on the branch of a start; None: Newton does not get there."""
+        values = list(start)
+        moving = [link for link in self.links if link.weights]
+        last = 1e9
+        for rounds in range(_ROUNDS):
+            flange, axes = self.lines(values)
+            error = frames.error(flange, pose)
+            size = max(map(abs, error))
+            if size < _EXACT:
+                return tuple(values)
+            if size > 4 * last or (rounds > _HOPELESS and size > _FAR):
+                return None
+            last = size
+            place = flange[0]
+            rows = [[0.0] * self.free for _ in range(6)]
+            for link, (at, direction) in zip(moving, axes, strict=True):
+                if link.slides:
+                    column = (*direction, 0.0, 0.0, 0.0)
+                else:
+                    column = (*frames.cross(direction, subtract(place, at)), *direction)
+                for n in range(self.free):
+                    weight = link.weights[n]
+                    if weight:
+                        for row, part in zip(rows, column, strict=True):
+                            row[n] += weight * part
+            jacobian = np.array(rows)
+            normal = jacobian.T @ jacobian
+            normal.flat[:: self.free + 1] += _DAMPING * size
+            step = np.linalg.solve(normal, jacobian.T @ np.array(error))
             longest = float(np.max(np.abs(step)))
-            if longest > _LARGEST:
-                step *= _LARGEST / longest
-            trial = values.copy()
-            for index, change in zip(moving, step, strict=True):
-                trial[index] += float(change)
-            found = _error(forward(tuple(trial)), pose)
-            if _size(found) < size:
-                values, error = trial, found
-                damping = max(damping / 10, 1e-12)
-                break
-            damping *= 10
-        else:
-            return None
-    return tuple(values) if _size(error) < 100 * _POSITION else None
+            share = _LARGEST / longest if longest > _LARGEST else 1.0
+            for n in range(self.free):
+                values[n] += share * float(step[n])
+        return tuple(values) if last < 100 * _EXACT else None
+
+    # -- many at once -----------------------------------------------------------------------
+
+    def rounds(self, pose: Pose, start: Sequence[float]) -> Iterator[Iterator[Values]]:
+        """Postures for a pose as they are found, near ones of the start first, in rounds of starts.
+
+        What the search leaves as it is are the last values of the start. A pose that no start of
+        some hundred has reached is out of reach.
+        """
+        arrived = [0]
+
+        def told(found: Values | None) -> Iterator[Values]:
+            if found is not None:
+                arrived[0] += 1
+                yield found
+
+        order = self._closest(pose, start)
+        singly = self._samples[0][order[:_SINGLY]]
+
+        def one_by_one() -> Iterator[Values]:
+            yield from told(self.near(pose, start))
+            for row in singly.tolist():
+                yield from told(self.near(pose, (*row[: self.free], *start[self.free :])))
+
+        def together(values: Floats) -> Iterator[Values]:
+            values[:, self.free :] = start[self.free :]
+            for row in self._together(pose, values):
+                yield from told(self.near(pose, tuple(row)))
+
+        yield one_by_one()
+        begin = _SINGLY
+        for count in _STARTS:
+            if begin > _HOPEFUL and not arrived[0]:
+                return
+            yield together(self._samples[0][order[begin : begin + count]].copy())
+            begin += count
+
+    def closest(self, pose: Pose, count: int) -> list[Values]:
+        """Random postures of the arm, whose poses are the closest ones first."""
+        values, places, turns = self._samples
+        away = np.linalg.norm(places - np.array(pose[0]), axis=1) / self._reach
+        away += 1 - np.abs(turns @ np.array(pose[1]))
+        return [tuple(row) for row in values[np.argsort(away)[:count]].tolist()]
+
+    def _closest(self, pose: Pose, start: Sequence[float]) -> NDArray[np.intp]:
+        values, places, turns = self._samples
+        away = np.linalg.norm(places - np.array(pose[0]), axis=1) / self._reach
+        dots = np.abs(turns @ np.array(pose[1]))
+        away += np.sqrt(np.maximum(0.0, 2 - 2 * np.minimum(dots, 1.0)))
+        for n in range(self.free, len(start)):
+            away += 0.5 * np.abs(values[:, n] - start[n])
+        most = sum(_STARTS) + _SINGLY
+        if most >= len(away):
+            return np.argsort(away)
+        nearest = np.argpartition(away, most)[:most]
+        return nearest[np.argsort(away[nearest])]
+
+    @cached_property
+    def _reach(self) -> float:
+        return max(0.1, float(np.max(np.linalg.norm(self._samples[1], axis=1))) / 2)
+
+    @cached_property
+    def _samples(self) -> tuple[Floats, Floats, Floats]:
+        """Random postures of the arm with their places and orientations."""
+        draw = np.random.default_rng(1).random((_SAMPLES, len(self.ranges)))
+        low, high = np.array(self.ranges).T
+        values = low + draw * (high - low)
+        rotations, places, _ = self._forward(values)
+        return values, places, _quaternions(rotations)
+
+    def _forward(self, values: Floats) -> tuple[Floats, Floats, list[tuple[Floats, Floats, Link]]]:
+        """Rotations and places of the flanges, and the moving axes of each posture."""
+        count = len(values)
+        rotation = np.broadcast_to(np.eye(3), (count, 3, 3))
+        place = np.zeros((count, 3))
+        axes = []
+        for link in self.links:
+            place = place + rotation @ np.array(link.fixed[0])
+            rotation = rotation @ np.array(frames.to_matrix(link.fixed[1]))
+            if not link.weights:
+                continue
+            amount = values @ np.array(link.weights) + link.constant
+            direction = rotation @ np.array(link.axis)
+            axes.append((place, direction, link))
+            if link.slides:
+                place = place + direction * amount[:, None]
+            else:
+                x, y, z = link.axis
+                skew = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+                rotation = rotation @ (
+                    np.eye(3)
+                    + np.sin(amount)[:, None, None] * skew
+                    + (1 - np.cos(amount))[:, None, None] * (skew @ skew)
+                )
+        return rotation, place, axes
+
+    def _together(self, pose: Pose, values: Floats) -> Iterator[Floats]:
+        """Damped least squares from many starts; those that arrive, each once, soonest first."""
+        goal = np.array(frames.to_matrix(pose[1]))
+        target = np.array(pose[0])
+        seen: list[Floats] = []
+        for _ in range(_TOGETHER_ROUNDS):
+            rotation, place, axes = self._forward(values)
+            error = np.empty((len(values), 6))
+            error[:, :3] = target - place
+            error[:, 3:] = _rotation_vectors(goal @ rotation.transpose(0, 2, 1))
+            size = np.max(np.abs(error), axis=1)
+            for row in values[size < _CLOSE]:
+                if all(np.max(np.abs(_wrapped(row - s, self.turning))) > 1e-4 for s in seen):
+                    seen.append(row)
+                    yield row
+            left = size >= _CLOSE
+            if not left.any():
+                return
+            jacobian = np.zeros((len(values), 6, self.free))
+            for at, direction, link in axes:
+                column = np.zeros((len(values), 6))
+                if link.slides:
+                    column[:, :3] = direction
+                else:
+                    column[:, :3] = np.cross(direction, place - at)
+                    column[:, 3:] = direction
+                for n in range(self.free):
+                    if link.weights[n]:
+                        jacobian[:, :, n] += link.weights[n] * column
+            values, error, jacobian = values[left], error[left], jacobian[left]
+            transposed = jacobian.transpose(0, 2, 1)
+            normal = transposed @ jacobian
+            # Sugihara's damping: the square of the error itself.
+            damping = 0.5 * np.sum(error**2, axis=1) * 0.02 + _DAMPING
+            normal += damping[:, None, None] * np.eye(self.free)
+            step = np.linalg.solve(normal, (transposed @ error[:, :, None]))[:, :, 0]
+            longest = np.max(np.abs(step), axis=1)
+            step *= np.minimum(1.0, _LARGEST / np.maximum(longest, 1e-12))[:, None]
+            values = values.copy()
+            values[:, : self.free] += step
 
 
-def _error(have: Pose, want: Pose) -> Values:
-    """Position (m) and rotation vector (rad) from one pose to the other."""
-    w, x, y, z = multiply(want[1], conjugate(have[1]))
-    if w < 0:
-        w, x, y, z = -w, -x, -y, -z
-    size = sqrt(x * x + y * y + z * z)
-    factor = 2.0 if size < 1e-12 else 2 * float(np.arctan2(size, w)) / size
-    return (*subtract(want[0], have[0]), factor * x, factor * y, factor * z)
+def _wrapped(difference: Floats, turning: Sequence[bool]) -> Floats:
+    turn = 2 * np.pi
+    return np.where(turning, difference - turn * np.round(difference / turn), difference)
 
 
-def _size(error: Values) -> float:
-    return max(map(abs, error))
+def _rotation_vectors(rotations: Floats) -> Floats:
+    """Axis times angle of rotation matrices, also near half a turn."""
+    turns = _quaternions(rotations)
+    parts = turns[:, 1:]
+    sizes = np.linalg.norm(parts, axis=1)
+    angles = 2 * np.arctan2(sizes, turns[:, 0])
+    return parts * np.where(sizes > 1e-12, angles / np.maximum(sizes, 1e-12), 2.0)[:, None]
+
+
+def _quaternions(rotations: Floats) -> Floats:
+    """Unit quaternions, scalar first and not negative (Shepperd)."""
+    m = rotations
+    trace = m[:, 0, 0] + m[:, 1, 1] + m[:, 2, 2]
+    squares = np.stack(
+        [
+            1 + trace,
+            1 + 2 * m[:, 0, 0] - trace,
+            1 + 2 * m[:, 1, 1] - trace,
+            1 + 2 * m[:, 2, 2] - trace,
+        ],
+        axis=1,
+    )
+    largest = np.argmax(squares, axis=1)
+    a, b, c = m[:, 2, 1] - m[:, 1, 2], m[:, 0, 2] - m[:, 2, 0], m[:, 1, 0] - m[:, 0, 1]
+    d, e, f = m[:, 1, 0] + m[:, 0, 1], m[:, 0, 2] + m[:, 2, 0], m[:, 2, 1] + m[:, 1, 2]
+    s = squares
+    choices = np.stack(
+        [
+            np.stack([s[:, 0], a, b, c], axis=1),
+            np.stack([a, s[:, 1], d, e], axis=1),
+            np.stack([b, d, s[:, 2], f], axis=1),
+            np.stack([c, e, f, s[:, 3]], axis=1),
+        ],
+        axis=1,
+    )
+    found = choices[np.arange(len(m)), largest]
+    found = found / np.linalg.norm(found, axis=1)[:, None]
+    made: Floats = np.where(found[:, :1] < 0, -found, found)
+    return made
+
+
+def linear(
+    to_urdf: Callable[[Sequence[float]], Values], at: Sequence[float], places: Sequence[int]
+) -> tuple[list[Values], Values]:
+    """How URDF values depend on the controller's at `places`: weights for each joint, constants."""
+    zero = [0.0 if n in places else value for n, value in enumerate(at)]
+    constant = to_urdf(zero)
+    columns = []
+    for place in places:
+        moved = list(zero)
+        moved[place] = 1.0
+        columns.append([a - b for a, b in zip(to_urdf(moved), constant, strict=True)])
+    return [tuple(column[n] for column in columns) for n in range(len(at))], constant

@@ -55,10 +55,13 @@ def new(
     robotware: Annotated[str, typer.Option("--robotware", help="RobotWare version.")] = "6.15",
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Write a commented configuration; what stays open is marked ??? in it."""
+    """Write a commented configuration that checks and builds. What stays open is marked in it."""
+    from rapidgen.cli.asking import ask_open, ask_source, is_terminal
     from rapidgen.config.described import Answers
     from rapidgen.config.scaffold import assignments, from_shipped, from_urdf, write_new
 
+    if robot is None and urdf is None and is_terminal():
+        robot, urdf = ask_source()
     if (robot is None) == (urdf is None):
         raise refusal(
             "RG020",
@@ -69,25 +72,33 @@ def new(
     if robot is not None:
         text = from_shipped(robot)
     else:
-        assert urdf is not None
-        text = from_urdf(
-            urdf,
-            folder=file.parent,
-            package_paths=package_path or (),
-            macro=macro,
-            arguments=assignments(arg or ()),
-            macro_arguments=assignments(macro_arg or ()),
-            answers=Answers(
-                joints=assignments([*(joint or ()), *(track or ())]),
-                ignore=tuple(ignore or ()),
-                tips=tuple(tip or ()),
-                keep=tuple(keep or ()),
-                coupling=coupling,
-                speed=speed,
-                controller=controller,
-                robotware=robotware,
-            ),
+        described = urdf
+        assert described is not None
+        said = Answers(
+            joints=assignments([*(joint or ()), *(track or ())]),
+            ignore=tuple(ignore or ()),
+            tips=tuple(tip or ()),
+            keep=tuple(keep or ()),
+            coupling=coupling,
+            speed=speed,
+            controller=controller,
+            robotware=robotware,
         )
+
+        def make(answers: Answers) -> str:
+            return from_urdf(
+                described,
+                folder=file.parent,
+                package_paths=package_path or (),
+                macro=macro,
+                arguments=assignments(arg or ()),
+                macro_arguments=assignments(macro_arg or ()),
+                answers=answers,
+            )
+
+        if is_terminal():
+            said = ask_open(make, said)
+        text = make(said)
     try:
         notes = write_new(file, text, package_paths=package_path or (), force=force)
     except DiagnosticError:

@@ -1,4 +1,4 @@
-"""`rapidgen robots`: the shipped models."""
+"""`rapidgen robots`: the shipped models, and the known variants in figures."""
 
 from typing import Annotated
 
@@ -6,18 +6,37 @@ import typer
 
 
 def robots(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(help="Words that a line has to hold; or `show NAME` for one in figures."),
+    ] = None,
+    known: Annotated[
+        bool, typer.Option("--all", help="Also the variants that `new` recognises.")
+    ] = False,
     as_json: Annotated[bool, typer.Option("--json", help="One JSON array on stdout.")] = False,
 ) -> None:
-    """List the shipped models."""
-    from rapidgen.config.catalogue import shipped_models
+    """List the shipped models. `robots show NAME` prints axes, reach and sources."""
+    from rapidgen.config.catalogue import shipped_models, variant_named, variant_text
+    from rapidgen.config.library import variants
 
+    if words and words[0] == "show":
+        for variant in variant_named(" ".join(words[1:])):
+            typer.echo(variant_text(variant))
+        return
+    wanted = [word.casefold() for word in words or ()]
     models = shipped_models()
     if as_json:
         import json
 
         typer.echo(json.dumps([model.as_json() for model in models], indent=2))
         return
+    lines = []
     width = max(len(model.name) for model in models)
     for model in models:
         versions = ", ".join(f"RW{g}" for g in model.generations)
-        typer.echo(f"{model.name:<{width}}  {model.description} ({versions})")
+        lines.append(f"{model.name:<{width}}  {model.description} ({versions})")
+    if known or wanted:
+        lines += [f"{'-':<{width}}  {v.name}" for v in variants() if not v.model]
+    for line in lines:
+        if all(word in line.casefold() for word in wanted):
+            typer.echo(line)

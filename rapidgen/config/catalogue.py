@@ -1,11 +1,16 @@
 """What the shipped models are, in a line each."""
 
 from dataclasses import asdict, dataclass
+from itertools import pairwise
+from math import dist
 
 from rapidgen._json import Members
+from rapidgen.config.geometry import distance
+from rapidgen.config.library import Variant, variants
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped, shipped_names
 from rapidgen.config.tree import MappingNode, ScalarNode, decode, parse, read_bytes
+from rapidgen.diagnostics import refusal, suggest
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,3 +53,53 @@ def model_description(name: str) -> str:
     assert isinstance(root, MappingNode)
     entry = root.entries.get("description")
     return str(entry[1].value) if entry and isinstance(entry[1], ScalarNode) else ""
+
+
+def variant_named(name: str) -> tuple[Variant, ...]:
+    """The variants of a shipped model's name, or of a type; raises DiagnosticError (RG009)."""
+    wanted = name.casefold().replace(" ", "")
+    every = variants()
+    found = [v for v in every if wanted == v.model or wanted == v.name.casefold().replace(" ", "")]
+    found = found or [v for v in every if wanted and wanted in v.name.casefold().replace(" ", "")]
+    if found:
+        return tuple(found)
+    known = [*shipped_names(), *(v.name for v in every)]
+    raise refusal(
+        "RG009",
+        None,
+        f"no arm is known as '{name}'",
+        (f"{meant}; " if (meant := suggest(name, known)) else "")
+        + "`rapidgen robots --all` lists them",
+    )
+
+
+def variant_text(variant: Variant) -> str:
+    """Axes, reach, coupling and sources of a variant for people."""
+    lines = [variant.name + (f" (model {variant.model})" if variant.model else "")]
+    for axis, line in zip(variant.axes, variant.skeleton.lines, strict=True):
+        unit = "mm" if line.slides else "deg"
+        span = "?" if axis.lower is None else f"{axis.lower:g}..{axis.upper:g} {unit}"
+        speed = "? " if axis.speed is None else f"{axis.speed:g} {unit}/s"
+        at = ", ".join(f"{v * 1000:g}" for v in line.point)
+        mark = f"   unsure: {', '.join(axis.unsure)}" if axis.unsure else ""
+        lines.append(f"  {axis.axis:<6} {span:<20} {speed:<12} at {at} mm{mark}")
+    lines.append(f"  reach  {reach(variant) * 1000:.0f} mm from axis 1 to the last wrist axis")
+    end = ", ".join(f"{v * 1000:g}" for v in variant.skeleton.end)
+    lines.append(f"  flange at {end} mm with every axis at 0")
+    coupling = "not known" if variant.coupling is None else f"{variant.coupling:g}"
+    lines.append(f"  coupling {coupling}")
+    lines += [f"  {what}: {source}" for what, source in variant.sources]
+    if variant.unsure:
+        lines.append(f"  without a second source: {', '.join(variant.unsure)}")
+    lines += [f"  differs: {text}" for text in variant.disagreements]
+    return "\n".join(lines)
+
+
+def reach(variant: Variant) -> float:
+    """Distance (m) from axis 1 that the wrist has with the arm stretched out."""
+    lines = variant.skeleton.lines
+    first, across = lines[0], [line.point for line in lines[1:]]
+    # ABB counts to the wrist centre: where axis 5 is, or the last axis of four.
+    place = 4 if len(lines) == 6 else len(lines) - 2 if len(lines) > 6 else len(lines) - 1
+    radial = distance(lines[1], first)
+    return radial + sum(dist(a, b) for a, b in pairwise(across[:place]))

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from rapidgen.diagnostics import Diagnostic, error
 
-_OF_A_KIND = 6
+_OF_A_KIND = 8
 _TOGETHER = 30
 _MESSAGE, _LABEL, _HELP = 300, 100, 900
 _WHOLE = 3000

@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from rapidgen.cli import asking
 from rapidgen.cli.new import new
 from rapidgen.cli.robots import robots
 from rapidgen.cli.schema import schema
@@ -140,6 +141,54 @@ def test_axes_are_said_on_the_command_line(tmp_path):
     assert codes(path, urdf=tmp_path / "r.urdf", joint=["joint_1=rax_1"]) == (["RG020"], 2)
 
 
+@pytest.fixture
+def person(monkeypatch):
+    """Somebody who answers; what was asked."""
+    asked = []
+
+    def answers(*given):
+        left = iter(given)
+
+        def prompt(question, default=None, **_):
+            asked.append(question)
+            answer = next(left)
+            return default if answer is None else answer
+
+        monkeypatch.setattr(asking, "is_terminal", lambda: True)
+        monkeypatch.setattr(asking.typer, "prompt", prompt)
+        return asked
+
+    return answers
+
+
+def test_a_person_is_asked_for_what_is_open(tmp_path, person, capsys):
+    (tmp_path / "r.urdf").write_text(
+        f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
+    )
+    axes = ("rax_1", "rax_2", "eax_a", "rax_3", "axis 4", "rax_4", None, None)
+    asked = person(*axes, "0")
+    new(tmp_path / "cell.yaml", urdf=tmp_path / "r.urdf")
+    # What is usual comes first: behind rax_4 rax_5 and rax_6 are left.
+    joints = load_config(tmp_path / "cell.yaml").groups[0].joints
+    assert [(j.name[-1], j.axis) for j in joints] == [
+        ("1", "rax_1"), ("2", "rax_2"), ("3", "rax_3"), ("4", "rax_4"), ("5", "rax_5"),
+        ("6", "rax_6"), ("7", "eax_a"),
+    ]  # fmt: skip
+    assert len(asked) == 9
+    told = capsys.readouterr().err
+    assert "| ?      joint_7" in told
+    assert "one of rax_1" in told
+
+
+def test_a_person_names_the_robot(tmp_path, person):
+    person(None)
+    new(tmp_path / "cell.yaml")
+    assert load_config(tmp_path / "cell.yaml").groups == load_config("irb120").groups
+    person(str(URDFS / "irb2400.urdf"))
+    new(tmp_path / "cell.yaml", force=True)
+    assert load_config(tmp_path / "cell.yaml").groups[0].coupling == 1
+
+
 def test_a_file_is_only_replaced_when_told(tmp_path):
     path = tmp_path / "cell.yaml"
     path.write_text("mine")
@@ -165,6 +214,39 @@ def test_the_list_of_robots(capsys):
     listed = {model["name"]: model for model in json.loads(capsys.readouterr().out)}
     assert listed["irb14000"]["groups"] == {"rob_l": 7, "rob_r": 7}
     assert listed["irb120"]["unsure"] is False
+
+
+def test_robots_are_filtered_by_words(capsys):
+    robots(["palletiser", "rw7"])
+    assert [line.split()[0] for line in capsys.readouterr().out.splitlines()] == [
+        "irb460",
+        "irb660",
+    ]
+    robots(["4600"])
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith("irb4600 ")
+    assert any("IRB 4600-20/2.5" in line for line in lines)
+
+
+# Reach as in the types' names (m), of the wrist centre.
+@pytest.mark.parametrize(
+    ("name", "reach"),
+    [("irb120", 580), ("irb1600", 1225), ("IRB 4600-40/2.55", 2550), ("irb6640", 2800)],
+)
+def test_a_robot_is_shown_with_axes_reach_and_sources(capsys, name, reach):
+    robots(["show", name])
+    text = capsys.readouterr().out
+    assert text.count("rax_") >= 6
+    told = int(text.split("reach  ")[1].split()[0])
+    assert told == pytest.approx(reach, rel=0.03)
+    assert "limits: " in text
+    assert "coupling 0" in text
+
+
+def test_a_robot_that_nobody_knows_is_not_shown():
+    with pytest.raises(DiagnosticError) as caught:
+        robots(["show", "irb9999"])
+    assert [d.code for d in caught.value.diagnostics] == ["RG009"]
 
 
 def test_the_schema_is_json(capsys):

@@ -123,7 +123,7 @@ def calc_joint_t(
     flange = placed.flange(frame(target))
     try:
         check = group.settings.configuration_check
-        posture = joints_for(geometry_of(group), flange, near, wanted, check)
+        posture = joints_for(geometry_of(group), flange, near, wanted, check, here)
     except RapidError as error:
         if number is None:
             raise

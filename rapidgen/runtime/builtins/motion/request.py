@@ -51,7 +51,7 @@ def joint_move(
     flange = common["carrier"].at(near).flange(frame(target))
     wanted = configuration_of(target.robconf) if group.modal.check_joint else None
     check = group.settings.configuration_check
-    posture = joints_for(kinematics, flange, near, wanted, check)
+    posture = joints_for(kinematics, flange, near, wanted, check, group.path_target)
     return group, JointMove(target=posture, events=events, **common)
 
 
@@ -60,13 +60,19 @@ def cartesian_move(
 ) -> tuple[MotionGroup, Move]:
     """To a robtarget on a line, or on the circle through `CirPoint`."""
     group = moving_group(task)
-    geometry_of(group)
+    kinematics = geometry_of(group)
     common = _common(task, group, given)
     target, via = given["ToPoint"], given.get("CirPoint")
+    external = external_posture(group, target.extax, data_of(task, group).external_offset)
+    if kinematics.seventh >= 0:
+        # The seventh axis goes straight to where it is at the end, with the arm angle there.
+        flange = common["carrier"].at(external).flange(frame(target))
+        check, ends = group.settings.configuration_check, group.path_target
+        external = joints_for(kinematics, flange, external, None, check, ends)
     wanted = configuration_of(target.robconf) if group.modal.check_linear else None
     return group, CartesianMove(
         target=frame(target),
-        external=external_posture(group, target.extax, data_of(task, group).external_offset),
+        external=external,
         via=None if via is None else frame(via),
         wanted=wanted,
         singularities=group.modal.singularities,

@@ -90,13 +90,25 @@ def joints_for(
     near: Posture,
     wanted: AxisConfiguration | None,
     check: ConfigurationCheck,
+    here: Posture,
 ) -> Posture:
     """The posture for a flange pose: that of the wanted configuration, or the closest one.
 
-    External axes are those of `near`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis outside its
-    range in every posture); FatalError 50080: not with this configuration.
+    External axes are those of `near`; of an arm with seven axes its seventh value is the arm angle
+    that the target asks for, unless it is that of `here`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis
+    outside its range in every posture); FatalError 50080: not with this configuration.
     """
-    found = kinematics.solutions(flange, near)
+    place = kinematics.seventh
+    if place >= 0 and near[place] != here[place]:
+        started = (*near[:place], here[place], *near[place + 1 :])
+        found = []
+        for one in kinematics.at_arm_angle(flange, near[place], started):
+            found.append(one)
+            if wanted is None or kinematics.fitting([one], wanted, check) is not None:
+                return one
+        near = started
+    else:
+        found = kinematics.solutions(flange, near)
     if not found:
         if kinematics.reaches(flange, near):
             raise RapidError("ERR_ROBLIMIT")
@@ -114,6 +126,14 @@ def joints_for(
     )
 
 
+def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:
+    """A posture with the arm angle in the place of the seventh axis, where there is one."""
+    place = kinematics.seventh
+    if place < 0:
+        return posture
+    return (*posture[:place], kinematics.arm_angle(posture), *posture[place + 1 :])
+
+
 def configuration_of(data: Value) -> AxisConfiguration:
     """confdata"""
     return int(data.cf1), int(data.cf4), int(data.cf6), int(data.cfx)
@@ -129,5 +149,5 @@ def rob_target(group: MotionGroup, posture: Posture, carrier: Carrier, offsets: 
         Pos(single(x * 1000), single(y * 1000), single(z * 1000)),
         Orient(*map(single, q)),
         ConfData(*kinematics.configuration(posture)),
-        external_target(group.map.to_rapid(posture)[1], offsets),
+        external_target(group.map.to_rapid(with_arm_angle(kinematics, posture))[1], offsets),
     )

@@ -1,0 +1,95 @@
+"""ABB's arm angle: what eax_a of a robtarget means for an arm of seven axes.
+
+The seventh axis' own value stands in jointtargets only. In a robtarget eax_a is the angle of the
+elbow about the line from shoulder to wrist: with e along that line, h along axis 3 (the fourth of
+the arm) and r the reference direction, atan2(-(e x (e x r)) . h, -(e x r) . h). Shoulder: on axis 1
+at axis 2; wrist: on axis 6 at axis 5. After A. Elias, J. Wen, "Redundancy Parameterization of the
+ABB YuMi Robot Arm" (arXiv 2505.23111), whose ten postures read in RobotStudio are the tests.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import atan2, pi
+from typing import TYPE_CHECKING, TypeAlias
+
+from rapidgen.axes import frames
+from rapidgen.axes.frames import Pose, Vector, error
+
+if TYPE_CHECKING:
+    from rapidgen.axes.numeric import Search
+
+Axis: TypeAlias = tuple[Vector, Vector]
+"""A point and the direction of an axis."""
+_STEP = 1e-7
+_ROUNDS = 25
+_EXACT = 1e-9
+_LARGEST = 0.4
+_STARTS = 160
+
+
+@dataclass(frozen=True)
+class ArmAngle:
+    """The arm angle of one arm; `reference` is r in the frame where its chain begins."""
+
+    reference: Vector
+
+    def of(self, axes: Sequence[Axis]) -> float:
+        """The angle (rad) of an arm whose seven axes lie so, in the order of the chain."""
+        shoulder, wrist = _foot(axes[0], axes[1]), _foot(axes[6], axes[5])
+        along = frames.unit(frames.subtract(wrist, shoulder))
+        across = frames.cross(along, self.reference)
+        elbow = axes[3][1]
+        return atan2(-frames.dot(frames.cross(along, across), elbow), -frames.dot(across, elbow))
+
+    def postures(
+        self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
+    ) -> Iterator[tuple[float, ...]]:
+        """Values of an arm that reach a pose with an arm angle, near ones of the start first."""
+        found = self._near(search, pose, angle, start)
+        if found is not None:
+            yield found
+        for row in search.closest(pose, _STARTS):
+            found = self._near(search, pose, angle, row)
+            if found is not None:
+                yield found
+
+    def _near(
+        self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
+    ) -> tuple[float, ...] | None:
+        import numpy as np  # only where an arm has seven axes
+
+        def off(values: Sequence[float]) -> list[float]:
+            flange, axes = search.lines(values)
+            turned = angle - self.of(axes)
+            return [*error(flange, pose), turned - 2 * pi * round(turned / (2 * pi))]
+
+        values, last = list(start), 1e9
+        for _ in range(_ROUNDS):
+            here = off(values)
+            size = max(map(abs, here))
+            if size < _EXACT:
+                return tuple(values)
+            if size > 3 * last:
+                return None
+            last = size
+            columns = []
+            for n in range(len(values)):
+                moved = values.copy()
+                moved[n] += _STEP
+                columns.append([(a - b) / _STEP for a, b in zip(here, off(moved), strict=True)])
+            jacobian = np.array(columns).T
+            normal = jacobian.T @ jacobian + 1e-8 * size * np.eye(len(values))
+            step = np.linalg.solve(normal, jacobian.T @ np.array(here))
+            share = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))
+            for n, change in enumerate(step):
+                values[n] += share * float(change)
+        return None
+
+
+def _foot(axis: Axis, other: Axis) -> Vector:
+    """The point of an axis that is closest to another one."""
+    (p, a), (q, b) = axis, other
+    normal = frames.cross(a, b)
+    way = frames.subtract(q, p)
+    along = frames.dot(frames.cross(way, b), normal) / frames.dot(normal, normal)
+    return frames.add(p, frames.scale(a, along))
