@@ -203,7 +203,8 @@ def _second_stops(bench: Bench) -> None:
         bench.moves_through(new, bench.wave(3))
         old = new
     # Its own trajectory takes the place of what is under way, and begins where that has stopped.
-    _sets_off(bench, old, "download")
+    # Slow, so that the place at hand is near the one where it stops.
+    _sets_off(bench, old, "fed")
     new, here = bench.motion(), bench.position
     new.send(point_frame(0, 2, here, 3.0) + point_frame(1, 2, here, 3.0))
     bench.wait_until_at(here, 8)
