@@ -147,7 +147,7 @@ def _silent(bench: Bench, old: RawLink, what: str, points: list[Point]) -> RawLi
     return new
 
 
-@case("silent-at-rest", "a newer client waits for a second of silence", "R12")
+@case("silent-at-rest", "a newer client waits for a second of silence", "R12", needs="stream")
 def _silent_at_rest(bench: Bench) -> None:
     old = bench.motion()
     for _ in range(2):
@@ -155,7 +155,9 @@ def _silent_at_rest(bench: Bench) -> None:
         old = _silent(bench, old, "nothing", [])
 
 
-@case("silent-while-fed", "a client that is silent while its trajectory is fed", "R12")
+@case(
+    "silent-while-fed", "a client that is silent while its trajectory is fed", "R12", needs="stream"
+)
 def _silent_while_fed(bench: Bench) -> None:
     policy = bench.config.trajectory
     # Slow points: the last few do not find room in the ring for seconds.
@@ -163,7 +165,12 @@ def _silent_while_fed(bench: Bench) -> None:
     _silent(bench, bench.motion(), "fed", bench.wave(count, duration=1.5, size=0.1))
 
 
-@case("silent-while-moving", "a client that is silent while its trajectory or stream moves", "R12")
+@case(
+    "silent-while-moving",
+    "a client that is silent while its trajectory or stream moves",
+    "R12",
+    needs="stream",
+)
 def _silent_while_moving(bench: Bench) -> None:
     """Over the other socket of the server, too."""
     place, old = bench.position, bench.motion()

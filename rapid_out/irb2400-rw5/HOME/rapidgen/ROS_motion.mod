@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "065ebd2a1140";
+    CONST string ROS_BUILD_MOTION := "e81a529a1dd8";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -67,8 +67,7 @@ MODULE ROS_motion
 
     ! Serve the ring for ever.
     PROC ROS_run()
-        ROS_start_task ROS_shown_motion,
-            ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_motion, ROS_BUILD_MOTION = ROS_BUILD_ID;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
@@ -222,8 +221,7 @@ MODULE ROS_motion
             take_time part_after(next);
         ENDIF
         IF point.dwell THEN
-            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited
-                \PollRate:=0.04;
+            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF stops THEN

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "3a6c501b9296";
+    CONST string ROS_BUILD_MOTION := "b7a354d8101d";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -63,8 +63,7 @@ MODULE ROS_motion
 
     ! Serve the ring for ever.
     PROC ROS_run()
-        ROS_start_task ROS_shown_motion_1,
-            ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_motion_1, ROS_BUILD_MOTION = ROS_BUILD_ID;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
@@ -209,8 +208,7 @@ MODULE ROS_motion
         ROS_tail_1 := next;
         ROS_planned_1 := arrived;
         IF point.dwell THEN
-            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=waited
-                \PollRate:=0.04;
+            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF first OR stops_before(next) THEN
