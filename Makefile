@@ -109,7 +109,7 @@ exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are fou
 schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
 	$(BIN)/python benchmarks/fast_stops.py --jobs 2 --pairs irb120 irb6700
 
-driver-frames: $(STAMP) ## 30 min: 100,000 malformed openings, each followed by a good client
+driver-frames: $(STAMP) ## 30 min: 100,000 hostile openings on all ports, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2
 
 driver-day: $(STAMP) ## 1 min: 24 simulated hours, a trajectory every ten minutes, the state read

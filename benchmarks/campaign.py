@@ -3,10 +3,11 @@
     python benchmarks/campaign.py frames [--count N] [--jobs N] [ROBOT]
     python benchmarks/campaign.py days [--hours N] [--watched SHARE] [ROBOT]
 
-`frames`: N (default 100,000) malformed openings, each followed by a good client, which must be
-served; none may move the robot. `days`: N simulated hours (default 24) with a trajectory every ten
-minutes; a client reads the state for SHARE of the time (default all of it), and each STATUS
-has to come within one period of its turn. Memory is looked at every hour.
+`frames`: N (default 100,000) hostile openings on all ports, under the strictest readings together,
+each followed by a good client, which must be served; none may move the robot or end a task. `days`:
+N simulated hours (default 24) with a trajectory every ten minutes; a client reads the state for
+SHARE of the time (default all of it), and each STATUS has to come within one period of its turn.
+Memory is looked at every hour.
 """
 
 import argparse
@@ -24,17 +25,22 @@ from rapidgen.generate import build, make_system
 from rapidgen.proving.bench import FAILURES, Bench
 from rapidgen.proving.messages import STATUS
 from rapidgen.proving.settings import Setting
-from rapidgen.proving.suite.framing import campaign
+from rapidgen.proving.suite.hostile import campaign
+from rapidgen.rapid.switches import parse_switches
 
 CHUNK = 500
-"""Malformed openings for one controller."""
+"""Openings for one controller."""
+STRICT = parse_switches(
+    "unpack_ulint=error,argument_error=fatal,pack_beyond=error,negative_mod=error"
+)
+"""Beside the default, under which an error that no routine handles ends its task."""
 ROUND = 600.0
 """Simulated s from one trajectory to the next."""
 
 
 def frames_of(seed):
     """What went wrong with one controller's share."""
-    bench = Bench(CONFIG, SYSTEM, Setting(seed=seed))
+    bench = Bench(CONFIG, SYSTEM, Setting(seed=seed, dialect=STRICT))
     try:
         campaign(bench, CHUNK)
         bench.healthy()
@@ -56,7 +62,7 @@ def frames(count, jobs):
             if done % 20 == 0:
                 print(f"{done * CHUNK} after {time.monotonic() - started:.0f} s", flush=True)
     print(
-        f"{chunks * CHUNK} malformed openings, each followed by a good client: "
+        f"{chunks * CHUNK} hostile openings on all ports, each followed by a good client: "
         f"{len(wrong)} controllers of {chunks} failed; {time.monotonic() - started:.0f} s"
     )
     return bool(wrong)

@@ -22,6 +22,8 @@ DEFAULT_PORTS = (11000, 11001, 11002)
 PORT_STEP = 10
 _PLAIN_PORTS_END = 4999
 
+_SMALL_ZONES = ("fine", "z0", "z1", "z5", "z10")
+
 
 def build(
     configuration: schema.ConfigurationKeys,
@@ -32,6 +34,7 @@ def build(
     """The model, or None when `report` holds errors; `path` is the file it is named after."""
     _check_controller(configuration, report)
     _check_network(configuration, report)
+    _check_profile(configuration, report)
     if not configuration.groups and not report.is_faulty(("groups",)):
         report.error(
             "RG013",
@@ -39,8 +42,9 @@ def build(
             (),
             help="give `model:` (see `rapidgen robots`), or `urdf:` and `joints:`",
         )
+    basic = configuration.profile == "basic"
     groups = [
-        _group(index, configuration.groups[draft.name], draft, report)
+        _group(index, configuration.groups[draft.name], draft, report, basic=basic)
         for index, draft in enumerate(drafts)
     ]
     _check_ports(configuration, groups, report)
@@ -64,6 +68,7 @@ def build(
                 **vars(settings),
                 "start_tolerance": math.radians(settings.start_tolerance),
                 "start_tolerance_linear": settings.start_tolerance_linear / 1000,
+                **(_one_size(settings.zone) if basic else {}),
             }
         ),
         state_period=1 / configuration.state.rate,
@@ -71,6 +76,7 @@ def build(
         allowed_clients=tuple(configuration.network.allowed_clients),
         receive_timeout=configuration.network.receive_timeout,
         commissioning=configuration.commissioning,
+        profile=configuration.profile,
         call_main=configuration.main == "driver",
         signals=tuple(
             model.ExposedSignal(name, signal.kind, signal.access)
@@ -111,6 +117,30 @@ def _check_controller(configuration: schema.ConfigurationKeys, report: DraftFind
         )
 
 
+def _one_size(zone: str) -> dict[str, str]:
+    """Corners of the basic profile: all of one size, z10 at most, as those of abb_driver."""
+    return {"corners": "zone", "zone": zone if zone in _SMALL_ZONES else "z10"}
+
+
+def _check_profile(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
+    """What is asked for has to be there: the basic profile has no control server."""
+    if configuration.profile == "full":
+        return
+    asked: list[KeyPath] = [("signals",)] if configuration.signals else []
+    asked += [
+        ("groups", name, "ports", "control")
+        for name, group in configuration.groups.items()
+        if group.ports.control
+    ]
+    for path in asked:
+        report.error(
+            "RG014",
+            f"`{path[-1]}` is of the full profile",
+            path,
+            help="leave out `profile: basic`, or this",
+        )
+
+
 def _check_network(configuration: schema.ConfigurationKeys, report: DraftFindings) -> None:
     addresses: list[tuple[KeyPath, str]] = [
         (("network", "allowed_clients", index), address)
@@ -136,7 +166,12 @@ def _check_network(configuration: schema.ConfigurationKeys, report: DraftFinding
 
 
 def _group(
-    index: int, keys: schema.GroupKeys, draft: GroupDraft, report: DraftFindings
+    index: int,
+    keys: schema.GroupKeys,
+    draft: GroupDraft,
+    report: DraftFindings,
+    *,
+    basic: bool,
 ) -> model.GroupConfig:
     path: KeyPath = ("groups", draft.name)
     joints = joints_of(keys, draft, path, report)
@@ -167,7 +202,9 @@ def _group(
             *(
                 given if given is not None else default + PORT_STEP * index
                 for given, default in zip(
-                    (ports.motion, ports.control, ports.state), DEFAULT_PORTS, strict=True
+                    (ports.motion, 0 if basic else ports.control, ports.state),
+                    DEFAULT_PORTS,
+                    strict=True,
                 )
             )
         ),

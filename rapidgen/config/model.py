@@ -205,6 +205,8 @@ class RobotConfig:
     allowed_clients: tuple[str, ...] = ()
     receive_timeout: float = 0.0
     commissioning: bool = False
+    profile: Literal["basic", "full"] = "full"
+    """`basic`: trajectories that come whole, STOP and the state; nothing for the paired client."""
     """Background tasks NORMAL instead of SEMISTATIC, so that they can be stopped and edited."""
     call_main: bool = True
     """False: the motion task's own `main` calls the driver's entry routine."""

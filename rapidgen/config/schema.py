@@ -447,6 +447,13 @@ class ConfigurationKeys(_Part):
     commissioning: Annotated[
         bool, Rule("True while setting up: background tasks are NORMAL, not SEMISTATIC.")
     ] = False
+    profile: Annotated[
+        Literal["full", "basic"],
+        Rule(
+            "`full`: also streams, a control connection, events and feedback for the paired "
+            "client. `basic`: none of them, and less RAPID."
+        ),
+    ] = "full"
     main: Annotated[
         Literal["driver", "own"],
         Rule("`driver`: the module brings `main`. `own`: your `main` calls the entry routine."),

@@ -15,14 +15,14 @@ from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
 from rapidgen.generate.cell import Cell, in_the_way, missing, used_signals
-from rapidgen.generate.context import group_context
+from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.lint import lint
 from rapidgen.generate.naming import naming
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import OPEN_FILES, cfg_files
 from rapidgen.generate.readme import readme_context
-from rapidgen.generate.render import Renderer
+from rapidgen.generate.render import Rendered, Renderer
 from rapidgen.system import ModuleFile, System, TaskSpec, expand_lines, write_cfg
 from rapidgen.system.interpret import ModuleEntry
 from rapidgen.system.onto import Under, additions, delivered, of_backup, onto
@@ -106,17 +106,27 @@ def make_build_id(config: RobotConfig, templates: Path) -> str:
 def _modules(
     config: RobotConfig, group: GroupConfig, build_id: str, renderer: Renderer
 ) -> list[OutputFile]:
-    context = group_context(config, group, build_id, data_folder("templates"))
+    context = group_context(config, group, build_id)
+    names = layout.modules(config, group)
+
+    def render(module: str, **more: object) -> Rendered:
+        kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
+        return renderer.render(f"{module}.{kind}.j2", **context, **more)
+
+    found = {module: render(module) for module in names if module != layout.COMMON}
+    # What the others name is declared there; it has some uses of its own.
+    own = render(layout.COMMON, constants=(), reasons=())
+    used = used_constants(rendered.text for rendered in (*found.values(), own))
+    found[layout.COMMON] = render(layout.COMMON, **used)
     files = []
     faults = []
-    for module in layout.modules(group):
-        kind = "sys" if module in layout.SYSTEM_MODULES else "mod"
-        rendered = renderer.render(f"{module}.{kind}.j2", **context)
+    for module in names:
+        rendered = found[module]
         path = f"HOME/{layout.module_file(config, group, module)}"
         faults += lint(path, rendered.text)
         tasks = tuple(
             layout.task_name(config, group, role)
-            for role in layout.roles(group)
+            for role in layout.roles(config, group)
             if module in role.modules
         )
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.

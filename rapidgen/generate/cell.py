@@ -63,7 +63,7 @@ def fit(config: RobotConfig, cell: Cell) -> RobotConfig:
         and text.domain in ("SYS", "EIO", "SIO")
         and text.version != known_digits(text.domain, robotware)
     )
-    ours = {name.casefold() for group in config.groups for name in modules(group)}
+    ours = {name.casefold() for group in config.groups for name in modules(config, group)}
     own_main = any(_has_main(task, ours) for task in cell.system.tasks if task.motion)
     return replace(
         config,

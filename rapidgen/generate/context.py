@@ -2,8 +2,8 @@
 
 import math
 import re
+from collections.abc import Iterable
 from dataclasses import asdict
-from pathlib import Path
 
 from rapidgen import __version__
 from rapidgen.config.model import (
@@ -51,14 +51,11 @@ _FACTORS = (
 )
 
 
-def group_context(
-    config: RobotConfig, group: GroupConfig, build_id: str, templates: Path
-) -> dict[str, object]:
-    """What the modules of one motion group are rendered from."""
+def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[str, object]:
+    """What the modules of one motion group are rendered from, but for `used_constants`."""
     x = layout.suffix(config, group)
     joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
-    constants = used_constants(templates)
-    roles = layout.roles(group)
+    roles = layout.roles(config, group)
     return {
         "name": config.name,
         "group": group.name,
@@ -70,8 +67,6 @@ def group_context(
             {"role": role.name, "task": layout.task_name(config, group, role)} for role in roles
         ],
         "one_build": {role.name: _one_build(role) for role in roles},
-        "constants": constants,
-        "reasons": _reasons(constants),
         "factors": [f for f in _FACTORS if any(j["factor"] == f["name"] for j in joints)],
         "ring": config.trajectory.ring,
         "wrap": WRAP,
@@ -102,6 +97,7 @@ def group_context(
         "approach": config.trajectory.approach_speed,
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
+        "full": config.profile == "full",
         "state_period": config.state_period,
         "belief": max(_BELIEF, _BELIEF_MESSAGES * config.state_period),
         "tcp_speed": group.tcp_speed_limit * _MM,
@@ -181,16 +177,20 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
     ]
 
 
-def used_constants(templates: Path) -> list[dict[str, object]]:
-    """Constants of the wire that some template names, in the order of the specification."""
+def used_constants(texts: Iterable[str]) -> dict[str, object]:
+    """Constants of the wire that some text names, in the order of the specification.
+
+    And the reasons that the driver can give, with their texts.
+    """
     words: set[str] = set()
-    for path in sorted(templates.glob("ROS_*.j2")):
-        words.update(re.findall(r"\bROS_[A-Z_]+\b", path.read_text(encoding="utf-8")))
-    return [
+    for text in texts:
+        words.update(re.findall(r"\bROS_[A-Z_]+\b", text))
+    constants: list[dict[str, object]] = [
         {"name": constant.name, "value": constant.value, "type": constant.type}
         for constant in rapid.rapid_constants()
         if constant.name in words
     ]
+    return {"constants": constants, "reasons": _reasons(constants)}
 
 
 def _reasons(constants: list[dict[str, object]]) -> list[dict[str, str]]:

@@ -13,7 +13,10 @@ from rapidgen.wire.simple_message.spec import Feature, ReplyCode
 
 def features(config: RobotConfig, group: GroupConfig) -> Feature:
     """What the driver of a group can do beyond the standard messages."""
-    found = Feature.PROGRESS | Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK
+    found = Feature.PROGRESS
+    if config.profile == "basic":
+        return found
+    found |= Feature.STREAMING | Feature.EVENTS | Feature.FEEDBACK
     if group.ports.control:
         found |= Feature.CONTROL
         if config.signals:
@@ -27,7 +30,7 @@ def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[
     The first of a field that is not zero has its `label`, for people who read the module.
     """
     joints = group.joints
-    policy = config.trajectory
+    policy, streams = config.trajectory, config.profile == "full"
     numbers = range(1, len(joints) + 1)
     filled = ["0"] * (spec.MAX_JOINTS - len(joints))
     values: dict[str, list[str]] = {
@@ -49,14 +52,14 @@ def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[
         "min_segment": [literal(policy.min_segment)],
         "start_tolerance": [literal(policy.start_tolerance)],
         "start_tolerance_linear": [literal(policy.start_tolerance_linear)],
-        "lower": [*(f"ROS_lower_{n}" for n in numbers), *filled],
-        "upper": [*(f"ROS_upper_{n}" for n in numbers), *filled],
+        "lower": [*(f"ROS_lower{{{n}}}" for n in numbers), *filled],
+        "upper": [*(f"ROS_upper{{{n}}}" for n in numbers), *filled],
         "speed": [*(literal(j.speed) for j in joints), *filled],
         "control_port": [str(group.ports.control)],
         # One place of the ring stays free.
-        "ring": [str(policy.ring - 1)],
-        "preload": [literal(policy.preload)],
-        "batch": [str(messages.batch_points(len(joints)))],
+        "ring": [str(policy.ring - 1 if streams else 0)],
+        "preload": [literal(policy.preload if streams else 0)],
+        "batch": [str(messages.batch_points(len(joints)) if streams else 0)],
         "signals": [str(len(config.signals) if group.ports.control else 0)],
     }
     forms = {
@@ -70,9 +73,17 @@ def hello_reply(config: RobotConfig, group: GroupConfig, build_id: str) -> dict[
         given = values[field.name]
         step = field.size if field.type is Wire.CHAR else field.type.size
         label = field.name.replace("_", " ") + (f", {field.unit}" if field.unit else "")
+        if given[0].endswith("{1}"):
+            # Limits in force: one after the other, the rest stays zero.
+            packed = forms[field.type].format(
+                given[0].replace("1", "joint"), f"{offset - step} + {step} * joint"
+            )
+            items.append({"value": "", "packed": packed, "label": label, "joints": len(joints)})
+            offset += field.size
+            continue
         for value in given:
             packed = forms[field.type].format(value, offset)
-            part = {"value": value, "packed": packed, "label": ""}
+            part = {"value": value, "packed": packed, "label": "", "joints": 0}
             if value != "0":
                 part["label"], label = label, ""
             items.append(part)

@@ -4,7 +4,7 @@ The structure (one reader, one supervisor, one state server and the motion task 
 group) and its reasons are in docs/use/driver.md.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rapidgen.config.model import GroupConfig, Joint, RobotConfig
 from rapidgen.generate.status import STATUS_SIGNALS, StatusSignal
@@ -19,7 +19,7 @@ from rapidgen.system import (
 from rapidgen.system.model import TaskType
 
 COMMON, LIMITS, EVENTS = "ROS_common", "ROS_limits", "ROS_events"
-MESSAGES, SOCKET = "ROS_messages", "ROS_socket"
+MESSAGES, SOCKET, STREAM = "ROS_messages", "ROS_socket", "ROS_stream"
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ ROLES = (
             SOCKET,
             "ROS_acceptance",
             "ROS_download",
-            "ROS_stream",
+            STREAM,
             "ROS_motionServer",
         ),
     ),
@@ -55,14 +55,21 @@ ROLES = (
 SYSTEM_MODULES = (COMMON, EVENTS, LIMITS, MESSAGES, SOCKET)
 
 
-def roles(group: GroupConfig) -> tuple[TaskRole, ...]:
-    """The tasks of a group: without a control port there is no control server."""
-    return tuple(role for role in ROLES if group.ports.control or role.name != "control")
+def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
+    """The tasks of a group, with the modules that its profile has."""
+    left_out = () if config.profile == "full" else (STREAM,)
+    return tuple(
+        replace(role, modules=tuple(m for m in role.modules if m not in left_out))
+        for role in ROLES
+        if role.name != "control" or group.ports.control
+    )
 
 
-def modules(group: GroupConfig) -> tuple[str, ...]:
+def modules(config: RobotConfig, group: GroupConfig) -> tuple[str, ...]:
     """Modules of a group, each once: those that several tasks load first."""
-    return tuple(dict.fromkeys((*SYSTEM_MODULES, *(m for r in roles(group) for m in r.modules))))
+    return tuple(
+        dict.fromkeys((*SYSTEM_MODULES, *(m for r in roles(config, group) for m in r.modules)))
+    )
 
 
 FOLDER = "rapidgen"
@@ -113,7 +120,11 @@ def make_system(config: RobotConfig, build_id: str) -> System:
         tasks=tuple(
             # As on a controller: its own motion tasks, and then those that were added.
             sorted(
-                (_task(config, group, role) for group in config.groups for role in roles(group)),
+                (
+                    _task(config, group, role)
+                    for group in config.groups
+                    for role in roles(config, group)
+                ),
                 key=lambda task: not task.motion,
             )
         ),
@@ -143,7 +154,7 @@ def _restarts(config: RobotConfig) -> tuple[EventRoutine, ...]:
     return tuple(
         EventRoutine("ROS_on_restart", event, task_name(config, group, role), order=EVENT_ORDER)
         for group in config.groups
-        for role in roles(group)
+        for role in roles(config, group)
         if role.name in ("motion_server", "control")
         for event in ("START", "RESTART")
     )

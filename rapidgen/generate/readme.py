@@ -27,6 +27,7 @@ def readme_context(config: RobotConfig, system: System, build_id: str) -> dict[s
         "yumi": all(group.model.startswith("irb140") for group in config.groups),
         "multi": len(config.groups) > 1,
         "commissioning": config.commissioning,
+        "full": config.profile == "full",
         "call_main": config.call_main,
         "bind": config.bind,
         "allowed": config.allowed_clients,

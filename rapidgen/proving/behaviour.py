@@ -7,6 +7,8 @@ from typing import Literal, TypeAlias
 from rapidgen.proving.bench import Bench
 
 Proving: TypeAlias = Callable[[Bench], None]
+Part: TypeAlias = Literal["control", "stream", "feedback", "events"]
+"""What a driver may be built without: by its profile, or without a control port."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,13 +34,12 @@ class Behaviour:
 class Theme:
     """The cases of one file, in the order of its text: a decorator that says a case's own facts.
 
-    With `port="control"`, for all or for one, there is nothing to prove where the configuration has
-    no such port.
+    Where the driver lacks what a case `needs`, or all of them, there is nothing to prove.
     """
 
-    def __init__(self, group: str, *, port: Literal["", "control"] = "") -> None:
+    def __init__(self, group: str, *, needs: Part | None = None) -> None:
         self._group = group
-        self._port = port
+        self._needs = needs
         self.cases: list[Behaviour] = []
 
     def __call__(
@@ -49,21 +50,24 @@ class Theme:
         *,
         once: bool = False,
         background: bool = False,
-        port: Literal["", "control"] = "",
+        needs: Part | None = None,
     ) -> Callable[[Proving], Proving]:
         """Make a function the case of that name; it stays what it is."""
 
         def made(prove: Proving) -> Proving:
-            own = self._where_there_is_a_port(prove) if port or self._port else prove
+            own = prove
+            for part in (needs, self._needs):
+                own = own if part is None else _where_there_is(part, own)
             self.cases.append(Behaviour(name, title, self._group, own, answers, once, background))
             return prove
 
         return made
 
-    @staticmethod
-    def _where_there_is_a_port(prove: Proving) -> Proving:
-        def proved(bench: Bench) -> None:
-            if bench.group.ports.control:
-                prove(bench)
 
-        return proved
+def _where_there_is(part: Part, prove: Proving) -> Proving:
+    def proved(bench: Bench) -> None:
+        full = bench.config.profile == "full"
+        if bench.group.ports.control if part == "control" else full:
+            prove(bench)
+
+    return proved

@@ -413,6 +413,11 @@ class Bench:
             for number, (joints, duration) in enumerate(points)
         )
 
+    @property
+    def streams(self) -> bool:
+        """Whether the driver takes points while it executes those before."""
+        return self.config.profile == "full"
+
     def way_to(self, place: Position) -> list[Point]:
         """A trajectory from where the robot stands."""
         return [(self.position, 1.0), (place, self.seconds_to(place))]

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from driven import wiggle
 
-from rapidgen.client import Cell, InvalidTrajectory, MotionStopped, Robot, Trajectory
+from rapidgen.client import Cell, InvalidTrajectory, MotionStopped, NotSupported, Robot, Trajectory
 from rapidgen.config import load_config
 from rapidgen.controller.controller import VirtualController
 from rapidgen.generate import build, make_system
@@ -24,8 +24,8 @@ def boot():
     """Boots a configuration; gives it and the address of each group."""
     with ExitStack() as running:
 
-        def make(name):
-            config = load_config(name)
+        def make(name, *overrides):
+            config = load_config(name, overrides=overrides)
             system = make_system(config, build(config))
             controller = running.enter_context(
                 VirtualController(system, config.groups, clock="real", speed=SPEED, ports="auto")
@@ -50,6 +50,22 @@ def test_a_robot_moves(boot, client):
         assert execution.progress.state is TrajectoryState.DONE
         reached = np.ptp(recording.positions, axis=0)
         assert np.allclose(reached, np.ptp(path.positions, axis=0), atol=0.02)
+
+
+def test_a_driver_of_the_basic_profile(boot, client):
+    config, addresses = boot("irb120", "profile=basic")
+    with client(config, address=addresses["rob1"]) as robot:
+        assert robot.driver.features == Feature.PROGRESS
+        assert Feature.STREAMING not in robot.driver.features
+        path = wiggle(robot)
+        execution = robot.execute(path)
+        assert (execution.result(60).points, execution.result(60).way) == (4, "download")
+        execution = robot.execute(path)
+        robot.stop()
+        with pytest.raises(MotionStopped):
+            execution.result(60)
+        with pytest.raises(NotSupported):
+            robot.execute(path, way="stream")
 
 
 def test_a_stream(boot, client):

@@ -12,7 +12,7 @@ from rapidgen.proving.stream import BEGIN, END, NONE, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import distance
 
-case = Theme("streaming")
+case = Theme("streaming", needs="stream")
 
 
 @case("batch-pieces", "a stream in pieces of every size", "R2")

@@ -10,7 +10,7 @@ from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import Point, distance
 
-case = Theme("streaming")
+case = Theme("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 _LARGEST = 2**23 - 1

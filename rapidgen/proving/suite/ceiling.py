@@ -41,6 +41,8 @@ def _tcp_too_fast(bench: Bench) -> None:
         return
     points = [(here, 1.0), (away, seconds), (here, 9.0)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
+    if not bench.streams:
+        return
     good = bench.wave(8)
     stream = Streamer(bench)
     stream.takes("the first points", good, BEGIN)
@@ -63,6 +65,8 @@ def _long_turn(bench: Bench) -> None:
     bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
     points = [(low, 1.0), (high, seconds)]
     refused(bench, bench.download(points), [RawReason.TCP_TOO_FAST], point=1)
+    if not bench.streams:
+        return
     here = bench.position
     bench.moves_through(bench.motion(), [(here, 1.0), (low, bench.seconds_to(low))])
     stream = Streamer(bench)
@@ -132,7 +136,7 @@ def _recorded(bench: Bench) -> None:
     chance, limit = random.Random(bench.setting.seed), bench.group.tcp_speed_limit
     for number in range(ROUNDS):
         since, points = bench.now, random_way(bench, chance, _MARGIN)
-        if not is_taken(bench, points, streaming=number % 2 == 0):
+        if not is_taken(bench, points, streaming=bench.streams and number % 2 == 0):
             raise Broken(f"{points} is refused, its ways have {_MARGIN} of the time they need")
         speed = fastest(bench, since)
         if speed > ALLOWED * limit:

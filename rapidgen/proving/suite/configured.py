@@ -28,7 +28,7 @@ def _quick(bench: Bench) -> list[Point]:
 def _slowed_down(bench: Bench) -> None:
     if bench.config.trajectory.too_fast != "slow_down":
         return
-    for streaming in (False, True):
+    for streaming in (False, True) if bench.streams else (False,):
         points, last, since = _quick(bench), bench.last_event, bench.now
         if streaming:
             stream = Streamer(bench)
@@ -76,7 +76,7 @@ def _stalls(bench: Bench) -> None:
     bench.moves_through(bench.motion(), bench.wave(3))
 
 
-@links("control-silent", "a control client that does not read harms nobody", "R13", port="control")
+@links("control-silent", "a control client that does not read harms nobody", "R13", needs="control")
 def _control_silent(bench: Bench) -> None:
     silent, link = bench.control(), bench.motion()
     bench.run(0.2)

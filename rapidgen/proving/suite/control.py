@@ -15,7 +15,7 @@ from rapidgen.proving.suite.motion_task import patience
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import distance
 
-case = Theme("controlling", port="control")
+case = Theme("controlling", needs="control")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 

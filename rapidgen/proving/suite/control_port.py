@@ -12,7 +12,7 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.control import done, not_done, stop
 from rapidgen.proving.track import distance
 
-case = Theme("controlling", port="control")
+case = Theme("controlling", needs="control")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 

@@ -11,7 +11,7 @@ from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.control import not_done, stop
 from rapidgen.proving.suite.streams import way
 
-case = Theme("controlling", port="control")
+case = Theme("controlling", needs="control")
 
 _TRAJ = messages.JOINT_TRAJ_PT
 _FAILED = RawTrajectoryState.FAILED

@@ -48,9 +48,9 @@ def _hello_tells_all(bench: Bench) -> None:
         "speed": _padded([j.speed for j in joints]),
         "features": int(features(bench.config, bench.group)),
         "control_port": bench.group.ports.control,
-        "ring": policy.ring - 1,
-        "preload": _float32(policy.preload),
-        "batch": messages.batch_points(len(joints)),
+        "ring": policy.ring - 1 if bench.streams else 0,
+        "preload": _float32(policy.preload if bench.streams else 0.0),
+        "batch": messages.batch_points(len(joints)) if bench.streams else 0,
         "signals": len(bench.config.signals) if bench.group.ports.control else 0,
     }
     for name, value in wanted.items():

@@ -51,7 +51,9 @@ class _Blame:
         self._stream.link.close()
 
 
-@case("stream-joints", "limits, speed and start of each joint of a stream", "R10, R11")
+@case(
+    "stream-joints", "limits, speed and start of each joint of a stream", "R10, R11", needs="stream"
+)
 def _joints_of_a_stream(bench: Bench) -> None:
     policy, here = bench.config.trajectory, bench.position
     blame = _Blame(bench)
@@ -79,7 +81,7 @@ def _joints_of_a_stream(bench: Bench) -> None:
         raise Broken("the way to the first point of a stream took as long as its duration says")
 
 
-@case("away-from-zero", "short ways where no joint is near zero")
+@case("away-from-zero", "short ways where no joint is near zero", needs="stream")
 def _away_from_zero(bench: Bench) -> None:
     """Where no joint is near zero, short ways are short, and nothing else is changed."""
     link = bench.motion()

@@ -125,7 +125,7 @@ def _gives_way(bench: Bench, old: RawLink, new: RawLink, what: str) -> None:
     bench.stays(0.3, f"the client before gave way: {what}")
 
 
-@case("silent-at-rest", "a newer client waits for a second of silence", "R12")
+@case("silent-at-rest", "a newer client waits for a second of silence", "R12", needs="stream")
 def _silent_at_rest(bench: Bench) -> None:
     old = bench.motion()
     for _ in range(2):
@@ -151,7 +151,7 @@ def _sets_off(bench: Bench, link: RawLink, what: str) -> list[Point]:
     return points
 
 
-@case("silent-while-moving", "whoever connects stops nobody", "R12")
+@case("silent-while-moving", "whoever connects stops nobody", "R12", needs="stream")
 def _silent_while_moving(bench: Bench) -> None:
     """A trajectory whose client is silent goes on, whoever connects and whatever nonsense comes."""
     for what in ("download", "stream"):
@@ -175,7 +175,12 @@ def _silent_while_moving(bench: Bench) -> None:
 _PING = encode(messages.RawPing(), RawComm.REQUEST)
 
 
-@case("second-stops", "a second client's STOP stops, and its trajectory takes over", "R5, R12")
+@case(
+    "second-stops",
+    "a second client's STOP stops, and its trajectory takes over",
+    "R5, R12",
+    needs="stream",
+)
 def _second_stops(bench: Bench) -> None:
     """Also byte by byte, and behind something else; whatever the first client does."""
     old = bench.motion()

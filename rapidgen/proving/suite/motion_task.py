@@ -189,7 +189,7 @@ def _step_by_step(bench: Bench) -> None:
         _goes_by(bench, watcher, begun, number, 2, steps)
 
 
-@case("stream-by-step", "each step of a stream in its time", "R9")
+@case("stream-by-step", "each step of a stream in its time", "R9", needs="stream")
 def _stream_by_step(bench: Bench) -> None:
     """A stream that starves twice, and one that is cut."""
     watcher, unit = bench.watcher(), unit_of(bench)
@@ -250,7 +250,7 @@ def _stream_by_step(bench: Bench) -> None:
         raise Broken(f"a stream was cut behind two points, but {progress} and {status}")
 
 
-@case("speed-by-step", "a speed is for one trajectory, from the reply on", port="control")
+@case("speed-by-step", "a speed is for one trajectory, from the reply on", needs="control")
 def _speed_by_step(bench: Bench) -> None:
     """Half the speed from the reply on, for this trajectory alone."""
     control, link, unit = bench.control(), bench.motion(), unit_of(bench)

@@ -60,7 +60,7 @@ def _stopped_while_taken(bench: Bench) -> None:
     _served(bench)
 
 
-@case("batches-meanwhile", "batches that come while the program is stopped", "R7a")
+@case("batches-meanwhile", "batches that come while the program is stopped", "R7a", needs="stream")
 def _batches(bench: Bench) -> None:
     """A stream that begins, or goes on, while the program is stopped."""
     for number, before in enumerate((0, 8), 1):

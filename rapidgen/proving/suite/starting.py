@@ -35,7 +35,7 @@ def _one_other(bench: Bench) -> None:
             raise Broken("modules of several builds: STATUS says that motion is possible")
 
 
-@case("power-returns", "a power failure while a trajectory is received")
+@case("power-returns", "a power failure while a trajectory is received", needs="stream")
 def _power_returns(bench: Bench) -> None:
     """What was being received or ready to move when the power failed is forgotten."""
     for streaming in (False, True):

@@ -118,7 +118,12 @@ def _is_dropped(bench: Bench, link: RawLink, reader: RawLink) -> None:
     link.wait_until_lost(5, "a client that does not read is dropped")
 
 
-@case("does-not-read", "a state client that does not read holds nobody up for long", "R13")
+@case(
+    "does-not-read",
+    "a state client that does not read holds nobody up for long",
+    "R13",
+    needs="events",
+)
 def _does_not_read(bench: Bench) -> None:
     """Others miss its time once, and it is dropped; who is only slow is not."""
     silent, reader = bench.state(reading=False), bench.state()
@@ -175,7 +180,7 @@ def _breaks_in_a_send(bench: Bench) -> None:
     _fails_to_send(bench, reader)
 
 
-@case("feedback", "JOINT_FEEDBACK: time, positions and velocities")
+@case("feedback", "JOINT_FEEDBACK: time, positions and velocities", needs="feedback")
 def _feedback(bench: Bench) -> None:
     first = subscribe(bench, RawFeature.FEEDBACK)
     link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
@@ -256,7 +261,7 @@ def _burst(
     return since, wanted
 
 
-@case("events", "EVENT tells the controller's events to those who ask")
+@case("events", "EVENT tells the controller's events to those who ask", needs="events")
 def _events(bench: Bench) -> None:
     links = [subscribe(bench, RawFeature.EVENTS), bench.state()]
     links.append(subscribe(bench, RawFeature.EVENTS | RawFeature.PROGRESS))

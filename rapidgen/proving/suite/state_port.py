@@ -139,7 +139,7 @@ def _is_true(bench: Bench, told: Sequence[Round]) -> set[int]:
     return seen
 
 
-@case("each-round", "what each of three clients is told in each round")
+@case("each-round", "what each of three clients is told in each round", needs="feedback")
 def _each_round(bench: Bench) -> None:
     """Three clients with wishes that change: a trajectory, one that is refused, a STOP."""
     some, everything = RawFeature.PROGRESS, RawFeature.PROGRESS | RawFeature.FEEDBACK
@@ -211,7 +211,7 @@ def _of(value: object) -> list[StopWatch]:
     return [value] if isinstance(value, StopWatch) and value.started is not None else []
 
 
-@case("over-the-ends", "schedule and stamps over the ends of the clock")
+@case("over-the-ends", "schedule and stamps over the ends of the clock", needs="feedback")
 def _over_the_ends(bench: Bench) -> None:
     """The schedule and the stamps of feedback, over both ends of the clock, in motion."""
     link = subscribe(bench, RawFeature.FEEDBACK | RawFeature.PROGRESS)
@@ -268,7 +268,7 @@ def _advance(bench: Bench, seconds: float) -> None:
         clock.started -= int(seconds * 10**9)
 
 
-@case("not-over-yet", "a halted trajectory whose path is not cleared yet")
+@case("not-over-yet", "a halted trajectory whose path is not cleared yet", needs="feedback")
 def _not_over_yet(bench: Bench) -> None:
     """A halted trajectory whose path is not cleared yet: the robot stands, and takes no other."""
     link, motion, period = bench.watcher(), bench.motion(), bench.config.state_period
@@ -298,7 +298,12 @@ def _not_over_yet(bench: Bench) -> None:
         motion = bench.motion()
 
 
-@case("first-of-all", "who comes when all have left; movements that no signal shows", "R16")
+@case(
+    "first-of-all",
+    "who comes when all have left; movements that no signal shows",
+    "R16",
+    needs="feedback",
+)
 def _first_of_all(bench: Bench) -> None:
     """Who comes to a server without clients is told at once, and time begins anew for him."""
     period, motion = bench.config.state_period, bench.motion()

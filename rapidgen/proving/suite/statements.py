@@ -117,6 +117,7 @@ def _is_over(bench: Bench, came: list[float]) -> None:
     "STOP and a program stop at each statement of the motion task in a stream",
     "R5, R7b",
     once=True,
+    needs="stream",
 )
 def _stream_stopped_at_every_statement(bench: Bench) -> None:
     """Also of a stream that has starved, and of one that ends."""
@@ -162,7 +163,7 @@ def _is_answered(link: RawLink) -> bool:
     "STOP over the control port at each statement of a beginning",
     "R7b",
     once=True,
-    port="control",
+    needs="control",
 )
 def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
     """Whatever the motion server is at when it comes: nothing moves after the reply to it."""
@@ -198,7 +199,7 @@ def _stopped_at_every_statement_of_a_beginning(bench: Bench) -> None:
     "STOP at each statement with which a paused robot goes on",
     "R7b",
     once=True,
-    port="control",
+    needs="control",
 )
 def _stopped_at_every_statement_of_going_on(bench: Bench) -> None:
     with _stepped(bench) as other:

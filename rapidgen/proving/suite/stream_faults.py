@@ -21,7 +21,7 @@ from rapidgen.proving.suite.points import fast_ends
 from rapidgen.proving.suite.streams import way
 from rapidgen.proving.track import Point, changed, inward, small_unit
 
-case = Theme("streaming")
+case = Theme("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 _SLOW = 30.0

@@ -9,7 +9,7 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
 from rapidgen.proving.track import Point, distance
 
-case = Theme("streaming")
+case = Theme("streaming", needs="stream")
 
 _NONE = RawStreamFlag(0)
 

@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "50651cca3d7f";
+    CONST string ROS_BUILD_CONTROL := "62dbff17d282";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.
@@ -38,10 +38,8 @@ MODULE ROS_control
 
     PROC main()
         ROS_start_task ROS_shown_control,
-            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
-            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
-            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
-            ROS_BUILD_CONTROL = ROS_BUILD_ID;
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_speed_of := -1;
         ROS_listen server, PORT;
@@ -105,15 +103,11 @@ MODULE ROS_control
     ENDFUNC
 
     LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
-        TEST ROS_accept(server, client, seconds)
-        CASE ROS_ACCEPT_CLIENT:
-            RETURN TRUE;
-        CASE ROS_ACCEPT_BROKEN:
-            ROS_listen server, PORT;
-            RETURN FALSE;
-        DEFAULT:
-            RETURN FALSE;
-        ENDTEST
+        VAR num came;
+
+        came := ROS_accept(server, client, seconds);
+        IF came = ROS_ACCEPT_BROKEN ROS_listen server, PORT;
+        RETURN came = ROS_ACCEPT_CLIENT;
     ENDFUNC
 
     ! A client whose heartbeats are awaited is gone, or was replaced.

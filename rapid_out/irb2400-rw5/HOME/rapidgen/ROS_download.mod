@@ -8,7 +8,7 @@ MODULE ROS_download
     ! Each point is checked when it comes; nothing is handed over before -3 has come and
     ! everything was right. Then the points go through the ring to the motion task.
 
-    CONST string ROS_BUILD_DOWNLOAD := "50651cca3d7f";
+    CONST string ROS_BUILD_DOWNLOAD := "62dbff17d282";
 
     ! A trajectory is being received, and still may become one.
     VAR bool ROS_receiving := FALSE;
@@ -43,10 +43,7 @@ MODULE ROS_download
         VAR num joint_4;
         VAR num joint_5;
         VAR num joint_6;
-        VAR num joint_7;
-        VAR num joint_8;
-        VAR num joint_9;
-        VAR num joint_10;
+        VAR num padding;
 
         IF ROS_count >= ROS_CAPACITY THEN
             ROS_refuse_download ROS_REASON_CAPACITY, ROS_count, sequence = ROS_SEQ_END;
@@ -58,61 +55,45 @@ MODULE ROS_download
 
         UnpackRawBytes data, at + 20, joint_1 \Float4;
         joint_1 := joint_1 * ROS_DEG;
-        IF NOT (ROS_low_1 <= joint_1 AND joint_1 <= ROS_high_1
-            AND Abs(joint_1 - ROS_before.robax.rax_1) <= ROS_SPEED_1 * ROS_seconds) THEN
-            joint_1 := ROS_judged(joint_1, ROS_before.robax.rax_1, ROS_low_1, ROS_high_1,
-                ROS_SPEED_1, 1);
-        ENDIF
+        IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
+            AND Abs(joint_1 - ROS_before.robax.rax_1) <= ROS_SPEED{1} * ROS_seconds)
+            joint_1 := ROS_judged(joint_1, ROS_before.robax.rax_1, 1);
 
         UnpackRawBytes data, at + 24, joint_2 \Float4;
         joint_2 := joint_2 * ROS_DEG;
-        IF NOT (ROS_low_2 <= joint_2 AND joint_2 <= ROS_high_2
-            AND Abs(joint_2 - ROS_before.robax.rax_2) <= ROS_SPEED_2 * ROS_seconds) THEN
-            joint_2 := ROS_judged(joint_2, ROS_before.robax.rax_2, ROS_low_2, ROS_high_2,
-                ROS_SPEED_2, 2);
-        ENDIF
+        IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
+            AND Abs(joint_2 - ROS_before.robax.rax_2) <= ROS_SPEED{2} * ROS_seconds)
+            joint_2 := ROS_judged(joint_2, ROS_before.robax.rax_2, 2);
 
         UnpackRawBytes data, at + 28, joint_3 \Float4;
         joint_3 := joint_3 * ROS_DEG;
-        IF NOT (ROS_low_3 <= joint_3 AND joint_3 <= ROS_high_3
-            AND Abs(joint_3 - ROS_before.robax.rax_3) <= ROS_SPEED_3 * ROS_seconds) THEN
-            joint_3 := ROS_judged(joint_3, ROS_before.robax.rax_3, ROS_low_3, ROS_high_3,
-                ROS_SPEED_3, 3);
-        ENDIF
+        IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
+            AND Abs(joint_3 - ROS_before.robax.rax_3) <= ROS_SPEED{3} * ROS_seconds)
+            joint_3 := ROS_judged(joint_3, ROS_before.robax.rax_3, 3);
 
         UnpackRawBytes data, at + 32, joint_4 \Float4;
         joint_4 := joint_4 * ROS_DEG;
-        IF NOT (ROS_low_4 <= joint_4 AND joint_4 <= ROS_high_4
-            AND Abs(joint_4 - ROS_before.robax.rax_4) <= ROS_SPEED_4 * ROS_seconds) THEN
-            joint_4 := ROS_judged(joint_4, ROS_before.robax.rax_4, ROS_low_4, ROS_high_4,
-                ROS_SPEED_4, 4);
-        ENDIF
+        IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
+            AND Abs(joint_4 - ROS_before.robax.rax_4) <= ROS_SPEED{4} * ROS_seconds)
+            joint_4 := ROS_judged(joint_4, ROS_before.robax.rax_4, 4);
 
         UnpackRawBytes data, at + 36, joint_5 \Float4;
         joint_5 := joint_5 * ROS_DEG;
-        IF NOT (ROS_low_5 <= joint_5 AND joint_5 <= ROS_high_5
-            AND Abs(joint_5 - ROS_before.robax.rax_5) <= ROS_SPEED_5 * ROS_seconds) THEN
-            joint_5 := ROS_judged(joint_5, ROS_before.robax.rax_5, ROS_low_5, ROS_high_5,
-                ROS_SPEED_5, 5);
-        ENDIF
+        IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
+            AND Abs(joint_5 - ROS_before.robax.rax_5) <= ROS_SPEED{5} * ROS_seconds)
+            joint_5 := ROS_judged(joint_5, ROS_before.robax.rax_5, 5);
 
         UnpackRawBytes data, at + 40, joint_6 \Float4;
         joint_6 := joint_6 * ROS_DEG;
-        IF NOT (ROS_low_6 <= joint_6 AND joint_6 <= ROS_high_6
-            AND Abs(joint_6 - ROS_before.robax.rax_6) <= ROS_SPEED_6 * ROS_seconds) THEN
-            joint_6 := ROS_judged(joint_6, ROS_before.robax.rax_6, ROS_low_6, ROS_high_6,
-                ROS_SPEED_6, 6);
-        ENDIF
+        IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
+            AND Abs(joint_6 - ROS_before.robax.rax_6) <= ROS_SPEED{6} * ROS_seconds)
+            joint_6 := ROS_judged(joint_6, ROS_before.robax.rax_6, 6);
 
         ! Joints that this robot does not have must be zero.
-        UnpackRawBytes data, at + 44, joint_7 \Float4;
-        IF NOT (joint_7 = 0) ROS_object 700 + ROS_REASON_BAD_PADDING;
-        UnpackRawBytes data, at + 48, joint_8 \Float4;
-        IF NOT (joint_8 = 0) ROS_object 800 + ROS_REASON_BAD_PADDING;
-        UnpackRawBytes data, at + 52, joint_9 \Float4;
-        IF NOT (joint_9 = 0) ROS_object 900 + ROS_REASON_BAD_PADDING;
-        UnpackRawBytes data, at + 56, joint_10 \Float4;
-        IF NOT (joint_10 = 0) ROS_object 1000 + ROS_REASON_BAD_PADDING;
+        FOR joint FROM 7 TO ROS_MAX_JOINTS DO
+            UnpackRawBytes data, at + 16 + 4 * joint, padding \Float4;
+            IF NOT (padding = 0) ROS_object 100 * joint + ROS_REASON_BAD_PADDING;
+        ENDFOR
 
         ROS_taken.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
         IF ROS_first THEN
@@ -135,11 +116,6 @@ MODULE ROS_download
     ERROR
         RAISE;
     ENDPROC
-
-    ! TRUE while points of a trajectory that was handed over wait for room in the ring.
-    FUNC bool ROS_is_feeding()
-        RETURN ROS_fed < ROS_to_feed;
-    ENDFUNC
 
     ! Put points into the ring while there is room; announce them when they are written. Behind
     ! the last one the trajectory is closed.

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "50651cca3d7f";
+    CONST string ROS_BUILD_MOTION := "62dbff17d282";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -68,9 +68,7 @@ MODULE ROS_motion
     PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
         VAR bool left := FALSE;
 
-        ROS_start_task ROS_shown_motion,
-            ROS_BUILD_EVENTS = ROS_BUILD_ID AND
-            ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_motion, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service := ROS_OUTSIDE;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
@@ -224,8 +222,7 @@ MODULE ROS_motion
             take_time part_after(next);
         ENDIF
         IF point.dwell THEN
-            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited
-                \PollRate:=0.04;
+            WaitUntil ROS_abort <> ROS_abort_done \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF stops THEN

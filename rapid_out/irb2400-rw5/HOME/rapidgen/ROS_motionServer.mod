@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "50651cca3d7f";
+    CONST string ROS_BUILD_MOTION_SERVER := "62dbff17d282";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -39,12 +39,9 @@ MODULE ROS_motionServer
 
     PROC main()
         ROS_start_task ROS_shown_motion_server,
-            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
-            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
-            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
-            ROS_BUILD_ACCEPTANCE = ROS_BUILD_ID AND
-            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND
-            ROS_BUILD_STREAM = ROS_BUILD_ID AND
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_ACCEPTANCE = ROS_BUILD_ID AND
+            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
             ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
         ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
@@ -79,7 +76,7 @@ MODULE ROS_motionServer
         set_back since_look;
         IF early_bytes > 0 take_early client;
         WHILE linked AND (NOT taken_over) DO
-            IF ROS_is_feeding() THEN
+            IF ROS_fed < ROS_to_feed THEN
                 ROS_feed;
                 received := short_look(client);
                 quiet := quiet + LOOK_PERIOD;
@@ -212,15 +209,11 @@ MODULE ROS_motionServer
     ENDPROC
 
     LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
-        TEST ROS_accept(server, client, seconds)
-        CASE ROS_ACCEPT_CLIENT:
-            RETURN TRUE;
-        CASE ROS_ACCEPT_BROKEN:
-            ROS_listen server, PORT;
-            RETURN FALSE;
-        DEFAULT:
-            RETURN FALSE;
-        ENDTEST
+        VAR num came;
+
+        came := ROS_accept(server, client, seconds);
+        IF came = ROS_ACCEPT_BROKEN ROS_listen server, PORT;
+        RETURN came = ROS_ACCEPT_CLIENT;
     ENDFUNC
 
     ! The robot does not go on for a client that is gone, and half a trajectory is none.

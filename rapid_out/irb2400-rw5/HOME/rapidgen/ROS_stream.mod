@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "50651cca3d7f";
+    CONST string ROS_BUILD_STREAM := "62dbff17d282";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -366,41 +366,29 @@ MODULE ROS_stream
         ROS_seconds := DnumToNum(word_1 / STEPS);
         IF NOT (0 < ROS_seconds AND ROS_seconds <= ROS_LONGEST) ROS_check_duration;
         joint_1 := DnumToNum(word_2 * DEG);
-        IF NOT (ROS_low_1 <= joint_1 AND joint_1 <= ROS_high_1
-            AND Abs(joint_1 - ROS_before.robax.rax_1) <= ROS_SPEED_1 * ROS_seconds) THEN
-            joint_1 := ROS_judged(joint_1, ROS_before.robax.rax_1, ROS_low_1, ROS_high_1,
-                ROS_SPEED_1, 1);
-        ENDIF
+        IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1}
+            AND Abs(joint_1 - ROS_before.robax.rax_1) <= ROS_SPEED{1} * ROS_seconds)
+            joint_1 := ROS_judged(joint_1, ROS_before.robax.rax_1, 1);
         joint_2 := DnumToNum(word_3 * DEG);
-        IF NOT (ROS_low_2 <= joint_2 AND joint_2 <= ROS_high_2
-            AND Abs(joint_2 - ROS_before.robax.rax_2) <= ROS_SPEED_2 * ROS_seconds) THEN
-            joint_2 := ROS_judged(joint_2, ROS_before.robax.rax_2, ROS_low_2, ROS_high_2,
-                ROS_SPEED_2, 2);
-        ENDIF
+        IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2}
+            AND Abs(joint_2 - ROS_before.robax.rax_2) <= ROS_SPEED{2} * ROS_seconds)
+            joint_2 := ROS_judged(joint_2, ROS_before.robax.rax_2, 2);
         joint_3 := DnumToNum(word_4 * DEG);
-        IF NOT (ROS_low_3 <= joint_3 AND joint_3 <= ROS_high_3
-            AND Abs(joint_3 - ROS_before.robax.rax_3) <= ROS_SPEED_3 * ROS_seconds) THEN
-            joint_3 := ROS_judged(joint_3, ROS_before.robax.rax_3, ROS_low_3, ROS_high_3,
-                ROS_SPEED_3, 3);
-        ENDIF
+        IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3}
+            AND Abs(joint_3 - ROS_before.robax.rax_3) <= ROS_SPEED{3} * ROS_seconds)
+            joint_3 := ROS_judged(joint_3, ROS_before.robax.rax_3, 3);
         joint_4 := DnumToNum(word_5 * DEG);
-        IF NOT (ROS_low_4 <= joint_4 AND joint_4 <= ROS_high_4
-            AND Abs(joint_4 - ROS_before.robax.rax_4) <= ROS_SPEED_4 * ROS_seconds) THEN
-            joint_4 := ROS_judged(joint_4, ROS_before.robax.rax_4, ROS_low_4, ROS_high_4,
-                ROS_SPEED_4, 4);
-        ENDIF
+        IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4}
+            AND Abs(joint_4 - ROS_before.robax.rax_4) <= ROS_SPEED{4} * ROS_seconds)
+            joint_4 := ROS_judged(joint_4, ROS_before.robax.rax_4, 4);
         joint_5 := DnumToNum(word_6 * DEG);
-        IF NOT (ROS_low_5 <= joint_5 AND joint_5 <= ROS_high_5
-            AND Abs(joint_5 - ROS_before.robax.rax_5) <= ROS_SPEED_5 * ROS_seconds) THEN
-            joint_5 := ROS_judged(joint_5, ROS_before.robax.rax_5, ROS_low_5, ROS_high_5,
-                ROS_SPEED_5, 5);
-        ENDIF
+        IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5}
+            AND Abs(joint_5 - ROS_before.robax.rax_5) <= ROS_SPEED{5} * ROS_seconds)
+            joint_5 := ROS_judged(joint_5, ROS_before.robax.rax_5, 5);
         joint_6 := DnumToNum(word_7 * DEG);
-        IF NOT (ROS_low_6 <= joint_6 AND joint_6 <= ROS_high_6
-            AND Abs(joint_6 - ROS_before.robax.rax_6) <= ROS_SPEED_6 * ROS_seconds) THEN
-            joint_6 := ROS_judged(joint_6, ROS_before.robax.rax_6, ROS_low_6, ROS_high_6,
-                ROS_SPEED_6, 6);
-        ENDIF
+        IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6}
+            AND Abs(joint_6 - ROS_before.robax.rax_6) <= ROS_SPEED{6} * ROS_seconds)
+            joint_6 := ROS_judged(joint_6, ROS_before.robax.rax_6, 6);
         ROS_taken.target := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[9E9,9E9,9E9,9E9,9E9,9E9]];
         IF ROS_first THEN
             begin_at_first;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "1d2f74f17c7f";
+    CONST string ROS_BUILD_MOTION := "79c8cc302937";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -64,9 +64,7 @@ MODULE ROS_motion
     PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
         VAR bool left := FALSE;
 
-        ROS_start_task ROS_shown_motion_1,
-            ROS_BUILD_EVENTS = ROS_BUILD_ID AND
-            ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_motion_1, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service_1 := ROS_OUTSIDE;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
@@ -211,8 +209,7 @@ MODULE ROS_motion
         ROS_tail_1 := next;
         ROS_planned_1 := arrived;
         IF point.dwell THEN
-            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=waited
-                \PollRate:=0.04;
+            WaitUntil ROS_abort_1 <> ROS_abort_done_1 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF first OR stops_before(next) THEN

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "1d2f74f17c7f";
+    CONST string ROS_BUILD_STATE_SERVER := "79c8cc302937";
 
     LOCAL CONST num PORT := 11002;
     LOCAL CONST num PERIOD := 0.1;
@@ -92,10 +92,8 @@ MODULE ROS_stateServer
 
     PROC main()
         ROS_start_task ROS_shown_state_1,
-            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
-            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
-            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
-            ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_STATE_SERVER = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_form_state state;
         ROS_form progress, ROS_LEN_PROGRESS, ROS_MSG_PROGRESS;
@@ -171,8 +169,7 @@ MODULE ROS_stateServer
         ROS_pack_joints state, joints;
 
         ROS_look newest;
-        IF newest.state = ROS_TRAJ_REFUSED OR newest.state = ROS_TRAJ_FAILED
-            in_error := ROS_TRI_TRUE;
+        IF newest.state = ROS_TRAJ_REFUSED OR newest.state = ROS_TRAJ_FAILED in_error := ROS_TRI_TRUE;
         IF ROS_controller_error() = ROS_TRI_TRUE in_error := ROS_TRI_TRUE;
         IF feedback_wanted measure joints;
         IF moving(joints) in_motion := ROS_TRI_TRUE;
@@ -340,10 +337,9 @@ MODULE ROS_stateServer
         VAR num received;
 
         waiting := ROS_peek(client{slot});
-        IF waiting = 0 RETURN TRUE;
-        ! A part of a message is left where it is until the rest has come.
-        IF waiting > 0 AND waiting < ROS_LEN_HELLO + 4 RETURN TRUE;
         IF waiting < 0 RETURN FALSE;
+        ! A part of a message is left where it is until the rest has come.
+        IF waiting < ROS_LEN_HELLO + 4 RETURN TRUE;
         received := ROS_receive(client{slot}, heard, 1);
         IF NOT ROS_take_hello(heard, received, message, wants{slot}) RETURN FALSE;
         note_wishes;

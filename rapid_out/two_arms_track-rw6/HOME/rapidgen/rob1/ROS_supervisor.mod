@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "1d2f74f17c7f";
+    CONST string ROS_BUILD_SUPERVISOR := "79c8cc302937";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -32,11 +32,9 @@ MODULE ROS_supervisor
     LOCAL VAR num rounds_mixed := 0;
 
     PROC main()
-        ROS_start_task ROS_shown_supervisor_1,
-            ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_supervisor_1, ROS_BUILD_SUPERVISOR = ROS_BUILD_ID;
         ! What was under way when this task ended is over.
-        IF ROS_active() OR (ROS_paused_1 >= 0 AND IsStopMoveAct(\FromNonMoveTask))
-            halt ROS_REASON_POWER_FAILURE;
+        IF ROS_active() OR (ROS_paused_1 >= 0 AND IsStopMoveAct(\FromNonMoveTask)) halt ROS_REASON_POWER_FAILURE;
         ROS_paused_1 := -1;
         mode := OpMode();
         IDelete asked_to_stop;

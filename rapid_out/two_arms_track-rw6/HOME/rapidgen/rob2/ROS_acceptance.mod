@@ -8,19 +8,14 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "1d2f74f17c7f";
+    CONST string ROS_BUILD_ACCEPTANCE := "79c8cc302937";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
     ! s: shortest duration that the path planner follows through a corner
     CONST num ROS_SHORTEST := 0.1;
     ! Of each joint the speed that a segment may ask for (deg/s, mm/s).
-    CONST num ROS_SPEED_1 := 250.25;
-    CONST num ROS_SPEED_2 := 250.25;
-    CONST num ROS_SPEED_3 := 250.25;
-    CONST num ROS_SPEED_4 := 320.32;
-    CONST num ROS_SPEED_5 := 320.32;
-    CONST num ROS_SPEED_6 := 420.42;
+    CONST num ROS_SPEED{6} := [250.25,250.25,250.25,320.32,320.32,420.42];
 
     ! Fraction of an axis' speed on the way to the first point
     LOCAL CONST num APPROACH := 0.1;
@@ -29,12 +24,7 @@ MODULE ROS_acceptance
     ! A value this near outside a limit is the limit, rounded on its way (deg, mm).
     LOCAL CONST num ROUNDING := 0.0005;
     ! Of each joint how far from the first point the robot may stand (deg, mm).
-    LOCAL CONST num NEAR_1 := 0.5;
-    LOCAL CONST num NEAR_2 := 0.5;
-    LOCAL CONST num NEAR_3 := 0.5;
-    LOCAL CONST num NEAR_4 := 0.5;
-    LOCAL CONST num NEAR_5 := 0.5;
-    LOCAL CONST num NEAR_6 := 0.5;
+    LOCAL CONST num NEAR{6} := [0.5,0.5,0.5,0.5,0.5,0.5];
 
     ! The point at hand, its duration, and the place of the one before.
     VAR ROS_point ROS_taken;
@@ -105,9 +95,13 @@ MODULE ROS_acceptance
 
     ! A joint is outside its limits, or faster than its axis. Gives what is taken in its place:
     ! the limit, if it is outside only by rounding.
-    FUNC num ROS_judged(num wanted, num before, num low, num high, num speed, num joint)
+    FUNC num ROS_judged(num wanted, num before, num joint)
+        VAR num low;
+        VAR num high;
         VAR num taken;
 
+        low := ROS_low{joint};
+        high := ROS_high{joint};
         taken := wanted;
         IF low - ROUNDING <= wanted AND wanted < low THEN
             taken := low;
@@ -117,7 +111,7 @@ MODULE ROS_acceptance
             ROS_object 100 * joint + not_a_number(wanted, ROS_REASON_JOINT_LIMIT);
         ENDIF
         ! How the robot gets to the first point is not the client's business.
-        IF ROS_first OR Abs(taken - before) <= speed * ROS_seconds RETURN taken;
+        IF ROS_first OR Abs(taken - before) <= ROS_SPEED{joint} * ROS_seconds RETURN taken;
         ROS_object 100 * joint + ROS_REASON_TOO_FAST;
         RETURN taken;
     ENDFUNC
@@ -136,25 +130,19 @@ MODULE ROS_acceptance
     ! which has to be 0, becomes the first one that is too far from it.
     PROC ROS_reach_start(jointtarget here, jointtarget start, INOUT num needed, INOUT num joint)
         needed := 0;
-        reach_start Abs(start.robax.rax_1 - here.robax.rax_1), ROS_SPEED_1, NEAR_1, 1,
-            needed, joint;
-        reach_start Abs(start.robax.rax_2 - here.robax.rax_2), ROS_SPEED_2, NEAR_2, 2,
-            needed, joint;
-        reach_start Abs(start.robax.rax_3 - here.robax.rax_3), ROS_SPEED_3, NEAR_3, 3,
-            needed, joint;
-        reach_start Abs(start.robax.rax_4 - here.robax.rax_4), ROS_SPEED_4, NEAR_4, 4,
-            needed, joint;
-        reach_start Abs(start.robax.rax_5 - here.robax.rax_5), ROS_SPEED_5, NEAR_5, 5,
-            needed, joint;
-        reach_start Abs(start.robax.rax_6 - here.robax.rax_6), ROS_SPEED_6, NEAR_6, 6,
-            needed, joint;
+        reach_start Abs(start.robax.rax_1 - here.robax.rax_1), 1, needed, joint;
+        reach_start Abs(start.robax.rax_2 - here.robax.rax_2), 2, needed, joint;
+        reach_start Abs(start.robax.rax_3 - here.robax.rax_3), 3, needed, joint;
+        reach_start Abs(start.robax.rax_4 - here.robax.rax_4), 4, needed, joint;
+        reach_start Abs(start.robax.rax_5 - here.robax.rax_5), 5, needed, joint;
+        reach_start Abs(start.robax.rax_6 - here.robax.rax_6), 6, needed, joint;
     ENDPROC
 
-    LOCAL PROC reach_start(num way, num speed, num near, num n, INOUT num needed, INOUT num joint)
-        IF joint = 0 AND way > near joint := n;
+    LOCAL PROC reach_start(num way, num n, INOUT num needed, INOUT num joint)
+        IF joint = 0 AND way > NEAR{n} joint := n;
         IF way <= THERE RETURN;
         IF needed < ROS_SHORTEST needed := ROS_SHORTEST;
-        IF needed < way / (speed * APPROACH) needed := way / (speed * APPROACH);
+        IF needed < way / (ROS_SPEED{n} * APPROACH) needed := way / (ROS_SPEED{n} * APPROACH);
     ENDPROC
 
     ! Ask the supervisor whether the trajectory may start. A halt that is still under way is

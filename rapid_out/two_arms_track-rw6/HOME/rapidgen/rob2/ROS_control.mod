@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "1d2f74f17c7f";
+    CONST string ROS_BUILD_CONTROL := "79c8cc302937";
 
     LOCAL CONST num PORT := 11011;
     ! s between two looks at what the robot does, and for new clients.
@@ -48,10 +48,8 @@ MODULE ROS_control
 
     PROC main()
         ROS_start_task ROS_shown_control_2,
-            ROS_BUILD_LIMITS = ROS_BUILD_ID AND
-            ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
-            ROS_BUILD_SOCKET = ROS_BUILD_ID AND
-            ROS_BUILD_CONTROL = ROS_BUILD_ID;
+            ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
+            ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_CONTROL = ROS_BUILD_ID;
         ROS_read_limits;
         ROS_speed_of_2 := -1;
         link_signals;
@@ -116,15 +114,11 @@ MODULE ROS_control
     ENDFUNC
 
     LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
-        TEST ROS_accept(server, client, seconds)
-        CASE ROS_ACCEPT_CLIENT:
-            RETURN TRUE;
-        CASE ROS_ACCEPT_BROKEN:
-            ROS_listen server, PORT;
-            RETURN FALSE;
-        DEFAULT:
-            RETURN FALSE;
-        ENDTEST
+        VAR num came;
+
+        came := ROS_accept(server, client, seconds);
+        IF came = ROS_ACCEPT_BROKEN ROS_listen server, PORT;
+        RETURN came = ROS_ACCEPT_CLIENT;
     ENDFUNC
 
     ! A client whose heartbeats are awaited is gone, or was replaced.

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "1d2f74f17c7f";
+    CONST string ROS_BUILD_MOTION := "79c8cc302937";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -60,9 +60,7 @@ MODULE ROS_motion
     PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
         VAR bool left := FALSE;
 
-        ROS_start_task ROS_shown_motion_2,
-            ROS_BUILD_EVENTS = ROS_BUILD_ID AND
-            ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_motion_2, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service_2 := ROS_OUTSIDE;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
@@ -207,8 +205,7 @@ MODULE ROS_motion
         ROS_tail_2 := next;
         ROS_planned_2 := arrived;
         IF point.dwell THEN
-            WaitUntil ROS_abort_2 <> ROS_abort_done_2 \MaxTime:=point.duration \TimeFlag:=waited
-                \PollRate:=0.04;
+            WaitUntil ROS_abort_2 <> ROS_abort_done_2 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
         ELSEIF first OR stops_before(next) THEN

@@ -1,0 +1,27 @@
+"""What the basic profile leaves out, and how little RAPID it is."""
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.generate import build
+
+
+def code_lines(files):
+    """Lines of RAPID without comments and blanks."""
+    lines = [line.strip() for f in files if f.kind == "module" for line in f.data.splitlines()]
+    return sum(bool(line) and not line.startswith(b"!") for line in lines)
+
+
+@pytest.mark.parametrize("name", ["irb120", "irb4600", "irb460", "irb910sc"])
+def test_the_basic_profile_is_short(name):
+    files = build(load_config(name, overrides=["profile=basic"])).files
+    assert code_lines(files) <= 1750
+    names = {f.path.rpartition("/")[2].partition(".")[0] for f in files if f.kind == "module"}
+    assert not names & {"ROS_stream", "ROS_control"}
+
+
+@pytest.mark.parametrize("key", ["ports.control=11001", "signals.valve={kind: DO}"])
+def test_what_the_basic_profile_lacks_cannot_be_asked_for(key):
+    with pytest.raises(DiagnosticError, match="full profile"):
+        load_config("irb120", overrides=["profile=basic", key])
