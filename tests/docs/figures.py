@@ -166,10 +166,11 @@ FIGURES = [
     Figure("depth of inheritance", ladders, 2, together=False),
     Figure("classes with two ancestors", mixed, 0),
     Figure("lines of the longest file", files, 600, together=False),
-    # 4 % fewer than before the rooms.
-    Figure("lines of package and tests", all_lines, 92_067),
+    # What the product gains costs lines: an issue that lands raises this by what it needed, in the
+    # open. 92,067 after the move into rooms, 4 % fewer than before it.
+    Figure("lines of package and tests", all_lines, 104_500),
     Figure("ignore_imports", ignored_imports, 0),
-    Figure("lines of rapid_out", goldens, 17_000),
+    Figure("lines of rapid_out", goldens, 18_000),
 ]
 
 if __name__ == "__main__":
