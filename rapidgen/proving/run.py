@@ -19,9 +19,8 @@ from rapidgen.proving.suite import CASES
 from rapidgen.proving.workers import each, in_a_fork
 from rapidgen.system.model import System
 
-
 EXPLAINED = 20
-"""Cases of which the smallest pair is looked for: of a driver that breaks more, they tell enough."""
+"""Cases whose smallest pair is looked for: where more break, they tell enough."""
 
 
 @dataclass(frozen=True, slots=True)
