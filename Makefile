@@ -69,7 +69,7 @@ picture: $(STAMP)
 	$(BIN)/python -m tests.docs.picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).
+# PROGRAM the trial (abb_driver, backups, descriptions, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).
 PROGRAM = trial
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
@@ -88,6 +88,9 @@ suite: $(STAMP) ## 8 min: every case of `rapidgen test`, any two assumptions abo
 triples: $(STAMP) ## 15 min: the same where any three assumptions about controllers meet
 	$(BIN)/rapidgen test irb120 --together 3 --seeds 0
 
+signature: $(STAMP) ## 60 min: the same on every example, and on any two of profile, commissioning, main, control
+	$(BIN)/python benchmarks/signature.py
+
 mutants: $(STAMP) ## 5 min: a defect of the front end that turns it red, for each conformance file
 	$(BIN)/python benchmarks/conformance_mutants.py
 
@@ -104,7 +107,7 @@ exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are fou
 	$(BIN)/python benchmarks/exploration.py --jobs 2
 
 schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
-	$(BIN)/python benchmarks/fast_stops.py --jobs 2
+	$(BIN)/python benchmarks/fast_stops.py --jobs 2 --pairs irb120 irb6700
 
 driver-frames: $(STAMP) ## 30 min: 100,000 hostile openings on all ports, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2

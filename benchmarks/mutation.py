@@ -1,7 +1,7 @@
 """Which share of all mutants of the generated modules does the suite notice?
 
     python benchmarks/mutation.py [--every N] [--offset N] [--jobs N] [--budget S] [--output FILE]
-        [--again] [ROBOT]
+        [--again] [--only MODULE ...] [ROBOT]
 
 One fixed operator list (tests/proving/mutation.py); every place in a routine where an operator
 fits is a mutant, equivalent ones included. `--every N` takes each N-th, from `--offset` on. A
@@ -9,9 +9,9 @@ mutant is judged by the cases of `rapidgen test` that execute its statement, unt
 or `--budget` s of CPU are spent: what no case has noticed by then counts as a survivor.
 
 Verdicts go to FILE (JSON lines) as they come; a run that was broken off goes on there, as long as
-nothing but the modules' build id has changed. Survivors are listed: each is a missing case, or the
-same program in other words. `--again` goes on with the survivors of FILE, with cases that were
-not tried or did not exist.
+nothing but the modules' build id has changed. Survivors are listed by module, with their lines:
+each is a missing case, or the same program in other words. `--only` looks at some modules alone.
+`--again` goes on with the survivors of FILE, with cases that were not tried or did not exist.
 """
 
 import argparse
@@ -61,7 +61,12 @@ def known():
 def main():
     verdicts = known()
     keys = {number: key_of(mutant) for number, mutant in enumerate(FOUND)}
-    chosen = list(range(ARGUMENTS.offset, len(FOUND), ARGUMENTS.every))
+    wanted = [name.casefold() for name in ARGUMENTS.only]
+    chosen = [
+        number
+        for number in range(ARGUMENTS.offset, len(FOUND), ARGUMENTS.every)
+        if not wanted or Path(FOUND[number].path).stem.casefold() in wanted
+    ]
     none = {"by": "", "tried": [], "seconds": 0}
     before = {number: verdicts.get(keys[number], none) for number in chosen}
     left = [
@@ -94,17 +99,20 @@ def main():
 
 
 def show(rows, seconds):
-    for row in rows:
-        if not row["by"]:
-            reached = "" if row["tried"] else " (no case gets there)"
-            if row["left"]:
-                reached = f" ({row['left']} cases not tried)"
-            print(f"  survives: {row['path']}:{row['line']} {row['change'][:100]}{reached}")
     for path in dict.fromkeys(row["path"] for row in rows):
         own = [row for row in rows if row["path"] == path]
-        print(f"{path:36} {sum(bool(r['by']) for r in own):4} of {len(own):4}")
+        noticed = sum(bool(row["by"]) for row in own)
+        print(f"{path:48} {noticed:4} of {len(own):4} = {noticed / len(own):.1%}")
+        lines = FILES[path].decode("latin-1").splitlines()
+        for row in sorted(own, key=lambda row: row["line"]):
+            if not row["by"]:
+                reached = "" if row["tried"] else "  (no case gets there)"
+                if row["left"]:
+                    reached = f"  ({row['left']} cases not tried)"
+                print(f"  {row['line']:5} {row['change'][:70]}{reached}")
+                print(f"        {lines[row['line'] - 1].strip()[:90]}")
     dead = sum(bool(row["by"]) for row in rows)
-    print(f"{'all':36} {dead:4} of {len(rows):4} = {dead / len(rows):.1%}")
+    print(f"{'all':48} {dead:4} of {len(rows):4} = {dead / len(rows):.1%}")
     spent = sum(row["seconds"] for row in rows)
     hung = sum(row["by"].endswith(HANGS) for row in rows)
     print(f"{spent:.0f} s of CPU, {spent / len(rows):.2f} a mutant; {hung} hang; {seconds:.0f} s")
@@ -121,6 +129,7 @@ if __name__ == "__main__":
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--output", type=Path)
     parser.add_argument("--again", action="store_true")
+    parser.add_argument("--only", nargs="*", default=(), metavar="MODULE")
     ARGUMENTS = parser.parse_args()
     CONFIG = load_config(ARGUMENTS.robot)
     SYSTEM = make_system(CONFIG, build(CONFIG))

@@ -30,10 +30,14 @@ MODULE ROS_probe_motion
         ask_quick_changes;
         ask_zero_length;
         ask_refresh_timed;
+        tell_refresh_holds;
+        tell_velset_timed;
+        tell_time_after_stop;
         tell_planning_lead;
+        ask_stop_move_reset;
+        ask_range_error;
         ask_stop;
         go_back;
-        ask_range_error;
         EXIT;
     ENDPROC
 
@@ -93,17 +97,91 @@ MODULE ROS_probe_motion
         ENDIF
     ENDPROC
 
+    ! Half the speed, soon: SpeedRefresh may do nothing but in a move.
+    LOCAL PROC slow_down_in(num time)
+        IDelete alarm;
+        CONNECT alarm WITH on_slow_down;
+        ITimer \Single, time, alarm;
+    ENDPROC
+
+    LOCAL TRAP on_slow_down
+        SpeedRefresh 50;
+    ENDTRAP
+
+    LOCAL PROC full_speed_again()
+        IDelete alarm;
+        SpeedRefresh 100;
+        go_back;
+    ENDPROC
+
     ! Does SpeedRefresh stretch a \T?
     LOCAL PROC ask_refresh_timed()
-        SpeedRefresh 50;
+        slow_down_in 0.1;
         turn WAY, SECONDS;
-        SpeedRefresh 100;
         IF lasted > 1.5 * SECONDS THEN
             answer "refresh_timed=true";
         ELSE
             answer "refresh_timed=false";
         ENDIF
+        full_speed_again;
+    ENDPROC
+
+    ! Does SpeedRefresh hold for the move behind it, too?
+    LOCAL PROC tell_refresh_holds()
+        VAR speeddata slow := [1000, 2.5, 1000, 1000];
+        VAR num first;
+
+        slow_down_in 0.1;
+        place := turned(WAY);
+        ClkReset watch;
+        ClkStart watch;
+        MoveAbsJ place \NoEOffs, slow, fine, tool0;
+        first := ClkRead(watch);
+        place := turned(0);
+        MoveAbsJ place \NoEOffs, slow, fine, tool0;
+        lasted := ClkRead(watch) - first;
+        ClkStop watch;
+        answer "! 2.0 s with SpeedRefresh 50: " + NumToStr(first, 1) + " s";
+        answer "! and the next move: " + NumToStr(lasted, 1) + " s";
+        full_speed_again;
+    ENDPROC
+
+    ! Does VelSet stretch a \T?
+    LOCAL PROC tell_velset_timed()
+        VelSet 50, 5000;
+        turn WAY, SECONDS;
+        VelSet 100, 5000;
+        answer "! VelSet 50: " + ValToStr(SECONDS) + " s become " + NumToStr(lasted, 1) + " s";
         go_back;
+    ENDPROC
+
+    ! How long does a move with \T take that has stood still for 1 s on its way?
+    LOCAL PROC tell_time_after_stop()
+        IDelete alarm;
+        CONNECT alarm WITH on_pause;
+        ITimer \Single, SECONDS / 2, alarm;
+        turn WAY, SECONDS;
+        IDelete alarm;
+        answer "! stopped for 1 s, " + ValToStr(SECONDS) + " s become " + NumToStr(lasted, 2) + " s";
+        go_back;
+    ENDPROC
+
+    LOCAL TRAP on_pause
+        StopMove;
+        WaitTime 1;
+        StartMove;
+    ENDTRAP
+
+    ! Does StopMoveReset take back a StopMove?
+    LOCAL PROC ask_stop_move_reset()
+        StopMove;
+        StopMoveReset;
+        IF IsStopMoveAct(\FromMoveTask) THEN
+            answer "stop_move_reset=keeps";
+            StartMove;
+        ELSE
+            answer "stop_move_reset=releases";
+        ENDIF
     ENDPROC
 
     ! When does a fly-by move let the program go on?

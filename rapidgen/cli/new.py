@@ -5,7 +5,7 @@ from typing import Annotated
 
 import typer
 
-from rapidgen.diagnostics import refusal, render
+from rapidgen.diagnostics import DiagnosticError, refusal, render
 
 
 def new(
@@ -25,12 +25,38 @@ def new(
     macro_arg: Annotated[
         list[str] | None, typer.Option("--macro-arg", help="Argument of the macro, NAME=VALUE.")
     ] = None,
-    tip: Annotated[
-        str | None, typer.Option("--tip", help="Last link of the robot, where several fit.")
+    joint: Annotated[
+        list[str] | None, typer.Option("--joint", help="NAME=rax_1 .. eax_f: this joint's axis.")
     ] = None,
+    track: Annotated[
+        list[str] | None, typer.Option("--track", help="NAME=eax_a: as --joint, for what carries.")
+    ] = None,
+    ignore: Annotated[
+        list[str] | None, typer.Option("--ignore", help="Joint that the controller does not move.")
+    ] = None,
+    keep: Annotated[
+        list[str] | None,
+        typer.Option("--keep", help="Robot axis without a joint, held where it stands."),
+    ] = None,
+    tip: Annotated[
+        list[str] | None,
+        typer.Option("--tip", help="Last link of an arm; several times: a group for each."),
+    ] = None,
+    coupling: Annotated[
+        float | None, typer.Option("--coupling", help="1: a rod couples axes 2 and 3; 0: none.")
+    ] = None,
+    speed: Annotated[
+        float | None,
+        typer.Option("--speed", help="deg/s (mm/s) of axes of which nothing says a speed."),
+    ] = None,
+    controller: Annotated[
+        str, typer.Option("--controller", help="irc5, irc5_compact or omnicore.")
+    ] = "irc5",
+    robotware: Annotated[str, typer.Option("--robotware", help="RobotWare version.")] = "6.15",
     force: Annotated[bool, typer.Option("--force", help="Replace an existing file.")] = False,
 ) -> None:
-    """Write a commented configuration that checks and builds."""
+    """Write a commented configuration; what stays open is marked ??? in it."""
+    from rapidgen.config.described import Answers
     from rapidgen.config.scaffold import assignments, from_shipped, from_urdf, write_new
 
     if (robot is None) == (urdf is None):
@@ -51,8 +77,23 @@ def new(
             macro=macro,
             arguments=assignments(arg or ()),
             macro_arguments=assignments(macro_arg or ()),
-            tip=tip,
+            answers=Answers(
+                joints=assignments([*(joint or ()), *(track or ())]),
+                ignore=tuple(ignore or ()),
+                tips=tuple(tip or ()),
+                keep=tuple(keep or ()),
+                coupling=coupling,
+                speed=speed,
+                controller=controller,
+                robotware=robotware,
+            ),
         )
-    for notes in write_new(file, text, package_paths=package_path or (), force=force):
-        typer.echo(render([notes]), err=True, nl=False)
+    try:
+        notes = write_new(file, text, package_paths=package_path or (), force=force)
+    except DiagnosticError:
+        if file.exists():
+            typer.echo(f"wrote {file}, which is not complete:", err=True)
+        raise
+    for note in notes:
+        typer.echo(render([note]), err=True, nl=False)
     typer.echo(f"wrote {file}; next: rapidgen build {file}", err=True)

@@ -38,7 +38,7 @@ def kept_axes(
         elif axis not in ROBOT_AXES:
             report.error("RG021", f"{axis} cannot be kept: only axes of the robot", (*path, "keep"))
     missing = [axis for axis in ROBOT_AXES if axis not in driven]
-    unkept = [axis for axis in missing if axis not in keep]
+    unkept = [axis for axis in _needed(draft, driven) if axis not in driven and axis not in keep]
     if draft.coupling and {"rax_2", "rax_3"} & set(missing):
         report.error(
             "RG021",
@@ -59,7 +59,7 @@ def kept_axes(
                 "there to eax_a..eax_f",
                 key=True,
             )
-        elif unkept and not _is_real(draft, driven, bool(keep)):
+        elif unkept:
             shown = ", ".join(unkept)
             report.error(
                 "RG021",
@@ -91,14 +91,14 @@ def kept_axes(
     )
 
 
-def _is_real(draft: GroupDraft, driven: set[str], keeps: bool) -> bool:
-    """Whether a robot exists that has just these axes."""
-    if keeps:
-        return False
+def _needed(draft: GroupDraft, driven: set[str]) -> list[str]:
+    """The axes of the robot that has these."""
     third = next((j for j in draft.joints if j.axis == "rax_3"), None)
-    if driven == SCARA:
-        return third is not None and third.unit == "mm"
-    return driven == PALLETISER and bool(draft.coupling) and not draft.ignored
+    if third is not None and third.unit == "mm" and driven <= SCARA:
+        return sorted(SCARA)
+    if driven == PALLETISER and draft.coupling and not draft.ignored:
+        return sorted(PALLETISER)
+    return list(ROBOT_AXES)
 
 
 def _disorder(draft: GroupDraft) -> Iterator[tuple[str, str, str]]:

@@ -212,6 +212,7 @@ def _group(
         chain=tuple(draft.chain),
         coupling=draft.coupling or 0.0,
         tool=tool_of(keys.tool, (*path, "tool"), report),
+        payload=model.Payload(keys.payload.name, keys.payload.given_by == "TLoad"),
         work_object=work_object_of(keys.work_object, (*path, "work_object"), report),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),

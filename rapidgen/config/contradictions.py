@@ -4,7 +4,9 @@ One check for every way in: a shipped model with keys over it, a URDF, axes said
 without a `model:` is recognised by its axes in space.
 """
 
+import json
 import math
+import re
 from collections.abc import Iterator
 from typing import TypeAlias
 
@@ -16,6 +18,7 @@ from rapidgen.config.library import (
     SAME_TURN,
     KnownAxis,
     Variant,
+    family,
     of_model,
     recognise,
 )
@@ -25,6 +28,8 @@ Range: TypeAlias = tuple[float | None, float | None]
 _CLOSE = 0.6
 """deg or mm by which sources round a range"""
 _FASTER = 1.01
+_LONGEST_LINK, _LONGEST_ARM, _FARTHEST_BASE = 5.0, 10.0, 1000.0
+"""m; the longest arm of ABB reaches 4.2 (IRB 8700)"""
 _SAME_END = 0.005
 """m: flanges of one variant, as its sources have them"""
 
@@ -35,29 +40,59 @@ def contradictions(
     """RG047, RG048, RG049 and RG055 for a group; `names` may say the family."""
     if any(not joint.axis for joint in draft.joints):
         return
+    _lengths(draft, path, report)
     arm = _arm(draft)
     variant = of_model(draft.model, draft.name) if draft.model else None
-    difference = None
+    difference, is_named = None, True
     if variant and arm:
         difference = compare(arm, variant.skeleton)
     elif arm:
         match = recognise(arm, *names)
+        own = family(*names)
         if match:
             variant, difference = match.variant, match.difference
+            # Another type may have the same dimensions, yet its own ranges, speeds and rods.
+            is_named = not own or own == variant.family
     if variant is None:
         for joint in draft.joints:
-            _against_urdf(joint, path, report)
+            _against_urdf(draft, joint, path, report)
         return
     for axis in difference.turned if difference else ():
         _turned(draft, axis, variant, path, report)
     if difference:
         _dimensions(difference, variant, path, report)
+    if not is_named:
+        return
     _coupling(draft, variant, path, report)
     if not (difference and difference.turned):
         for joint in draft.joints:
             known = variant.axis(joint.axis)
             if known:
                 _figures(joint, known, variant, draft, path, report)
+
+
+def _lengths(draft: GroupDraft, path: KeyPath, report: DraftFindings) -> None:
+    """RG062: no arm is that long; a chain in mm where m are meant is."""
+    robot = {joint.name for joint in draft.joints if joint.axis.startswith("rax")}
+    inside, total = False, 0.0
+    for number, step in enumerate(draft.chain):
+        length = math.dist(step.xyz, (0.0, 0.0, 0.0))
+        most = _LONGEST_LINK if inside else _FARTHEST_BASE
+        total += length if inside else 0.0
+        if not length <= most or not total <= _LONGEST_ARM:
+            where = f"'{step.joint}'" if step.joint else f"step {number + 1}"
+            at: KeyPath = (*path, "urdf", "file") if draft.urdf_chain else (*path, "chain", number)
+            report.error(
+                "RG062",
+                f"the chain is {length:.4g} m long before {where}"
+                if not length <= most
+                else f"the arm is {total:.4g} m long as far as {where}",
+                at,
+                "no robot is",
+                "lengths are m in a URDF and mm in a configuration",
+            )
+            return
+        inside = inside or step.joint in robot
 
 
 def _arm(draft: GroupDraft) -> Skeleton | None:
@@ -82,7 +117,7 @@ def _turned(
         f"joint '{joint.name}' with sign {joint.sign} turns {axis} against {variant.name}",
         (*path, "joints", joint.name, "sign"),
         "turns the other way",
-        f"joints:\n  {joint.name}: {{axis: {axis}, sign: {-joint.sign}}}",
+        _lines(draft, joint, f"sign: {-joint.sign}"),
     )
 
 
@@ -150,16 +185,15 @@ def _figures(
     unit = "mm" if joint.unit == "mm" else "deg"
     lower, upper = joint.lower, joint.upper
     span = (known.lower, known.upper)
-    if _is_mirror((lower, upper), span):
+    if is_mirror((lower, upper), span):
         report.error(
             "RG048",
             f"joint '{joint.name}': {lower:g}..{upper:g} {unit} is the mirror of the range of "
             f"{variant.name}, {known.lower:g}..{known.upper:g} {unit}",
             here,
             "mirrored",
-            f"its axis turns as {variant.name}'s does, so the range is wrong:\njoints:\n"
-            f"  {joint.name}: {{axis: {joint.axis}, lower: {known.lower:g}, "
-            f"upper: {known.upper:g}}}",
+            f"its axis turns as {variant.name}'s does, so the range is wrong:\n"
+            + _lines(draft, joint, f"lower: {known.lower:g}, upper: {known.upper:g}"),
         )
         return
     if draft.model:
@@ -185,9 +219,23 @@ def _wider(joint: JointDraft, known: KnownAxis, unit: str) -> Iterator[str]:
         yield f"speed {joint.speed:.4g} {unit}/s, known {known.speed:g}"
 
 
-def _against_urdf(joint: JointDraft, path: KeyPath, report: DraftFindings) -> None:
+def _lines(draft: GroupDraft, changed: JointDraft, figures: str) -> str:
+    """All joints as they are to be written, with other figures for one of them."""
+    lines = ["joints:"]
+    for joint in draft.joints:
+        sign = f", sign: {joint.sign}" if joint.sign < 0 and joint is not changed else ""
+        unit = ", unit: mm" if joint.unit == "mm" else ""
+        more = f", {figures}" if joint is changed else ""
+        name = joint.name if re.fullmatch(r"\w+", joint.name) else json.dumps(joint.name)
+        lines.append(f"  {name}: {{axis: {joint.axis}{unit}{sign}{more}}}")
+    return "\n".join(lines)
+
+
+def _against_urdf(
+    draft: GroupDraft, joint: JointDraft, path: KeyPath, report: DraftFindings
+) -> None:
     """A range that mirrors the URDF's, of an arm that is not known."""
-    if joint.described and _is_mirror((joint.lower, joint.upper), joint.described):
+    if joint.described and is_mirror((joint.lower, joint.upper), joint.described):
         lower, upper = joint.described
         report.error(
             "RG048",
@@ -195,12 +243,16 @@ def _against_urdf(joint: JointDraft, path: KeyPath, report: DraftFindings) -> No
             f"range, {lower:.4g}..{upper:.4g}",
             (*path, "joints", joint.name),
             "one of the two turns the other way",
-            f"joints:\n  {joint.name}: {{axis: {joint.axis}, sign: {-joint.sign}, "
-            f"lower: {joint.lower:g}, upper: {joint.upper:g}}}",
+            _lines(
+                draft,
+                joint,
+                f"sign: {-joint.sign}, lower: {joint.lower:g}, upper: {joint.upper:g}",
+            ),
         )
 
 
-def _is_mirror(own: Range, of: Range) -> bool:
+def is_mirror(own: Range, of: Range) -> bool:
+    """Whether a range is another one the other way round."""
     (lower, upper), (low, high) = own, of
     if lower is None or upper is None or low is None or high is None:
         return False

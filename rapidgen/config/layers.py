@@ -1,7 +1,7 @@
 """One tree out of several: a shipped model, the user's file over it, overrides over both.
 
-Group keys at the top of a file belong to its only group; here they move under `groups`. A key
-without a value counts as absent, so that a section whose lines are all comments does no harm.
+Group keys at the top of a file belong to its only group; here they move under `groups`. A key that
+says `null` counts as absent.
 """
 
 import re

@@ -45,6 +45,8 @@ class Variant:
     skeleton: Skeleton
     sources: tuple[tuple[str, str], ...]
     unsure: tuple[str, ...]
+    disagreements: tuple[str, ...]
+    """Figures that its sources have differently; the narrower or lower one is used."""
 
     @property
     def family(self) -> str:
@@ -86,14 +88,25 @@ class Match:
     difference: Difference
 
 
+def closeness(variant: Variant, *names: str) -> tuple[int, bool]:
+    """How much of a variant's name is in other names: its figures, and whether it is shipped."""
+    own = {figure.replace(".", "").strip("0") for figure in re.findall(r"[\d.]+", variant.name)}
+    said = {figure.replace(".", "").strip("0") for name in names for figure in _figures(name)}
+    return len((own & said) - {""}), bool(variant.model)
+
+
+def _figures(name: str) -> list[str]:
+    return re.findall(r"\d+(?:\.\d+)?", name)
+
+
 def recognise(arm: Skeleton, *names: str) -> Match | None:
-    """The variant that an arm is, by its axes in space; of equal ones that of the named family."""
+    """The variant that an arm is, by its axes in space; of equal ones the one that is named."""
     hits = []
-    wanted = family(*names)
     for variant in variants():
         found = compare(arm, variant.skeleton)
         if found and found.distance <= SAME_PLACE and found.angle <= SAME_TURN:
-            hits.append((variant.family != wanted, round(found.distance, 4), Match(variant, found)))
+            rank = (len(found.turned), *(-int(part) for part in closeness(variant, *names)))
+            hits.append((rank, round(found.distance, 4), Match(variant, found)))
     return min(hits, key=lambda hit: hit[:2])[2] if hits else None
 
 
@@ -130,6 +143,7 @@ def _variant(entry: Json) -> Variant:
         ),
         sources=tuple((key, text(value)) for key, value in members(data["sources"]).items()),
         unsure=tuple(text(part) for part in items(data.get("unsure", []))),
+        disagreements=tuple(text(part) for part in items(data.get("disagreements", []))),
     )
 
 

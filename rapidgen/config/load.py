@@ -10,8 +10,10 @@ from rapidgen.config.assemble import Assembly, Basis, assemble
 from rapidgen.config.build import build
 from rapidgen.config.contradictions import contradictions
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
+from rapidgen.config.few import few
 from rapidgen.config.layers import Overrides
 from rapidgen.config.model import ChainLink, RobotConfig
+from rapidgen.config.open_lines import take_open
 from rapidgen.config.validate import validate
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, suggest
 
@@ -31,7 +33,11 @@ def load_config(
     result's `diagnostics`.
     """
     assembly = assemble(path_or_name, overrides)
+    assembly.root, open_lines = take_open(assembly.root)
     valid = validate(assembly.root)
+    if open_lines:
+        faults = assembly.found + valid.found
+        raise DiagnosticError(few(in_order(open_lines + faults)), exit_code=2 if faults else 1)
     report = DraftFindings(assembly.root, valid.removed)
     report.found = assembly.found + valid.found
     groups = valid.configuration.groups
@@ -48,8 +54,8 @@ def load_config(
     config = build(valid.configuration, drafts, assembly.path, report)
     found = tuple(in_order(report.found))
     if config is None:
-        raise DiagnosticError(found)
-    return replace(config, inputs=tuple(assembly.inputs), diagnostics=found)
+        raise DiagnosticError(few(found))
+    return replace(config, inputs=tuple(assembly.inputs), diagnostics=tuple(few(found)))
 
 
 def drafts_of(name: str) -> list[tuple[GroupDraft, schema.GroupKeys]]:

@@ -87,19 +87,30 @@ class Placement:
 
 @dataclass(frozen=True, slots=True)
 class Tool:
-    """A tool; `name` is `tool0` or the PERS that the generated module declares."""
+    """A tool; `name` is `tool0` or a PERS, of the generated module or another."""
 
     name: str = "tool0"
+    elsewhere: bool = False
     held: bool = True
     frame: Placement = field(default_factory=Placement)
     load: Load = field(default_factory=Load)
 
 
 @dataclass(frozen=True, slots=True)
+class Payload:
+    """What the robot carries: loaddata of the customer's program; load0: nothing is said of it."""
+
+    name: str = "load0"
+    with_moves: bool = False
+    """By \\TLoad of each move, not by GripLoad."""
+
+
+@dataclass(frozen=True, slots=True)
 class WorkObject:
-    """A work object; `name` is `wobj0` or the PERS that the generated module declares."""
+    """A work object; `name` is `wobj0` or a PERS, of the generated module or another."""
 
     name: str = "wobj0"
+    elsewhere: bool = False
     held: bool = False
     user_frame: Placement = field(default_factory=Placement)
     object_frame: Placement = field(default_factory=Placement)
@@ -137,6 +148,7 @@ class GroupConfig:
     coupling: float = 0.0
     """Factor k of controller axis 3 = J3 + k * J2 (0: not coupled)."""
     tool: Tool = field(default_factory=Tool)
+    payload: Payload = field(default_factory=Payload)
     work_object: WorkObject = field(default_factory=WorkObject)
     tcp_speed_limit: float = 5.0
     """m/s"""

@@ -1,21 +1,17 @@
 """Configurations to start from: commented, and checked before they are written."""
 
 import json
-import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from rapidgen._writing import write_whole
 from rapidgen.config import schema
 from rapidgen.config.catalogue import model_description
-from rapidgen.config.draft import GroupDraft, JointDraft
+from rapidgen.config.described import Answers, GroupText, describe
 from rapidgen.config.load import load_config
 from rapidgen.config.registry import find_shipped
-from rapidgen.config.urdf.group import complete_from, request
-from rapidgen.config.urdf.source import macros, read_xml
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, refusal
 
 _OPTIONS = """
 # What follows is optional; the values shown are the defaults. `rapidgen schema` and
@@ -83,80 +79,73 @@ def from_urdf(
     macro: str | None = None,
     arguments: Mapping[str, str] | None = None,
     macro_arguments: Mapping[str, str] | None = None,
-    tip: str | None = None,
+    answers: Answers | None = None,
 ) -> str:
     """Configuration text for a robot description; `folder` is where the file will lie.
 
-    A file with one macro is called through it, and a robot of a coupled family gets its
-    coupling; whatever else cannot be known raises DiagnosticError with the lines to paste.
+    What cannot be known is marked `???`. Raises DiagnosticError for what is no description of a
+    robot of ABB.
     """
+    said = answers or Answers()
+    if not str(urdf).isprintable():
+        raise refusal(
+            "RG020",
+            None,
+            f"the name {urdf.name!a} has characters that are not printed",
+            "give the file another name",
+        )
     given = schema.UrdfKeys(
         file=_relative(urdf, folder),
         macro=macro,
         macro_args=dict(macro_arguments or {}),
         args=dict(arguments or {}),
-        tip=tip,
     )
-    text, _ = read_xml(urdf)
-    coupling: float | None = None
-    while True:
-        draft = GroupDraft("rob1", coupling=coupling)
-        wanted = request(given, folder, package_paths, None)
-        found, _ = complete_from(draft, given, wanted, frozenset())
-        errors = [d for d in found if d.severity is Severity.ERROR]
-        codes = {d.code for d in errors}
-        defined = macros(text)
-        if codes == {"RG031"} and len(defined) == 1 and not given.macro:
-            given = replace(given, macro=defined[0].name)
-        elif codes == {"RG047"} and coupling is None:
-            coupling = 1.0
-        elif errors:
-            raise DiagnosticError(errors)
-        else:
-            break
-    return _urdf_text(given, draft, _packages(wanted.packages.used, folder))
-
-
-def _packages(used: Mapping[str, Path], folder: Path) -> dict[str, str]:
-    return {name: _relative(path, folder) for name, path in sorted(used.items())}
-
-
-def _relative(path: Path, folder: Path) -> str:
-    return os.path.relpath(path.resolve(), folder.resolve())
-
-
-def _urdf_text(given: schema.UrdfKeys, draft: GroupDraft, packages: Mapping[str, str]) -> str:
+    given, groups, used = describe(urdf, folder, package_paths, given, said)
+    packages = {name: _relative(path, folder) for name, path in sorted(used.items())}
     quoted = json.dumps  # a JSON text is a YAML text
     lines = [
         f"# Made from {Path(given.file).name}. Check every axis against the robot before it moves.",
         "controller:",
-        "  type: irc5               # or irc5_compact, omnicore",
-        "  robotware: 6.15          # see the FlexPendant: Settings or System Info",
-        "urdf:",
-        f"  file: {quoted(given.file)}",
+        f"  type: {said.controller:<20}# irc5, irc5_compact, omnicore",
+        f"  robotware: {said.robotware:<15}# see the FlexPendant: Settings or System Info",
     ]
-    lines += [f"  macro: {given.macro}"] if given.macro else []
-    lines += [f"  macro_args: {quoted(given.macro_args)}"] if given.macro_args else []
-    lines += [f"  tip: {quoted(given.tip)}"] if given.tip else []
-    lines += [f"  args: {quoted(given.args)}"] if given.args else []
-    lines += [f"  packages: {quoted(packages)}"] if packages else []
-    lines.append("joints:                    # in the order of the wire; limits from the URDF")
-    lines += [f"  {_joint_line(joint)}" for joint in draft.joints]
-    lines.append(
-        f"coupling: {draft.coupling or 0:g}                # 1 where a rod couples axes 2 and 3"
-    )
-    return "\n".join(lines) + "\n" + _OPTIONS + _GROUP_OPTIONS
+    source = [f"  file: {quoted(given.file)}"]
+    source += [f"  macro: {given.macro}"] if given.macro else []
+    source += [f"  macro_args: {quoted(given.macro_args)}"] if given.macro_args else []
+    source += [f"  args: {quoted(given.args)}"] if given.args else []
+    source += [f"  packages: {quoted(packages)}"] if packages else []
+    source += [f"  ignore_joints: {quoted(list(said.ignore))}"] if said.ignore else []
+    several = len(groups) > 1
+    lines += ["groups:"] if several else []
+    for group in groups:
+        lines += [f"  {group.name}:"] if several else []
+        lines += [f"{'    ' if several else ''}{line}" for line in _group_lines(group, source)]
+    return "\n".join(lines) + "\n" + _OPTIONS + ("" if several else _GROUP_OPTIONS)
 
 
-def _joint_line(joint: JointDraft) -> str:
-    name = joint.name if joint.name.isidentifier() else json.dumps(joint.name)
-    unit = ", unit: mm" if joint.unit == "mm" else ""
-    of = joint.unit or "deg"
-    lower, upper = (math.floor((v or 0) * 100 + 0.5) / 100 for v in (joint.lower, joint.upper))
-    return (
-        f"{name}: {{axis: {joint.axis}{unit}}}   "
-        f"# {lower:g}..{upper:g} {of}, {joint.speed or 0:.4g} {of}/s"
-    )
+def _group_lines(group: GroupText, source: Sequence[str]) -> list[str]:
+    words = [line for line in group.head if line.startswith("#")]
+    tips = [f"  {line}" for line in group.head if not line.startswith("#")]
+    width = max(len(line.text(0).split("  #")[0]) for line in group.joints)
+    arms = {"rob_l": "ROB_L", "rob_r": "ROB_R"}
+    return [
+        *words,
+        *(
+            [f"task: T_{arms[group.name]}", f"mechanical_unit: {arms[group.name]}"]
+            if group.name in arms
+            else []
+        ),
+        "urdf:",
+        *source,
+        *tips,
+        "joints:                    # in the order of the wire; limits from the URDF",
+        *(f"  {line.text(width)}" for line in group.joints),
+        *group.tail,
+    ]
+
+
+def _relative(path: Path, folder: Path) -> str:
+    return os.path.relpath(path.resolve(), folder.resolve())
 
 
 def assignments(words: Sequence[str]) -> dict[str, str]:
@@ -173,10 +162,10 @@ def assignments(words: Sequence[str]) -> dict[str, str]:
 def write_new(
     path: Path, text: str, *, package_paths: Sequence[Path] = (), force: bool = False
 ) -> tuple[Diagnostic, ...]:
-    """Write a new configuration once it loads; its warnings.
+    """Write a new configuration and load it; its warnings.
 
     Raises DiagnosticError when the file exists (RG020, unless `force`), cannot be written
-    (RG001), or does not load; in the last case nothing is left behind.
+    (RG001), or does not load: then it is there to be mended, and the exit code is 1.
     """
     if path.exists() and not force:
         raise refusal(
@@ -186,7 +175,6 @@ def write_new(
             "give another name, or --force to replace it",
             exit_code=1,
         )
-    before = path.read_bytes() if path.is_file() else None
     try:
         write_whole(path, text.encode())
     except OSError as fault:
@@ -198,9 +186,5 @@ def write_new(
         ) from None
     try:
         return load_config(path, package_paths=package_paths).diagnostics
-    except DiagnosticError:
-        if before is None:
-            path.unlink()
-        else:
-            write_whole(path, before)
-        raise
+    except DiagnosticError as fault:
+        raise DiagnosticError(fault.diagnostics, exit_code=1) from None

@@ -170,6 +170,13 @@ class ToolKeys(_Part):
     """The tool that the driver moves with. Another name than tool0 declares that tooldata."""
 
     name: Annotated[Identifier, Rule("Name of the tooldata.")] = "tool0"
+    declared: Annotated[
+        Literal["here", "elsewhere"],
+        Rule(
+            "`elsewhere`: a module of yours declares it, `PERS` and global; its value is taken at "
+            "the beginning of each trajectory."
+        ),
+    ] = "here"
     held: Annotated[bool, Rule("False: a stationary tool.")] = True
     frame: Annotated[FrameKeys, Rule("TCP in the flange's frame.")] = field(
         default_factory=FrameKeys
@@ -182,6 +189,9 @@ class WorkObjectKeys(_Part):
     """The work object. Another name than wobj0 declares that wobjdata."""
 
     name: Annotated[Identifier, Rule("Name of the wobjdata.")] = "wobj0"
+    declared: Annotated[Literal["here", "elsewhere"], Rule("`elsewhere`: as with the tool.")] = (
+        "here"
+    )
     held: Annotated[bool, Rule("True: the robot holds the work object.")] = False
     user_frame: Annotated[FrameKeys, Rule("User frame in the world.")] = field(
         default_factory=FrameKeys
@@ -189,6 +199,17 @@ class WorkObjectKeys(_Part):
     object_frame: Annotated[FrameKeys, Rule("Object frame in the user frame.")] = field(
         default_factory=FrameKeys
     )
+
+
+@dataclass(frozen=True)
+class PayloadKeys(_Part):
+    """What the robot carries: loaddata that a module of yours declares, `PERS` and global."""
+
+    name: Annotated[Identifier, Rule("Name of the loaddata; load0: none.")] = "load0"
+    given_by: Annotated[
+        Literal["GripLoad", "TLoad"],
+        Rule("`TLoad`: with each move, where the system parameter ModalPayLoadMode is 0."),
+    ] = "GripLoad"
 
 
 @dataclass(frozen=True)
@@ -211,7 +232,7 @@ class UrdfKeys(_Part):
     macro: Annotated[str | None, Rule("Macro to call when the file only defines macros.")] = None
     macro_args: Annotated[
         dict[str, str | int | float | bool],
-        Rule("Arguments of that macro; `prefix` is empty without one."),
+        Rule("Arguments of that macro; `prefix` is empty, `parent` is world without one."),
     ] = field(default_factory=dict)
     args: Annotated[
         dict[str, str | int | float | bool],
@@ -289,6 +310,9 @@ class GroupKeys(_Part):
         ),
     ] = None
     tool: Annotated[ToolKeys, Rule("Tool of the moves.")] = field(default_factory=ToolKeys)
+    payload: Annotated[PayloadKeys, Rule("What the robot carries.")] = field(
+        default_factory=PayloadKeys
+    )
     work_object: Annotated[WorkObjectKeys, Rule("Work object of the moves.")] = field(
         default_factory=WorkObjectKeys
     )

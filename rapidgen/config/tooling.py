@@ -47,7 +47,7 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> mode
             help="give the tool another `name:`",
             key=True,
         )
-    elif tool.name != "tool0" and load.mass <= 0:
+    elif tool.name != "tool0" and tool.declared == "here" and load.mass <= 0:
         report.error(
             "RG014",
             f"tool '{tool.name}' weighs nothing",
@@ -57,6 +57,7 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> mode
     x, y, z = load.inertia
     return model.Tool(
         tool.name,
+        tool.declared == "elsewhere",
         tool.held,
         _frame(tool.frame, (*path, "frame"), report),
         model.Load(
@@ -82,6 +83,7 @@ def work_object_of(
         )
     return model.WorkObject(
         given.name,
+        given.declared == "elsewhere",
         given.held,
         _frame(given.user_frame, (*path, "user_frame"), report),
         _frame(given.object_frame, (*path, "object_frame"), report),

@@ -21,6 +21,8 @@ MAX_NODES = 50_000
 _INT = re.compile(r"[-+]?[0-9]+|0o[0-7]+|0x[0-9a-fA-F]+")
 _FLOAT = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")
 _INF = re.compile(r"[-+]?\.(inf|Inf|INF)")
+_UNREADABLE = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
+"""Control characters and lone surrogates: no name, no text for people."""
 _CONSTANTS: dict[str, bool | float | None] = {
     **dict.fromkeys(("", "~", "null", "Null", "NULL")),
     **dict.fromkeys(("true", "True", "TRUE"), True),
@@ -188,6 +190,7 @@ class _Builder:
         node: Node
         if kind == "ScalarEvent":
             plain = event.style in (None, "")
+            self._readable(event.value, span)
             value = self._resolve(event.value, span) if plain else event.value
             node = ScalarNode(value, span)
         elif kind == "SequenceStartEvent":
@@ -198,6 +201,11 @@ class _Builder:
             self._anchors[event.anchor] = node
             self._weights[event.anchor] = self._nodes - before
         return node
+
+    def _readable(self, text: str, span: Span) -> None:
+        hit = _UNREADABLE.search(text)
+        if hit:
+            raise self._refuse(f"the character U+{ord(hit[0]):04X} stands for nothing", span)
 
     def _count(self, nodes: int, span: Span) -> None:
         self._nodes += nodes
@@ -234,12 +242,36 @@ class _Builder:
             if type(event).__name__ != "ScalarEvent" or event.tag is not None:
                 raise self._refuse("a key that is not a plain text", place)
             self._count(1, place)
-            value = self._node(next(self._events), depth + 1)
+            self._readable(event.value, place)
+            following = next(self._events)
+            value = self._node(following, depth + 1)
+            given = type(following).__name__ != "ScalarEvent" or following.value != ""
+            if not given and isinstance(value, ScalarNode) and value.value is None:
+                self._found.append(_empty(event.value, place, entries))
             if event.value in entries:
                 self._found.append(_duplicate(event.value, place, entries[event.value][0]))
             else:
                 entries[event.value] = (place, value)
         raise self._refuse("the text ends inside a mapping", start)
+
+
+def _empty(key: str, place: Span, before: dict[str, tuple[Span, Node]]) -> Diagnostic:
+    last = next(reversed(before.values()))[1] if before else None
+    if key.isdigit() and isinstance(last, ScalarNode) and isinstance(last.value, int | float):
+        return error(
+            "RG023",
+            place,
+            f"'{key}' is a key without a value",
+            f"write a decimal point: {last.value}.{key}",
+            label="behind a decimal comma?",
+        )
+    return error(
+        "RG023",
+        place,
+        f"'{key}' has no value",
+        "give it one, or take the line out",
+        label="nothing behind it",
+    )
 
 
 def _duplicate(key: str, place: Span, first: Span) -> Diagnostic:

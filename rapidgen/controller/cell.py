@@ -2,7 +2,8 @@
 
 A configuration exposes signals of the cell to clients. They are the customer's: his own EIO.cfg
 defines them, with units and bits, so that a generated one must not. Whoever boots a driver here
-gets them as virtual signals of the types that the configuration names.
+gets them as virtual signals of the types that the configuration names. So with a tool, a work
+object or a load that a module of his declares.
 
 With `main: own` the customer has a `main` that calls the driver. Where his is not there, one that
 does nothing else stands in for it.
@@ -11,6 +12,7 @@ does nothing else stands in for it.
 from dataclasses import replace
 
 from rapidgen.config.model import RobotConfig
+from rapidgen.generate.context import data_of_another
 from rapidgen.rapid import parse
 from rapidgen.system.model import ModuleFile, SignalSpec, System, TaskSpec
 
@@ -35,6 +37,7 @@ def in_its_cell(system: System, config: RobotConfig) -> System:
         if signal.name.lower() not in known
     )
     tasks = system.tasks if config.call_main else tuple(_with_main(t) for t in system.tasks)
+    tasks = tuple(_with_data(task, config) for task in tasks)
     return replace(system, tasks=tasks, signals=(*system.signals, *exposed))
 
 
@@ -42,6 +45,24 @@ def _with_main(task: TaskSpec) -> TaskSpec:
     if not task.motion or any(_has_main(module) for module in task.modules):
         return task
     return replace(task, modules=(*task.modules, _MAIN))
+
+
+def _with_data(task: TaskSpec, config: RobotConfig) -> TaskSpec:
+    """A task with the data that its modules take from another module, unless one declares them."""
+    group = next((g for g in config.groups if g.task == task.name), None)
+    data = data_of_another(group) if group is not None and task.motion else []
+    if not data:
+        return task
+    known = {d.name.casefold() for m in task.modules for d in parse(m.data, path=m.path).data}
+    wanted = [
+        f"    PERS {kind} {name} := {value};\n"
+        for kind, name, value in data
+        if name.casefold() not in known
+    ]
+    if not wanted:
+        return task
+    text = f"MODULE own_data\n{''.join(wanted)}ENDMODULE\n".encode("ascii")
+    return replace(task, modules=(*task.modules, ModuleFile("own_data", "own_data.mod", text)))
 
 
 def _has_main(module: ModuleFile) -> bool:

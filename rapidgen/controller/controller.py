@@ -39,7 +39,7 @@ from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
 from rapidgen.runtime.task.statements import Statements
 from rapidgen.runtime.task.task import Task
-from rapidgen.system import is_generated, read_files, read_manifest, read_system
+from rapidgen.system import is_generated, read_files, read_folder, read_manifest, read_system
 from rapidgen.system.model import System
 
 _T = TypeVar("_T")
@@ -198,14 +198,23 @@ class VirtualController:
     # -- other ways in ---------------------------------------------------------------------------
 
     @classmethod
-    def from_folder(cls, path: Path | str, **options: Unpack[Choices]) -> Self:
+    def from_folder(
+        cls,
+        path: Path | str,
+        *,
+        backup: Path | str | None = None,
+        **options: Unpack[Choices],
+    ) -> Self:
         """A generated folder (its manifest tells the robots) or an ABB backup.
 
-        DiagnosticError when it cannot be read.
+        `backup` is of the controller that a generated folder is loaded onto. DiagnosticError when
+        something cannot be read, or a controller would not load it.
         """
         folder = Path(path)
-        system = read_system(folder)
-        if is_generated(folder):
+        generated = is_generated(folder)
+        onto = generated or backup is not None
+        system = read_folder(folder, backup) if onto else read_system(folder)
+        if generated:
             config = from_manifest(read_manifest(folder)["configuration"])
             system = in_its_cell(system, config)
             options.setdefault("robots", tuple(config.groups))

@@ -1,6 +1,5 @@
 """What stands between a driver and a controller: looked at from outside, nothing changed."""
 
-import re
 import socket
 from collections import Counter
 from collections.abc import Callable, Iterator
@@ -17,6 +16,7 @@ from rapidgen.deploy.planning import make_plan
 from rapidgen.deploy.secrets import Credentials, Secret
 from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.target import Access, connect, credentials
+from rapidgen.deploy.tasks import MAIN, entry_steps
 from rapidgen.deploy.transports.registry import Target
 from rapidgen.deploy.transports.transport import Transport, TransportFault
 from rapidgen.diagnostics import DiagnosticError
@@ -27,7 +27,6 @@ Verdict = Literal["ok", "warn", "fail", "unknown"]
 Hello = Callable[[str, int], str | None]
 """BUILD_ID of what serves a state port; None where something else answers. OSError: nobody."""
 
-_MAIN = re.compile(rb"^\s*PROC\s+main\s*\(", re.I | re.M)
 _FEATURES = ("623-1 Multitasking", "616-1 PC Interface")
 
 
@@ -187,7 +186,7 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
     home = plan.layout.home
     ours = {c.where for c in plan.changes}
     names = {m[1].lower() for f in wanted.files if (m := MODULE.search(f.data))}
-    has_main = any(_MAIN.search(f.data) for f in wanted.files)
+    has_main = any(MAIN.search(f.data) for f in wanted.files)
     found = False
     folders = {"", *(c.path.rpartition("/")[0] for c in plan.changes if c.kind == "module")}
     for folder in sorted(folders):
@@ -212,7 +211,7 @@ def _clashes(transport: Transport, plan: Plan, wanted: DriverSet) -> Iterator[Ch
                     f"{where} holds a module {module[1].decode()} too",
                     "two modules of one name do not load: rename it, or keep it out of the tasks",
                 )
-            elif has_main and _MAIN.search(data):
+            elif has_main and MAIN.search(data):
                 found = True
                 yield Check(
                     "main",
@@ -248,6 +247,8 @@ def _configuration(plan: Plan, wanted: DriverSet) -> Iterator[Check]:
         )
         return
     yield Check("RobotWare", "ok", f"main version {wanted.robotware[0]}")
+    for step in entry_steps(wanted, plan.cfg_present, plan.target):
+        yield Check("tasks", "warn", step.what, "the driver's main does not run before that")
     for change in plan.cfg:
         if change.action == "clash":
             mend = "rename the signal on the controller"

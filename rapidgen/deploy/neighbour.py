@@ -12,6 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rapidgen.deploy.cfg import Keyed, attributes_text, keyed, name_of, shown_key
+from rapidgen.deploy.driverset import STATE
 from rapidgen.deploy.transports.transport import Transport, TransportFault, read_or_none, safe
 from rapidgen.system import CfgText, Instance, Section
 
@@ -19,8 +20,7 @@ MODULE = re.compile(rb"^\s*MODULE\s+([A-Za-z]\w*)", re.I | re.M)
 _PROC = re.compile(rb"^\s*(?:LOCAL\s+)?PROC\s+([A-Za-z]\w*)", re.I | re.M)
 _OLD = re.compile(r"ROS_(common|socket|messages|motion|motionServer|stateServer)(_\w+)?", re.I)
 """Modules of abb_driver; with two arms they carry suffixes [backup 6.06]."""
-_FOLDER = "ros"
-"""Where abb_driver's page, and our first release, put their modules: HOME:/ROS."""
+_ENDINGS = ("mod", "sys", "modx", "sysx", "prg")
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,27 +159,32 @@ def _tasks(there: Keyed, rows: list[Instance], out: list[Instance]) -> frozenset
 
 
 def _files(transport: Transport, home: str, mine: Beside) -> tuple[str, ...]:
-    """Modules in HOME:/ROS that are not ours and have a name of ours or of abb_driver."""
+    """Modules in HOME and its folders that are not ours and have a name of ours or abb_driver's.
+
+    Its page says HOME:/ROS; nothing keeps them from lying elsewhere.
+    """
     found = []
-    for folder in transport.entries(home.rstrip("/")):
-        if folder.name.casefold() != _FOLDER or folder.folder is False:
-            continue
-        try:
-            entries = transport.entries(home + folder.name)
-        except TransportFault as fault:
-            if fault.kind != "missing":
-                raise
-            continue
-        for entry in entries:
-            path = f"{folder.name}/{entry.name}"
-            suffix = entry.name.rpartition(".")[2].casefold()
-            if entry.folder or suffix not in ("mod", "sys") or path in mine.paths:
+    top = transport.entries(home.rstrip("/"))
+    folders = [e.name for e in top if e.folder or (e.folder is None and "." not in e.name)]
+    for folder in ("", *(name for name in folders if name != STATE)):
+        for name in _names(transport, home + folder) if folder else (e.name for e in top):
+            path = f"{folder}/{name}".lstrip("/")
+            stem, _, suffix = name.rpartition(".")
+            if suffix.casefold() not in _ENDINGS or path in mine.paths:
                 continue
-            module = MODULE.search(transport.read(home + path))
-            name = module[1].decode("latin-1") if module else ""
-            if name.casefold() in mine.modules or _OLD.fullmatch(name):
+            if stem.casefold() in mine.modules or _OLD.fullmatch(stem):
                 found.append(path)
     return tuple(found)
+
+
+def _names(transport: Transport, folder: str) -> tuple[str, ...]:
+    """Names in what may be a folder: not every server tells."""
+    try:
+        return tuple(entry.name for entry in transport.entries(folder))
+    except TransportFault as fault:
+        if fault.kind in ("lost", "garbled"):
+            raise
+        return ()
 
 
 def _source(transport: Transport, home: str, file: str) -> bytes | None:

@@ -14,6 +14,7 @@ from rapidgen.deploy.plan import DAMAGED, Action, FileChange, Layout, Plan, Verb
 from rapidgen.deploy.state import FileRecord, Manifest, StateFolder, read_state
 from rapidgen.deploy.steps import CFG_FIRST, steps_beside, steps_of
 from rapidgen.deploy.syspar import read_syspar, syspar_changes
+from rapidgen.deploy.tasks import check_complete, entry_steps
 from rapidgen.deploy.transports.transport import Transport, read_or_none, refused
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import CfgText, parse_cfg
@@ -30,7 +31,8 @@ def make_plan(
 
     `loaded` is what a backup says is loaded, for a transport that does not see it.
     Raises TransportFault; DiagnosticError RG524 (another robot's driver), RG525 (RobotWare),
-    RG529 (nothing deployed), RG531 (the manifest on the controller is damaged).
+    RG529 (nothing deployed), RG531 (the manifest on the controller is damaged), RG538 (no such
+    motion task), RG539 (a task is left out).
     """
     layout = find_layout(transport)
     state = read_state(transport, layout.home)
@@ -59,7 +61,7 @@ def make_plan(
     seen = bool(syspar) and transport.reach.writes_cfg
     if seen:
         # A system that starts from these files has nobody who could leave a row out.
-        wanted_cfg = tuple(t for t in wanted_cfg if not may_be_refused(t))
+        wanted_cfg = tuple(text for text in wanted_cfg if not may_be_refused(text))
     present = texts if texts else old_cfg
     ours = frozenset([*map(name_of, keyed(old_cfg)), *base.cfg_before])
     cfg = compare(keyed(wanted_cfg), keyed(present), ours, base.cfg_before)
@@ -104,6 +106,10 @@ def make_plan(
         gone=any(c.after is None for c in modules),
         written=seen,
     )
+    if wanted is not None:
+        if verb == "deploy":
+            check_complete(wanted, cfg)
+        steps = (*entry_steps(wanted, texts, transport.shown), *steps)
     if neighbour is not None:
         steps = steps_beside(neighbour)
     elif wanted is None and not seen and any(c.action == "remove" for c in cfg):

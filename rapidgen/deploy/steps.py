@@ -145,7 +145,7 @@ def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualSte
     """Files that hold something new. Adding refuses what is there already (120006 [real 6.03])."""
     changes = {(c.domain, c.key): c for c in cfg}
     steps = []
-    # By name: signals (EIO) come before what names them (SYS).
+    # Signals come before what names them.
     for text in sorted(wanted, key=lambda text: text.path):
         rows = [(s.name, i) for s in text.sections for i in s.instances]
         mine = [changes[text.domain, f"{name} {shown_key(name, i)}"] for name, i in rows]
@@ -163,7 +163,7 @@ def _load(cfg: Sequence[CfgChange], wanted: Sequence[CfgText]) -> list[ManualSte
         if theirs:
             what += f"; in a copy without {', '.join(theirs)}: somebody else's, used as they are"
         if may_be_refused(text):
-            what += "; if it is refused leave it out, the driver serves and stops without it"
+            what += "; it may be refused: leave it out, the driver serves and stops without it"
         steps.append(ManualStep("pendant", what))
     return steps
 

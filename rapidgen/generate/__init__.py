@@ -28,7 +28,7 @@ def make_system(
     *,
     under: "Under | None" = None,
     without: "Collection[str]" = (),
-    open_words: bool = False,
+    open_words: bool = True,
 ) -> "System":
     """The controller that the output makes, as `system.read_folder` without the disk: loaded
     onto a delivered controller, or onto `under`; the other two as in `read_folder`.

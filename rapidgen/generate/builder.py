@@ -3,7 +3,7 @@
 import hashlib
 import json
 import os
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,9 +14,10 @@ from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
-from rapidgen.generate.cell import Cell, missing
+from rapidgen.generate.cell import Cell, in_the_way, missing, used_signals
 from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.lint import lint
+from rapidgen.generate.naming import naming
 from rapidgen.generate.numbers import literal
 from rapidgen.generate.output import Output, OutputFile, manifest_file
 from rapidgen.generate.parameters import OPEN_FILES, cfg_files
@@ -31,8 +32,9 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     """All files for one controller; for `cell`, to which `config` was fitted, what it lacks.
 
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
-    RG105 (the first line of a cfg file is not known for this RobotWare), RG110 (the cell has
-    something in another way), RG720..RG723 (it would not load the files).
+    RG105 (the first line of a cfg file is not known for this RobotWare), RG106 (a name is taken in
+    RAPID), RG110 (the cell has something in another way), RG112 (its program has a name that ours
+    needs), RG720..RG723 (it would not load the files).
     """
     templates = data_folder("templates")
     build_id = make_build_id(config, templates)
@@ -40,7 +42,9 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     renderer.add_filter("num", literal)
     system = layout.make_system(config, build_id)
     parameters = cfg_files(config, system)
+    used = {}
     if cell is not None:
+        used = used_signals(parameters, cell)
         parameters = missing(parameters, cell)
     files = [
         *(f for group in config.groups for f in _modules(config, group, build_id, renderer)),
@@ -48,10 +52,10 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     ]
     readme = renderer.render("README.md.j2", **readme_context(config, system, build_id))
     files.append(OutputFile("README.md", readme.text.encode("utf-8"), "readme"))
-    files.append(manifest_file(files, _head(config, build_id, files)))
+    files.append(manifest_file(files, _head(config, build_id, files, used)))
     output = Output(config.name, build_id, tuple(files))
     if cell is not None:
-        make_system(config, output, under=of_backup(cell.cfg, cell.system))
+        in_the_way(make_system(config, output, under=of_backup(cell.cfg, cell.system)), output)
     return output
 
 
@@ -61,7 +65,7 @@ def make_system(
     *,
     under: Under | None = None,
     without: Collection[str] = (),
-    open_words: bool = False,
+    open_words: bool = True,
 ) -> System:
     """The controller that the output makes, as `system.read_folder` without the disk."""
     modules = {}
@@ -128,6 +132,7 @@ def _modules(
         # Controllers write CR LF and read both; LF keeps line counts and diffs plain.
         data = rendered.text.encode("ascii", errors="replace")
         files.append(OutputFile(path, data, "module", tasks, rendered.lines))
+    faults += naming(group, [file.data.decode("ascii", errors="replace") for file in files])
     if faults:
         raise DiagnosticError(faults)
     return files
@@ -137,7 +142,9 @@ def _cfg(path: str, text: str) -> OutputFile:
     return OutputFile(path, text.replace("\n", "\r\n").encode("ascii"), "cfg")
 
 
-def _head(config: RobotConfig, build_id: str, files: list[OutputFile]) -> Members:
+def _head(
+    config: RobotConfig, build_id: str, files: list[OutputFile], used: Mapping[str, str]
+) -> Members:
     return {
         "format": 1,
         "rapidgen": __version__,
@@ -146,6 +153,7 @@ def _head(config: RobotConfig, build_id: str, files: list[OutputFile]) -> Member
         "robotware": list(config.robotware),
         # What a controller may refuse as a whole.
         "optional": [f.path for f in files if f.path in OPEN_FILES],
+        **({"cell_signals": dict(used)} if used else {}),
         "groups": {
             group.name: {
                 "task": group.task,

@@ -9,9 +9,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.config.model import GroupConfig, RobotConfig
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, refusal
 from rapidgen.generate.layout import modules
-from rapidgen.rapid import parse
+from rapidgen.generate.output import Output
+from rapidgen.rapid import check, parse
 from rapidgen.system import Attribute, CfgText, Instance, Section, System
 from rapidgen.system.adding import identity, identity_text
 from rapidgen.system.backup import backup_cfg, read_backup
@@ -38,7 +39,7 @@ def read_cell(folder: Path | str) -> Cell:
     notes: list[Diagnostic] = []
     system = read_backup(folder, notes=notes)
     cfg = backup_cfg(Path(folder), system.robotware, notes)
-    return Cell(system, cfg, tuple(notes))
+    return Cell(system, cfg, tuple(dict.fromkeys(notes)))
 
 
 # -- the configuration ----------------------------------------------------------------------------
@@ -167,6 +168,13 @@ def missing(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> tuple[tuple[str
     return tuple(kept)
 
 
+def used_signals(texts: Iterable[tuple[str, CfgText]], cell: Cell) -> dict[str, str]:
+    """Signals of the files that the cell has, with their types."""
+    names = (i.text("Name") for _, text in texts for i in text.instances("EIO_SIGNAL"))
+    found = {name: cell.cfg.signal(name) for name in names}
+    return {name: old.text("SignalType") for name, old in found.items() if old is not None}
+
+
 def _lacking(text: CfgText, section: Section, cell: Cell) -> Iterator[Instance]:
     for instance in section.instances:
         old = _existing(text, section, instance, cell)
@@ -293,3 +301,31 @@ def _values(instance: Instance) -> dict[str, tuple[str, ...]]:
         a.name.casefold(): tuple(str(value).casefold() for value in a.values)
         for a in instance.attributes
     }
+
+
+# -- the modules ----------------------------------------------------------------------------------
+
+
+def in_the_way(system: System, output: Output) -> None:
+    """Refuse a driver whose modules do not link beside the cell's program.
+
+    A global name of the program hides a predefined one, or clashes with a global one of ours.
+    Raises DiagnosticError RG112.
+    """
+    ours = {file.path for file in output.files if file.kind == "module"}
+    faults = []
+    for found in check(system, gaps=True):
+        places = [at for at in (found.span, *(r.span for r in found.related)) if at is not None]
+        if found.severity is Severity.ERROR and any(at.path in ours for at in places):
+            theirs = [at for at in places if at.path not in ours]
+            faults.append(
+                error(
+                    "RG112",
+                    theirs[0] if theirs else None,
+                    f"the cell's program is in the way of {places[0].path}, "
+                    f"line {places[0].line}: {found.message}",
+                    "rename it there, or declare it LOCAL",
+                )
+            )
+    if faults:
+        raise DiagnosticError(faults)

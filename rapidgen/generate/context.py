@@ -11,6 +11,7 @@ from rapidgen.config.model import (
     Joint,
     KeptAxis,
     Load,
+    Payload,
     Placement,
     RobotConfig,
     Tool,
@@ -106,6 +107,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "allowed": config.allowed_clients,
         "call_main": config.call_main,
         "tool": _tool(group.tool),
+        "payload": _payload(group.payload),
         "wobj": _work_object(group.work_object),
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
@@ -251,14 +253,43 @@ def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
     }
 
 
+def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
+    """(type, name, value) of the data that a module of the customer's declares."""
+    data = (
+        ("tooldata", _tool(group.tool)),
+        ("wobjdata", _work_object(group.work_object)),
+        ("loaddata", _payload(group.payload)),
+    )
+    return [(kind, str(d["source"]), str(d["value"])) for kind, d in data if d["source"]]
+
+
 def _tool(tool: Tool) -> dict[str, object]:
     value = f"[{_bool(tool.held)},{_frame(tool.frame)},{_load(tool.load)}]"
-    return {"name": tool.name, "declared": tool.name != "tool0", "value": value}
+    return _datum(tool.name, "tool", tool.name != "tool0", value, elsewhere=tool.elsewhere)
 
 
 def _work_object(wobj: WorkObject) -> dict[str, object]:
     value = f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
-    return {"name": wobj.name, "declared": wobj.name != "wobj0", "value": value}
+    return _datum(wobj.name, "wobj", wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
+
+
+def _payload(payload: Payload) -> dict[str, object]:
+    named = payload.name != "load0"
+    value = "[0.001,[0,0,0.001],[1,0,0,0],0,0,0]"
+    datum = _datum(payload.name, "load", named, value, elsewhere=named)
+    return datum | {"with_moves": named and payload.with_moves}
+
+
+def _datum(
+    name: str, kind: str, declared: bool, value: str, *, elsewhere: bool
+) -> dict[str, object]:
+    """What our modules call a datum; `source` is the one of another module that it is a copy of."""
+    return {
+        "name": f"{kind}_now" if elsewhere else name,
+        "source": name if elsewhere else "",
+        "declared": declared,
+        "value": value,
+    }
 
 
 def _bool(value: bool) -> str:

@@ -18,7 +18,7 @@ from rapidgen.system import (
 )
 from rapidgen.system.model import TaskType
 
-COMMON, LIMITS = "ROS_common", "ROS_limits"
+COMMON, LIMITS, EVENTS = "ROS_common", "ROS_limits", "ROS_events"
 MESSAGES, SOCKET, STREAM = "ROS_messages", "ROS_socket", "ROS_stream"
 
 
@@ -33,7 +33,7 @@ class TaskRole:
 
 
 ROLES = (
-    TaskRole("motion", "", (COMMON, "ROS_motion")),
+    TaskRole("motion", "", (COMMON, EVENTS, "ROS_motion")),
     TaskRole(
         "motion_server",
         "T_ROS_RECV",
@@ -52,7 +52,7 @@ ROLES = (
     TaskRole("control", "T_ROS_CONTROL", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_control")),
     TaskRole("state", "T_ROS_STATE", (COMMON, LIMITS, MESSAGES, SOCKET, "ROS_stateServer")),
 )
-SYSTEM_MODULES = (COMMON, LIMITS, MESSAGES, SOCKET)
+SYSTEM_MODULES = (COMMON, EVENTS, LIMITS, MESSAGES, SOCKET)
 
 
 def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
@@ -136,7 +136,7 @@ def make_system(config: RobotConfig, build_id: str) -> System:
             for event, routine in (
                 ("POWER_ON", "ROS_on_power"),
                 ("START", "ROS_on_start"),
-                ("RESTART", "ROS_on_start"),
+                ("RESTART", "ROS_on_continue"),
                 ("STOP", "ROS_on_stop"),
                 ("QSTOP", "ROS_on_stop"),
             )

@@ -38,7 +38,7 @@ class FastStop:
     off_path: float
     """m from the rest position to where the path goes on, as the controller sees it."""
     from_main: bool
-    """The program could only be started from main, so far off it was."""
+    """The program had to be started from main: so far off was it, or the driver asked for it."""
     finding: str
     log: tuple[str, ...] = ()
 
@@ -112,15 +112,20 @@ def _share(bench: Bench, before: Sequence[float], after: Sequence[float]) -> flo
 
 
 def _start_again(bench: Bench, chance: random.Random) -> bool:
-    """What an operator does; whether it took PP to main, so far off the path was the robot."""
+    """What an operator does; whether it took PP to main."""
+    last = bench.last_event
     bench.run(chance.uniform(0.2, 4))
-    task = bench.controller.task(bench.group.task)
     bench.start_again()
-    refused = task.state != "running"
+    refused = bench.controller.task(bench.group.task).state != "running"
+    why = "the program was started, and nobody has asked for motion"
+    if not refused:
+        bench.stays(chance.uniform(2, 4), why)
+        refused = any("from main" in str(event) for event in bench.controller.log.since(last))
     if refused:
-        bench.controller.perform("pp-to-main")
+        for action in ("stop", "pp-to-main"):
+            bench.controller.perform(action)
         bench.start_again()
-    bench.stays(chance.uniform(2, 4), "the program was started, and nobody has asked for motion")
+        bench.stays(chance.uniform(2, 4), why)
     return refused
 
 

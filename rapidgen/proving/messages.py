@@ -127,6 +127,7 @@ class RawReason(IntEnum):
     EMERGENCY_STOP = 22
     BUILD_MISMATCH = 24
     IDLE = 27
+    NOT_SERVING = 28
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42

@@ -9,7 +9,7 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, error, refusal
 from rapidgen.system.adding import faults_within
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
@@ -36,6 +36,8 @@ _VERSIONS = (
 )
 _DEFAULT = (6, 0)
 """Where neither the backup nor a header tells."""
+_READ = ("SYS", "EIO")
+"""Domains without which there is no controller."""
 _INFO_FILES = ("BACKINFO/backinfo.txt", "BACKINFO/version.xml", "system.xml", "BACKINFO/system.xml")
 
 
@@ -82,31 +84,41 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         groups=groups_of(sys_cfg),
         robotware=_robotware(info, sys_cfg, collected),
         home=home if home.is_dir() else None,
-        robot_types=_robot_types(folder),
+        robot_types=_robot_types(folder, collected),
     )
 
 
-def _robot_types(folder: Path) -> tuple[tuple[str, str], ...]:
-    path = inside(folder, "SYSPAR/MOC.cfg")
-    if not path.is_file():
-        return ()
-    robots = parse_cfg(read_limited(path), path=str(path)).instances("ROBOT")
+def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str], ...]:
+    moc = _further(folder, "MOC", notes)
+    robots = moc.instances("ROBOT") if moc is not None else ()
     return tuple((robot.text("Name"), robot.text("use_robot_type")) for robot in robots)
 
 
 def backup_cfg(folder: Path, robotware: tuple[int, int], notes: list[Diagnostic]) -> ControllerCfg:
     """All domains of a backup, to load files onto; `notes` get what our rules say of them.
 
-    Raises DiagnosticError: RG701..RG706 for damaged or hostile content.
+    Raises DiagnosticError: RG701..RG706 for damaged or hostile content of SYS and EIO.
     """
-    found = [
-        parse_cfg(read_limited(path), path=str(path))
-        for domain in DOMAINS
-        if (path := inside(folder, f"SYSPAR/{domain}.cfg")).is_file()
-    ]
+    found = [_cfg(folder, "SYS.cfg")]
+    if inside(folder, "SYSPAR/EIO.cfg").is_file():
+        found.append(_cfg(folder, "EIO.cfg"))
+    further = (_further(folder, domain, notes) for domain in DOMAINS if domain not in _READ)
+    found += [text for text in further if text is not None]
     cfg = ControllerCfg(robotware, tuple(found))
     notes += faults_within(cfg)
     return cfg
+
+
+def _further(folder: Path, domain: str, notes: list[Diagnostic]) -> CfgText | None:
+    """A domain that programs run without: where it cannot be read, that is a note."""
+    path = inside(folder, f"SYSPAR/{domain}.cfg")
+    if not path.is_file():
+        return None
+    try:
+        return parse_cfg(read_limited(path), path=str(path))
+    except DiagnosticError as fault:
+        notes += [replace(found, severity=Severity.WARNING) for found in fault.diagnostics]
+        return None
 
 
 def is_backup(folder: Path) -> bool:

@@ -49,7 +49,7 @@ def read_folder(
     backup: Path | str | None = None,
     *,
     without: Collection[str] = (),
-    open_words: bool = False,
+    open_words: bool = True,
     notes: list[Diagnostic] | None = None,
 ) -> System:
     """The controller that a generated folder makes: its cfg files loaded onto a delivered

@@ -66,7 +66,8 @@ def delivered(manifest: Members) -> Under:
             further = [text(unit) for unit in items(group["external_units"])]
             further += [text(members(one)["unit"]) for one in items(group.get("positioners") or [])]
             unit = text(group["mechanical_unit"])
-            robots.append(Robot(text(group["task"]), unit, tuple(dict.fromkeys(further))))
+            named = text(group.get("unit_group") or "")
+            robots.append(Robot(text(group["task"]), unit, tuple(dict.fromkeys(further)), named))
         header = {
             text(domain): (whole(major), whole(minor))
             for domain, major, minor in map(items, items(configuration.get("cfg_header") or []))
@@ -74,6 +75,11 @@ def delivered(manifest: Members) -> Under:
         major, minor = map(whole, items(manifest["robotware"]))
         multimove = bool(configuration.get("multimove"))
         cfg = base_system((major, minor), robots, multimove=multimove, digits=header)
+        # Built for a cell: its signals that the build uses without bringing them.
+        used = members(manifest.get("cell_signals") or {}).items()
+        signals = "".join(f' -Name "{name}" -SignalType "{text(kind)}"\n' for name, kind in used)
+        if signals:
+            cfg = cfg.plus(parse_cfg(f"EIO:CFG_1.0::\nEIO_SIGNAL:\n{signals}", path="the cell"))
     except (KeyError, TypeError, ValueError) as fault:
         label = "its 'configuration' does not tell the robots"
         raise bad_manifest(Path("manifest.json"), label) from fault
@@ -102,7 +108,7 @@ def onto(
     given: Iterable[Addition],
     load: Load,
     *,
-    open_words: bool = False,
+    open_words: bool = True,
     notes: list[Diagnostic] | None = None,
 ) -> System:
     """The controller with the files loaded onto it, in mode "add".

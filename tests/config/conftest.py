@@ -17,7 +17,7 @@ def check(tmp_path):
         try:
             made = load_config(tmp_path / "cell.yaml", package_paths=package_paths)
         except DiagnosticError as fault:
-            return None, {d.code: d for d in fault.diagnostics}
+            return None, {d.code: d for d in reversed(fault.diagnostics)}
         return made, {d.code: d for d in made.diagnostics}
 
     return run

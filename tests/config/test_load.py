@@ -95,10 +95,30 @@ def test_octal_looking_numbers_are_decimal(tmp_path):
     assert config.trajectory.capacity == 100
 
 
-def test_a_section_of_comments_only_is_no_fault(tmp_path):
-    assert (
-        load(tmp_path, "model: irb120\nports:\n#  motion: 12000\n").groups[0].ports.motion == 11000
-    )
+@pytest.mark.parametrize(
+    ("text", "place", "word"),
+    [
+        ("model: irb120\nports:\n#  motion: 12000\n", 2, "'ports' has no value"),
+        ("model: irb120\ntrajectroy:\n", 2, "'trajectroy' has no value"),
+        ("model: irb120\ntool: {name: t, load: {mass: 1,2}}\n", 2, "key without a value"),
+        ("model: irb120\njoints:\n  joint_1: {lower: }\n", 3, "'lower' has no value"),
+    ],
+)
+def test_a_key_without_a_value_is_refused(tmp_path, text, place, word):
+    found = [d for d in faults(tmp_path, text) if d.code == "RG023"]
+    assert [d.span.line for d in found] == [place]
+    assert word in found[0].message
+
+
+def test_a_decimal_comma_is_told_as_such(tmp_path):
+    found = faults(tmp_path, "model: irb120\ntool: {name: t, load: {mass: 1,2}}\n")
+    assert "1.2" in found[0].help
+
+
+@pytest.mark.parametrize("name", ["\\ud800", "\\e[31m", "\\x07", "\\0"])
+def test_a_character_that_is_none_is_refused(tmp_path, name):
+    for text in (f'joints: {{"{name}": {{axis: rax_1}}}}\n', f'name: "{name}"\n'):
+        assert [d.code for d in faults(tmp_path, text)] == ["RG002"]
 
 
 def test_overrides_as_text_and_as_mapping_do_the_same():

@@ -74,21 +74,28 @@ def test_one_macro_is_called_and_packages_are_written_down(tmp_path, monkeypatch
     )
     path = tmp_path / "cells" / "cell.yaml"
     path.parent.mkdir()
-    new(path, urdf=tmp_path / "a_macro.xacro", package_path=[tmp_path / "ws"])
+    new(path, urdf=tmp_path / "a_macro.xacro", package_path=[tmp_path / "ws"], coupling=0)
     assert "macro: arm" in path.read_text()
     monkeypatch.chdir(path.parent)
     assert len(load_config("cell.yaml").groups[0].joints) == 6
 
 
-def test_arguments_and_tip(tmp_path):
+def test_two_arms_are_two_groups_or_the_one_that_a_tip_leads_to(tmp_path):
     (tmp_path / "r.xacro").write_text(
         f'<robot name="r" {XACRO}><xacro:arg name="side" default="x_"/>'
-        f"{chain('$(arg side)')}{chain('b_')}</robot>"
+        f'<link name="world"/>{chain("$(arg side)")}{chain("b_")}'
+        + "".join(
+            f'<joint name="{p}at" type="fixed"><parent link="world"/><child link="{p}l0"/></joint>'
+            for p in ("$(arg side)", "b_")
+        )
+        + "</robot>"
     )
     path = tmp_path / "cell.yaml"
-    assert codes(path, urdf=tmp_path / "r.xacro") == (["RG052"], 2)
-    new(path, urdf=tmp_path / "r.xacro", arg=["side=a_"], tip="a_l6")
-    assert load_config(path).groups[0].joints[0].name == "a_joint_1"
+    new(path, urdf=tmp_path / "r.xacro", arg=["side=a_"], coupling=0)
+    assert [g.joints[0].name for g in load_config(path).groups] == ["a_joint_1", "b_joint_1"]
+    new(path, urdf=tmp_path / "r.xacro", arg=["side=a_"], tip=["b_l6"], coupling=0, force=True)
+    assert [g.joints[0].name for g in load_config(path).groups] == ["b_joint_1"]
+    assert codes(path, urdf=tmp_path / "r.xacro", tip=["b_l7"], force=True) == (["RG052"], 2)
 
 
 def test_arguments_of_a_macro(tmp_path):
@@ -98,18 +105,39 @@ def test_arguments_of_a_macro(tmp_path):
     )
     path = tmp_path / "cell.yaml"
     assert codes(path, urdf=tmp_path / "r.xacro") == (["RG056"], 2)
-    new(path, urdf=tmp_path / "r.xacro", macro_arg=["side=left_"])
+    new(path, urdf=tmp_path / "r.xacro", macro_arg=["side=left_"], coupling=0)
     assert load_config(path).groups[0].joints[0].name == "left_joint_1"
     assert codes(path, urdf=tmp_path / "r.xacro", macro_arg=["side"]) == (["RG020"], 2)
 
 
-def test_what_cannot_be_known_is_said_and_nothing_is_written(tmp_path):
+def test_what_cannot_be_known_is_open_in_the_file(tmp_path):
     (tmp_path / "r.urdf").write_text(
         f'<robot name="r">{chain(names=(1, 2, 7, 3, 4, 5, 6))}</robot>'
     )
     path = tmp_path / "cell.yaml"
-    assert codes(path, urdf=tmp_path / "r.urdf") == (["RG045"], 2)
-    assert not path.exists()
+    open_lines = ["RG022"] * 8  # seven axes and the coupling
+    assert codes(path, urdf=tmp_path / "r.urdf") == (open_lines, 1)
+    with pytest.raises(DiagnosticError) as caught:
+        load_config(path)
+    assert caught.value.exit_code == 1
+    text = path.read_text()
+    for axis in ("rax_1", "rax_2", "eax_a", "rax_3", "rax_4", "rax_5", "rax_6"):
+        text = text.replace('axis: "???"', f"axis: {axis}", 1)
+    path.write_text(text.replace('coupling: "???"', "coupling: 0"))
+    assert axes_of(path) == ["rax_1", "rax_2", "eax_a", "rax_3", "rax_4", "rax_5", "rax_6"]
+
+
+def axes_of(path):
+    return [j.axis for j in load_config(path).groups[0].joints]
+
+
+def test_axes_are_said_on_the_command_line(tmp_path):
+    (tmp_path / "r.urdf").write_text(f'<robot name="r">{chain(names=range(3, 10))}</robot>')
+    path = tmp_path / "cell.yaml"
+    said = [f"joint_{n}=rax_{n - 3}" for n in range(4, 10)]
+    new(path, urdf=tmp_path / "r.urdf", joint=said, track=["joint_3=eax_a"], coupling=0)
+    assert axes_of(path) == ["rax_1", "rax_2", "rax_3", "rax_4", "rax_5", "rax_6", "eax_a"]
+    assert codes(path, urdf=tmp_path / "r.urdf", joint=["joint_1=rax_1"]) == (["RG020"], 2)
 
 
 def test_a_file_is_only_replaced_when_told(tmp_path):

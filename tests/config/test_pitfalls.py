@@ -30,7 +30,7 @@ def test_a_plain_robot_has_no_findings(check):
 
 
 def test_01_a_macro_file_is_an_empty_robot(check):
-    macro = f'<xacro:macro name="arm" params="prefix size:=3">{BASE}</xacro:macro>'
+    macro = f'<xacro:macro name="arm" params="prefix size:=3">{BASE}{arm()}</xacro:macro>'
     text = f"<robot {XACRO}>{macro}</robot>"
     fault = only("RG031", check(text, suffix=".xacro"))
     assert "arm(prefix, size=)" in fault.message
@@ -67,7 +67,7 @@ def test_04_order_in_the_chain_is_not_the_order_of_numbers(check):
     names = [f"joint_{n}" for n in (1, 3, 2, 4, 5, 6)]
     fault = only("RG034", check(robot(BASE, arm(names))))
     assert "'joint_3': it is number 2 in the chain and says 3" in fault.message
-    assert "joint_3: {axis: rax_3}" in fault.help
+    assert "joint_3: {axis: rax_2}" in fault.help  # an arm's axes follow one another
 
 
 def test_04_document_order_does_not_matter(check):
@@ -143,7 +143,7 @@ def test_09_a_velocity_of_100_is_a_warning_and_unsure(check):
 
 def test_10_a_continuous_robot_axis(check):
     fault = only("RG040", check(six(kind="continuous")))
-    assert "joint_3: {axis: rax_3, lower: -180" in fault.help
+    assert 'joint_3: {axis: rax_3, lower: "???", upper: "???"}' in fault.help
 
 
 def test_10_a_continuous_external_axis_is_an_independent_one(check):
@@ -266,9 +266,11 @@ def test_15_seven_joints_need_a_mapping(check):
     names = [f"joint_{n}" for n in (1, 2, 7, 3, 4, 5, 6)]
     text = robot(BASE, arm(names))
     fault = only("RG045", check(text))
-    assert "joint_7: {axis: eax_a}" in fault.help
-    lines = fault.help[fault.help.index("joints:") :]
-    config, found = check(text, lines)
+    only("RG022", check(text, fault.help))  # nothing tells which it is
+    lines = fault.help
+    for n in (1, 2, 3, 4, 5, 6):
+        lines = lines.replace(f'joint_{n}: {{axis: "???"}}', f"joint_{n}: {{axis: rax_{n}}}")
+    config, found = check(text, lines.replace('"???"', "eax_a"))
     assert not found
     assert axes(config)["joint_7"] == "eax_a"
 

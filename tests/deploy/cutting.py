@@ -1,7 +1,13 @@
 """A line that is cut at one operation, on three kinds of server."""
 
+import os
+
 from rapidgen.deploy import TransportFault
 from rapidgen.deploy.transports.folder import FolderTransport
+
+EVERY = 1 if os.environ.get("RAPIDGEN_LONG") else 3
+"""The long campaign (benchmarks/deploy.py --cuts) takes every operation of every case; here the
+cases that differ most do, the others every third, from another one in each mode."""
 
 CHANGING = ("write", "rename", "delete", "make_folder", "delete_folder")
 MODES = ("replace", "move", "none")

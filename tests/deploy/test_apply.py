@@ -6,6 +6,7 @@ import os
 import pytest
 
 from rapidgen.deploy import apply, backup_set, make_plan
+from rapidgen.deploy.show import plan_text
 from rapidgen.deploy.transports.folder import FolderTransport
 from tests.refusal import refused
 
@@ -47,6 +48,7 @@ def test_a_manifest_that_says_otherwise_is_written_anew(kit, home, transport):
     plan = make_plan(transport, wanted)
     assert {c.action for c in plan.changes} == {"same"}
     assert not plan.is_empty
+    assert "no restart: no module and nothing that is loaded changes" in plan_text(plan)
     kit.deploy(transport, wanted)
     assert make_plan(transport, wanted).is_empty
     assert "0" * 64 not in path.read_text()

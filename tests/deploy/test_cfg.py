@@ -95,24 +95,6 @@ def test_without_syspar_loading_is_a_step_at_the_pendant(kit, home):
     assert any("loading removes nothing" in s and "signalMotorOn" in s for s in steps)
 
 
-def test_a_file_that_may_be_refused_is_a_step_of_its_own(kit, home):
-    plan = kit.deploy(FolderTransport(home), kit.driver(OLD, opened=("signalOpen",)))
-    loading = [s.what for s in plan.steps if s.what.startswith("load ")]
-    assert [what.split()[1].rpartition("/")[2] for what in loading] == [
-        "EIO.cfg",
-        "EIO_open.cfg",
-        "SYS.cfg",
-    ]
-    assert ["may be refused" in what for what in loading] == [False, True, False]
-
-
-def test_what_may_be_refused_is_not_written_where_nobody_could_refuse_it(kit, controller):
-    kit.deploy(FolderTransport(controller), kit.driver(OLD, opened=("signalOpen",)))
-    assert b"signalMotorOn" in (controller / "SYSPAR/EIO.cfg").read_bytes()
-    assert b"signalOpen" not in (controller / "SYSPAR/EIO.cfg").read_bytes()
-    assert (controller / "HOME/rapidgen_deploy/EIO_open.cfg").exists()
-
-
 @pytest.mark.parametrize("said", [7, "x", [["Name"]], [["Name", 3]], [[3, []]], [3], {"a": 1}])
 def test_instances_in_a_manifest_that_are_none_make_it_damaged(kit, controller, said):
     transport = FolderTransport(controller)

@@ -6,7 +6,6 @@ kind, puts it right, and nothing that was not ours is lost.
 """
 
 import itertools
-import os
 import random
 import shutil
 
@@ -16,12 +15,9 @@ from rapidgen.deploy import backup_set, make_plan
 from rapidgen.deploy.session import earlier_set
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
-from tests.deploy.cutting import MODES, Cutting
+from tests.deploy.cutting import EVERY, MODES, Cutting
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
-EVERY = 1 if os.environ.get("RAPIDGEN_LONG") else 3
-"""The long campaign (benchmarks/deploy.py --cuts) takes every operation of every case; here the
-cases that differ most do, the others every third, from another one in each mode."""
 
 
 def leftovers(home):

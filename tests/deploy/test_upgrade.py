@@ -19,7 +19,7 @@ from rapidgen.deploy.syspar import loaded_cfg
 from rapidgen.deploy.transports.folder import FolderTransport
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.system import parse_cfg
-from tests.deploy.cutting import MODES, Cutting
+from tests.deploy.cutting import EVERY, MODES, Cutting
 
 RECORDED = json.loads((Path(__file__).parent / "first_release.json").read_text())
 OLD_TASKS = {
@@ -196,7 +196,7 @@ def test_cut_everywhere(kit, tmp_path, controller, mode):
     fresh(work, controller)
     line = Cutting(work, mode)
     kit.deploy(line, wanted)
-    points = range(1 + MODES.index(mode), line.count + 1, 3)
+    points = range(1 + MODES.index(mode) % EVERY, line.count + 1, EVERY)
     for at, how in itertools.product(points, ("before", "after")):
         fresh(work, controller)
         with pytest.raises(DiagnosticError):

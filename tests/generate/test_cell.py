@@ -3,6 +3,7 @@
 import pytest
 
 from rapidgen.config import from_manifest, load_config
+from rapidgen.controller import VirtualController
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import build, write
 from rapidgen.generate.cell import fit, read_cell
@@ -88,6 +89,28 @@ def test_the_result_loads_and_only_adds(backup, tmp_path):
     assert config.groups[0].task == "T_MOVE"
 
 
+def test_home_is_the_cells_and_ours_over_it(backup, tmp_path):
+    (backup / "HOME/theirs.txt").write_text("kept")
+    write(built(backup)[1], tmp_path / "out")
+    with VirtualController.from_folder(tmp_path / "out", backup=backup) as controller:
+        home = controller.files.path("HOME:")
+        assert (home / "theirs.txt").read_text() == "kept"
+        assert (home / "rapidgen/ROS_motion.mod").is_file()
+        assert "T_MOVE" in controller.rapid_tasks
+
+
+def test_a_build_for_a_cell_boots_without_it(backup, tmp_path):
+    """On a delivered controller with the cell's names and the signals that the build uses."""
+    edit(backup, "EIO.cfg", 'SYSSIG_OUT:\n  -Status "MotOnState" -Signal "signalMotorOn"\n', "")
+    edit(backup, "SYS.cfg", "CAB_EXEC_HOOKS:\n", GROUPS + "CAB_EXEC_HOOKS:\n")
+    edit(backup, "SYS.cfg", "-MotionTask", '-MotionTask -UseMechanicalUnitGroup "rob21"')
+    edit(backup, "SYS.cfg", '"None"', '"None" -UseMechanicalUnitGroup "rob21"')
+    write(built(backup)[1], tmp_path / "out")
+    system = read_folder(tmp_path / "out")
+    assert system.tasks[0].mechanical_unit_group == "rob21"
+    assert "signalMotorOn" in [signal.name for signal in system.signals]
+
+
 def test_a_second_build_finds_nothing_missing(backup):
     _, output, _ = built(backup)
     for file in output.files:
@@ -146,6 +169,16 @@ def test_a_module_in_the_program_is_refused(backup):
     (fault,) = refused(backup)
     assert fault.code == "RG110"
     assert fault.span.path == str(place)
+
+
+@pytest.mark.parametrize("name", ["ROS_run", "ROS_latched"])
+def test_a_name_of_the_program_is_in_the_way(backup, name):
+    """A Grinding.mod of 6.13 has a global `distance`, which hides a predefined function."""
+    path = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    path.write_text(
+        path.read_text().replace("MODULE theirs\n", f"MODULE theirs\n VAR num {name};\n")
+    )
+    assert {fault.code for fault in refused(backup)} == {"RG112"}
 
 
 GROUPS = """MECHANICAL_UNIT_GROUP:

@@ -25,4 +25,6 @@ def answers(text, path, run):
         (asking,) = re.findall(rf'PROC (\w+)\(\)(?:(?!PROC).)*"{lines[-1]}"', text, re.DOTALL)
         # Another main, without what has been asked.
         head, main, rest = text.partition("    PROC main()\n")
-        text = head + main + rest.partition(f"        {asking};\n")[2]
+        done, _, left = rest.partition(f"        {asking};\n")
+        done = re.sub(r"^        (?:ask|tell)_\w+;\n", "", done, flags=re.MULTILINE)
+        text = head + main + done + left

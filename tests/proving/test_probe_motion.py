@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from functools import partial
 
 import pytest
 
@@ -11,64 +12,56 @@ from rapidgen.config import load_config
 from rapidgen.controller import VirtualController
 from rapidgen.machine.operator import Answer
 from rapidgen.motion.settings import MotionSettings
+from rapidgen.proving.settings import answers_to, said
 from rapidgen.rapid import check, parse
+from tests.proving.probing import answers, asked
 
 PROBE = data_folder("templates") / "ROS_probe_motion.mod"
-ASKED = {
-    "zero_length": ("skip", "wait"),
-    "refresh_timed": (True, False),
-    "stop_waits": (False, True),
-    "cleared_move": ("return", "hang"),
-    "range_error": ("recoverable", "fatal"),
-}
-
-# A move that never returns ends the questions.
-BASE = MotionSettings(cleared_move="return")
+TEXT = PROBE.read_text(encoding="ascii")
+ASKED = asked(TEXT)
+CASES = [
+    (n, value) for n, own in answers_to(MotionSettings()).items() if n in ASKED for value in own
+]
 
 
-def run(settings, consent="Yes"):
-    """Lines on the pendant, and axis 6 over time."""
-    lines, places = [], []
-    answers = [Answer(consent)]
+def run(path, settings, places, consent="Yes"):
+    """Lines on the pendant, and whether an error stopped the program; axis 6 goes to `places`."""
+    lines = []
     robots = load_config("irb120").groups
-    with VirtualController.from_files([PROBE], robots=robots, answers=answers) as controller:
-        controller.motion.settings = settings
-        controller.operator.subscribe(lambda _task, text: lines.append(text))
-        for _ in range(90):
-            controller.run_for(0.5)
-            places.append(controller.motion.group("rob1").positions()[5])
-        if controller.task("T_ROB1").state == "error":
-            assert lines[-1].startswith("! If the program stops now: ")
-            lines.append(lines[-1].rpartition(": ")[2])
-    return lines, places
+    with VirtualController.from_files([path], robots=robots, answers=[Answer(consent)]) as it:
+        it.motion.settings = settings
+        it.operator.subscribe(lambda _task, text: lines.append(text))
+        for _ in range(180):
+            it.run_for(0.5)
+            places.append(it.motion.group("rob1").positions()[5])
+        return lines, it.task("T_ROB1").state == "error"
 
 
-@pytest.mark.parametrize(
-    ("name", "value"), [(name, value) for name, values in ASKED.items() for value in values]
-)
-def test_an_answer_is_the_switch(name, value):
-    settings = replace(BASE, **{name: value})
-    lines, places = run(settings)
-    told = dict(re.findall(r"^(\w+)=(\w+)$", "\n".join(lines), re.MULTILINE))
-    wanted = {asked: str(getattr(settings, asked)).lower() for asked in ASKED}
-    if value == "hang":
-        # Nothing can be asked any more when a move never returns.
-        del wanted["range_error"]
-    assert {key: told[key].lower() for key in wanted} == wanted
+@pytest.mark.parametrize(("name", "value"), CASES)
+def test_an_answer_is_the_switch(name, value, tmp_path):
+    settings, places = replace(MotionSettings(), **{name: value}), []
+    told = answers(TEXT, tmp_path / PROBE.name, partial(run, settings=settings, places=places))
+    assert len(told) == len(ASKED)
+    assert set(told) == {said(asks, getattr(settings, asks)) for asks in ASKED}
     assert max(places) < 0.19
     assert min(places) > -0.01
 
 
+def test_it_asks():
+    wanted = {"cleared_move", "stop_move_reset", "refresh_timed", "zero_length", "range_error"}
+    assert wanted <= set(ASKED)
+
+
 @pytest.mark.parametrize("lead", [0.05, 0.2])
 def test_the_planning_lead_is_told(lead):
-    lines, _ = run(replace(MotionSettings(), planning_lead=lead, ramp_time=0.0))
+    lines, _ = run(PROBE, replace(MotionSettings(), planning_lead=lead, ramp_time=0.0), [])
     (line,) = [line for line in lines if "before its point" in line]
     assert float(re.search(r"[\d.]+", line)[0]) == pytest.approx(lead, abs=0.12)
 
 
 def test_without_consent_nothing_moves():
-    lines, places = run(MotionSettings(), consent="No")
-    assert lines == []
+    places = []
+    assert run(PROBE, MotionSettings(), places, consent="No") == ([], False)
     assert set(places) == {0.0}
 
 

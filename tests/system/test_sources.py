@@ -5,7 +5,7 @@ import os
 
 import pytest
 
-from rapidgen.diagnostics import DiagnosticError
+from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.system import (
     CrossConnection,
     EventRoutine,
@@ -358,3 +358,34 @@ def test_a_backup_tells_its_robots(backup):
         'MOC:CFG_1.0:6:0::\n#\nROBOT:\n\n -name "ROB_1" -use_robot_type "ROB1_120_0.58_3"\n',
     )
     assert read_backup(backup).robot_types == (("ROB_1", "ROB1_120_0.58_3"),)
+
+
+def test_a_file_that_may_be_refused(tmp_path):
+    """The manifest names it: it is left out whole with a note, or not loaded at all."""
+    manifest = {
+        "format": 1, "robotware": [7, 6], "name": "x", "build_id": "0", "lines": {},
+        "files": [{"path": n, "kind": "cfg"} for n in ("EIO.cfg", "SYS_open.cfg")],
+        "optional": ["SYS_open.cfg"],
+        "configuration": {
+            "groups": [{"task": "T_ROB1", "mechanical_unit": "ROB_1", "external_units": []}]
+        },
+    }  # fmt: skip
+    put(tmp_path / "manifest.json", json.dumps(manifest))
+    put(tmp_path / "EIO.cfg", 'EIO:CFG_1.0:7:0::\nEIO_SIGNAL:\n -Name "doA" -SignalType "DO"\n')
+    put(
+        tmp_path / "SYS_open.cfg",
+        'SYS:CFG_1.0:7:0::\nSYSSIG_OUT:\n -Status "EmStop" -Name "doA"\n',
+    )
+    notes = []
+    assert read_folder(tmp_path, notes=notes, open_words=False).outputs == ()
+    assert [(note.code, note.severity) for note in notes] == [("RG722", Severity.WARNING)]
+    assert read_folder(tmp_path, without=("SYS_open.cfg",)).outputs == ()
+    taken = read_folder(tmp_path, open_words=True).outputs
+    assert [(o.status, o.signal) for o in taken] == [("EmStop", "doA")]
+
+
+def test_a_damaged_moc_is_a_note(backup):
+    put(backup / "SYSPAR/MOC.cfg", "MOC:CFG_1.0:6:0::\nROBOT:\n what is this\n")
+    notes = []
+    assert read_backup(backup, notes=notes).robot_types == ()
+    assert ("RG702", Severity.WARNING) in [(note.code, note.severity) for note in notes]

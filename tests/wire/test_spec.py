@@ -43,6 +43,8 @@ def test_every_reason_has_a_text():
     texts = [reason.text for reason in spec.Reason]
     assert all(texts)
     assert len(set(texts)) == len(texts)
+    # A string of RAPID holds 80 characters, and "ROS refused: " comes before it.
+    assert max(map(len, texts)) <= 67
 
 
 def test_error_codes():

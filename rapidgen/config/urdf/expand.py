@@ -4,6 +4,7 @@ xacro has no hook for `$(find)` and for reading files: two private names are rep
 runs (held by a test and the pin `xacro>=2.1.1,<3`). It is not thread-safe, nor is this.
 """
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,6 +31,11 @@ from rapidgen.diagnostics import (
     suggest,
 )
 
+_ROBOT_JOINTS = 4
+"""A macro with fewer joints is a part, not a robot."""
+_WORLD = "world"
+"""Where a macro's `parent` is unless given."""
+_NAMED = re.compile(r"""<(joint|link)\b[^>]*?\bname\s*=\s*["']([^"']*)["']""")
 _NAMESPACE = "http://www.ros.org/wiki/xacro"
 
 
@@ -42,6 +48,23 @@ class Description:
     expanded: bool
     inputs: list[tuple[str, bytes]] = field(default_factory=list)
     found: list[Diagnostic] = field(default_factory=list)
+    sources: list[tuple[Path, str]] = field(default_factory=list)
+    """The files that were expanded."""
+    _places: dict[str, list[tuple[re.Pattern[str], Span]]] = field(default_factory=dict)
+
+    def origin(self, name: str, tag: str) -> Span | None:
+        """Where an element that was expanded is written, as far as its name tells."""
+        if not self._places:
+            self._places[""] = []
+            for path, text in self.sources:
+                for hit in _NAMED.finditer(text):
+                    line = text.count("\n", 0, hit.start()) + 1
+                    span = Span(str(path), line, hit.start() - text.rfind("\n", 0, hit.start()))
+                    parts = re.split(r"\$\{[^}]*\}|\$\([^)]*\)", hit[2])
+                    pattern = re.compile(".*".join(map(re.escape, parts)))
+                    self._places.setdefault(hit[1], []).append((pattern, span))
+        hits = [span for pattern, span in self._places.get(tag, []) if pattern.fullmatch(name)]
+        return hits[0] if hits else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +119,7 @@ def _expand_xacro(request: Request, text: str) -> Description:
         document = text
         texts.append(text)
         made.inputs.append((request.path.name, text.encode()))
+        made.sources.append((request.path, text))
     failure: Diagnostic | None = None
     try:
         made.text = _run(request, document, made, texts)
@@ -124,6 +148,7 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
     import xacro
     from xacro import substitution_args
 
+    reading = [request.path]
     original_parse, original_find = xacro.parse, substitution_args._eval_find
 
     def parse(given: object, filename: str | None = None) -> minidom.Document:
@@ -132,7 +157,11 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
             content, data = read_xml(path, place=request.place)
             texts.append(content)
             made.inputs.append((path.name, data))
-            return minidom.parseString(content)
+            made.sources.append((path, content))
+            reading.append(path)
+            document = minidom.parseString(content)
+            reading.pop()
+            return document
         parsed: minidom.Document = original_parse(given, filename)
         return parsed
 
@@ -162,25 +191,31 @@ def _run(request: Request, document: str, made: Description, texts: list[str]) -
         TypeError,
         ValueError,
     ) as fault:
-        raise DiagnosticError(_translate(request, fault)) from None
+        stack = getattr(xacro, "filestack", None) or ()
+        names = [Path(name) for name in stack if isinstance(name, str)]
+        at = reading[-1] if len(reading) > 1 or not names else names[-1]
+        raise DiagnosticError(_translate(request, fault, at)) from None
     finally:
         xacro.parse = original_parse
         substitution_args._eval_find = original_find
         substitution_args._eval_dict["find"] = original_find
 
 
-def _translate(request: Request, fault: BaseException) -> Diagnostic:
+def _translate(request: Request, fault: BaseException, at: Path) -> Diagnostic:
     inner: BaseException = fault
     while isinstance(cause := getattr(inner, "exc", None), BaseException):
         inner = cause
-    name = request.path.name
+    name = at.name
+    place = request.place
+    if at.name != request.path.name:
+        place = Span(str(at), 1, 1)  # xacro keeps no lines
     if isinstance(inner, DiagnosticError):
         return inner.diagnostics[0]
     if isinstance(inner, PackageNotFound):
         package = str(inner).split("'")[1]
         return error(
             "RG032",
-            request.place,
+            place,
             str(inner),
             f"add\n  urdf:\n    packages: {{{package}: FOLDER}}\nor give --package-path FOLDER",
             label=f"needed by {name}",
@@ -189,18 +224,18 @@ def _translate(request: Request, fault: BaseException) -> Diagnostic:
         hint = "declare xmlns:xacro on <robot>" if "unbound prefix" in str(inner) else ""
         return error(
             "RG060",
-            Span(str(request.path), max(1, inner.lineno), inner.offset + 1),
+            Span(str(at), max(1, inner.lineno), inner.offset + 1),
             f"{name} is not well-formed XML: {inner}",
             hint,
         )
     if isinstance(inner, RecursionError):
-        return error("RG061", request.place, f"xacro: a macro of {name} calls itself without end")
+        return error("RG061", place, f"xacro: a macro of {name} calls itself without end")
     text = " ".join(str(inner).split()) or type(inner).__name__
     hint = ""
     if type(inner).__name__ == "ArgException":
         wanted, text = text, f"the argument '{text}' has no value"
         hint = f"add\n  urdf:\n    args: {{{wanted}: VALUE}}"
-    return error("RG061", request.place, f"xacro cannot expand {name}: {text}", hint)
+    return error("RG061", place, f"xacro cannot expand {name}: {text}", hint)
 
 
 def _unknown_arguments(request: Request, known: set[str]) -> list[Diagnostic]:
@@ -217,12 +252,14 @@ def _unknown_arguments(request: Request, known: set[str]) -> list[Diagnostic]:
 
 
 def _macro_only(request: Request, defined: tuple[Macro, ...]) -> Diagnostic:
-    shown = ", ".join(macro.shown for macro in defined)
+    shown = ", ".join(macro.shown for macro in defined[:6]) + (", ..." if len(defined) > 6 else "")
+    robots = [m.name for m in defined if m.joints >= _ROBOT_JOINTS]
     return error(
         "RG031",
         request.place,
         f"{request.path.name} only defines macros: {shown}",
-        f"give the top-level file, or add\n  urdf:\n    macro: {defined[0].name}",
+        "give the top-level file"
+        + (f", or add\n  urdf:\n    macro: {robots[0]}" if len(robots) == 1 else ""),
         label="expands to an empty robot",
     )
 
@@ -240,8 +277,10 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
         )
     given = dict(request.macro_arguments)
     names = {name for name, _ in macro.parameters}
-    if "prefix" in names:
-        given.setdefault("prefix", "")
+    for name, usual in (("prefix", ""), ("parent", _WORLD), ("name", "robot")):
+        if name in names:
+            given.setdefault(name, usual)
+    link = f'<link name="{_WORLD}"/>' if given.get("parent") == _WORLD else ""
     faults = [
         error(
             "RG056",
@@ -275,6 +314,6 @@ def _wrapper(request: Request, defined: tuple[Macro, ...]) -> str:
     inner = '<origin xyz="0 0 0" rpy="0 0 0"/>' if blocks else ""
     return (
         f'<robot name="robot" xmlns:xacro="{_NAMESPACE}">'
-        f"<xacro:include filename={quoteattr(str(request.path.resolve()))}/>"
+        f"<xacro:include filename={quoteattr(str(request.path.resolve()))}/>{link}"
         f"<xacro:{macro.name}{attributes}>{inner}</xacro:{macro.name}></robot>"
     )

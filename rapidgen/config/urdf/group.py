@@ -5,12 +5,14 @@ from itertools import dropwhile, pairwise
 from pathlib import Path
 
 from rapidgen.config import schema
+from rapidgen.config.axis_sets import ROBOT_AXES
 from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.model import ChainLink
 from rapidgen.config.urdf import crosscheck, limits
+from rapidgen.config.urdf.arms import MOST_MOVING
 from rapidgen.config.urdf.expand import Request, expand
 from rapidgen.config.urdf.graph import Graph, build_graph
-from rapidgen.config.urdf.mapping import ROBOT_AXES, infer, paste, unmapped
+from rapidgen.config.urdf.mapping import infer, paste, unmapped
 from rapidgen.config.urdf.packages import Packages
 from rapidgen.config.urdf.robot import UrdfJoint, read_robot
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, Span, error, suggest
@@ -49,6 +51,9 @@ def complete_from(
     if any(d.severity is Severity.ERROR for d in found):
         return found, description.inputs
     candidates, faults = _candidates(graph, given, elsewhere, place)
+    if len(candidates) > MOST_MOVING:
+        many = f"{len(candidates)} joints move by themselves"
+        faults.append(error("RG043", place, many, "name the arm's end with urdf.tip"))
     found += faults
     if not faults:
         found += _map(draft, graph, candidates, elsewhere, place)
@@ -228,7 +233,7 @@ def _order(draft: GroupDraft, graph: Graph, place: Span | None) -> Found:
                     after.span or place,
                     f"'{after.name}' cannot be {axis}: it does not hang on '{before.name}'",
                     "an axis on another branch or under the robot is external: eax_a..eax_f\n"
-                    + paste([j for j in graph.robot.joints if j.is_actuated]),
+                    + paste(graph, [j for j in graph.robot.joints if j.is_actuated]),
                 )
             )
     first = robot_axes[0] if robot_axes else None

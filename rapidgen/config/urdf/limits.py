@@ -1,9 +1,11 @@
 """Limits and speeds of URDF joints as controller figures, and the figures that cannot be."""
 
+import json
 import math
 from collections.abc import Iterator
 
 from rapidgen.config.draft import JointDraft
+from rapidgen.config.open_lines import OPEN
 from rapidgen.config.urdf.robot import UrdfJoint
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
@@ -70,8 +72,8 @@ def _continuous(draft: JointDraft, span: Span | None) -> Diagnostic:
         "RG040",
         span,
         f"joint '{name}' is continuous; {axis or 'a controller axis'} has limits",
-        f"add the range of the axis:\njoints:\n  {name}: "
-        f"{{axis: {axis or 'eax_a'}, lower: -180, upper: 180, speed: 90}}",
+        "add the range of the axis from the robot's data sheet:\njoints:\n  "
+        f"{quoted(name)}: {{axis: {axis or OPEN}, lower: {OPEN}, upper: {OPEN}}}",
         label="turns without end",
     )
 
@@ -81,7 +83,10 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
     linear = joint.kind == "prismatic"
     widest = max(abs(lower or 0.0), abs(upper or 0.0))
     if lower is None or upper is None:
-        mend = f"add\njoints:\n  {name}: {{axis: {draft.axis}, lower: ..., upper: ...}}"
+        mend = (
+            f"add\njoints:\n  {quoted(name)}: "
+            f"{{axis: {draft.axis or OPEN}, lower: {OPEN}, upper: {OPEN}}}"
+        )
         yield error("RG038", span, f"joint '{name}' has no limits", mend)
     elif lower > upper:
         yield error("RG053", span, f"joint '{name}': lower {lower:g} is above upper {upper:g}")
@@ -113,6 +118,11 @@ def _range(draft: JointDraft, joint: UrdfJoint, span: Span | None) -> Iterator[D
         ends = sorted(draft.sign * end * factor + draft.offset for end in (lower, upper))
         draft.lower, draft.upper = ends
         yield from _rounded(draft, span)
+
+
+def quoted(name: str) -> str:
+    """A joint's name as a key of YAML."""
+    return name if name.isidentifier() and name.isascii() else json.dumps(name)
 
 
 def _rounded(draft: JointDraft, span: Span | None) -> Iterator[Diagnostic]:

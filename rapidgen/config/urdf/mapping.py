@@ -7,13 +7,16 @@ Everything else is an error that prints the candidates and the lines to paste.
 import re
 from collections.abc import Sequence
 
+from rapidgen.config.axis_sets import ROBOT_AXES
+from rapidgen.config.open_lines import OPEN
+from rapidgen.config.urdf.arms import read_cell
 from rapidgen.config.urdf.graph import Graph
 from rapidgen.config.urdf.robot import UrdfJoint
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
-ROBOT_AXES = tuple(f"rax_{n}" for n in range(1, 7))
 _NUMBER = re.compile(r"^(?P<prefix>.*?)(?P<number>\d+)(?P<suffix>\D{0,12})$")
 _GRIPPER_STROKE = 0.1
+_MOST_LINES = 24
 _USUAL = ("joint_", "joint", "j", "axis", "axis_", "a")
 
 
@@ -37,7 +40,7 @@ def infer(
             )
         ]
     chains = graph.chains(joints)
-    problem = _shape(graph, joints, chains, place) or _numbers(joints, chains[0], place)
+    problem = _shape(graph, joints, chains, place) or _numbers(graph, chains[0], place)
     if problem:
         return {}, [problem]
     mapping = {joint.name: axis for joint, axis in zip(chains[0], ROBOT_AXES, strict=True)}
@@ -58,17 +61,30 @@ def infer(
     return mapping, found
 
 
-def paste(joints: Sequence[UrdfJoint]) -> str:
-    """YAML lines that settle the mapping, with what the names suggest."""
-    numbers = [parts[1] if (parts := number_of(j.name)) else 0 for j in joints]
+def paste(graph: Graph, joints: Sequence[UrdfJoint], *, ignore: Sequence[str] = ()) -> str:
+    """YAML lines that settle the mapping: axes by the order of the chain and the arm's shape.
+
+    Where neither tells, the line is open and refused until it is filled in (RG022).
+    """
+    axes: dict[str, str] = {}
+    signs: dict[str, str] = {}
+    for arm in read_cell(graph, ()).arms:
+        axes.update({j.name: axis for j, axis in zip(arm.joints, arm.axes, strict=True)})
+        if arm.alignment:
+            for j, way in zip(arm.joints, arm.alignment.signs, strict=True):
+                if way < 0:
+                    signs[j.name] = f", sign: {way if arm.alignment.certain else OPEN}"
     lines = ["joints:   # check every line against the robot; unused joints: urdf.ignore_joints"]
-    for joint, number in zip(joints, numbers, strict=True):
-        axis = "rax_? or eax_?"
-        if 1 <= number <= 7 and numbers.count(number) == 1:
-            axis = f"rax_{number}" if number <= 6 else "eax_a"
+    for joint in joints:
+        if joint.name in ignore:
+            continue
         unit = ", unit: mm" if joint.kind == "prismatic" else ""
+        sign = signs.get(joint.name, "")
         name = joint.name if re.fullmatch(r"\w+", joint.name) else f'"{joint.name}"'
-        lines.append(f"  {name}: {{axis: {axis}{unit}}}")
+        lines.append(f"  {name}: {{axis: {axes.get(joint.name) or OPEN}{unit}{sign}}}")
+        if len(lines) > _MOST_LINES:
+            lines.append(f"  # and {len(joints) - _MOST_LINES} more")
+            break
     return "\n".join(lines)
 
 
@@ -79,16 +95,16 @@ def _shape(
     place: Span | None,
 ) -> Diagnostic | None:
     """Too many, too few, or branching: which pitfall it is."""
-    arms = [c for c in chains if sum(j.kind != "prismatic" for j in c) >= 4]
-    ends = {chain[-1].child for chain in arms}
-    if len(arms) > 1 and len({chain[0].name for chain in arms}) == len(ends):
-        tips = ", ".join(graph.tip_link(chain[-1]) for chain in arms)
+    own = {joint.name for joint in joints}
+    arms = [a for a in read_cell(graph, ()).arms if own >= {j.name for j in a.joints}]
+    if len(arms) > 1:
+        tips = [graph.tip_link(arm.joints[-1]) for arm in arms]
+        shown = ", ".join(tips[:6]) + (", ..." if len(tips) > 6 else "")
         return error(
             "RG052",
             place,
-            f"{len(arms)} robots are in one description (tips: {tips})",
-            f"add\n  urdf:\n    tip: {graph.tip_link(arms[0][-1])}\n"
-            "one group for each robot, each with its own task",
+            f"{len(arms)} robots are in one description (tips: {shown})",
+            f"add\n  urdf:\n    tip: {tips[0]}\none group for each robot, each with its own task",
             label="which of them is this group?",
         )
     gripper = next((j for j in joints if _is_gripper(graph, j)), None)
@@ -97,7 +113,8 @@ def _shape(
             "RG044",
             gripper.span or place,
             f"'{gripper.name}' looks like a gripper",
-            f"add\n  urdf:\n    ignore_joints: [{gripper.name}]\nor map it:\n{paste(joints)}",
+            f"add\n  urdf:\n    ignore_joints: [{gripper.name}]\n"
+            + paste(graph, joints, ignore=[gripper.name]),
             label="moves less than 0.1 m behind the arm",
         )
     still = [j for j in joints if j.lower is not None and j.lower == j.upper]
@@ -116,7 +133,7 @@ def _shape(
             "RG046",
             outside[0].span or place,
             f"{names}: an external axis on or under the robot?",
-            "map it to eax_a, eax_b, ... in the order of the controller:\n" + paste(joints),
+            "map it to eax_a, eax_b, ... in the order of the controller:\n" + paste(graph, joints),
             label="not one of the robot's six",
         )
     if len(joints) == 7 and len(chains) == 1:
@@ -124,7 +141,7 @@ def _shape(
             "RG045",
             place,
             "seven joints in one chain: which one is the seventh axis?",
-            paste(joints),
+            paste(graph, joints),
             label="controllers call it eax_a, and names of joints often number it otherwise",
         )
     if len(joints) > 6:
@@ -132,23 +149,33 @@ def _shape(
             "RG043",
             place,
             f"{len(joints)} joints move by themselves; a robot has six axes",
-            "name the others under urdf.ignore_joints, or map all:\n" + paste(joints),
+            "name the others under urdf.ignore_joints, or map all:\n" + paste(graph, joints),
             label=", ".join(j.name for j in joints[:12]),
         )
-    if len(joints) == 4:
+    if len(joints) == 4 and not any(j.mimic for j in graph.path_to(joints[-1].child)):
         return error(
             "RG050",
             place,
             "four joints: a SCARA or a palletiser?",
             "a SCARA has rax_1, rax_2, rax_3, rax_4; a palletiser rax_1, rax_2, rax_3, rax_6:\n"
-            + paste(joints),
+            + paste(graph, joints),
+        )
+    mimics = [j for j in graph.path_to(joints[-1].child) if j.mimic]
+    if mimics and len(joints) < 6:
+        return error(
+            "RG042",
+            mimics[0].span or place,
+            f"joint '{mimics[0].name}' mimics '{mimics[0].mimic}' and is no axis of its own: "
+            f"{len(joints)} joints are left for the axes of the arm",
+            "take the <mimic> out where the joint is an axis",
+            label="not an axis",
         )
     if len(joints) < 6 or len(chains) > 1:
         return error(
             "RG034",
             place,
             f"cannot infer the axes of {len(joints)} joints in {len(chains)} chain(s)",
-            paste(joints),
+            paste(graph, joints),
             label=", ".join(j.name for j in joints[:12]),
         )
     return None
@@ -157,7 +184,7 @@ def _shape(
 def unmapped(graph: Graph, left: Sequence[UrdfJoint], place: Span | None) -> Diagnostic:
     """The finding for joints that a given mapping leaves out."""
     first = left[0]
-    names = ", ".join(joint.name for joint in left)
+    names = ", ".join(joint.name for joint in left[:_MOST_LINES])
     code, what = "RG043", f"{names}: neither mapped nor ignored"
     if _is_gripper(graph, first):
         code, what = "RG044", f"'{first.name}' looks like a gripper: neither mapped nor ignored"
@@ -165,7 +192,7 @@ def unmapped(graph: Graph, left: Sequence[UrdfJoint], place: Span | None) -> Dia
         code,
         first.span or place,
         what,
-        f"add\n  urdf:\n    ignore_joints: [{names}]\nor map it:\n{paste(left)}",
+        f"add\n  urdf:\n    ignore_joints: [{names}]\nor map it under `joints:`",
         label="moves by itself",
     )
 
@@ -194,9 +221,7 @@ def _turns(joint: UrdfJoint) -> bool:
     return joint.kind in ("revolute", "continuous")
 
 
-def _numbers(
-    joints: Sequence[UrdfJoint], chain: Sequence[UrdfJoint], place: Span | None
-) -> Diagnostic | None:
+def _numbers(graph: Graph, chain: Sequence[UrdfJoint], place: Span | None) -> Diagnostic | None:
     """Six in one chain: do the names count 1 to 6 along it?"""
     sliding = next((j for j in chain if not _turns(j)), None)
     if sliding:
@@ -204,7 +229,7 @@ def _numbers(
             "RG034",
             sliding.span or place,
             f"cannot infer the axis of '{sliding.name}': it is {sliding.kind}",
-            paste(joints),
+            paste(graph, chain),
         )
     parts = [number_of(joint.name) for joint in chain]
     numbers = [p[1] if p else None for p in parts]
@@ -217,13 +242,13 @@ def _numbers(
             chain[index].span or place,
             f"cannot infer the axis of '{chain[index].name}': it is number {index + 1} in the "
             f"chain and says {numbers[index]}",
-            paste(chain),
+            paste(graph, chain),
         )
     shown = ", ".join(joint.name for joint in chain)
     return error(
         "RG035",
         place,
         f"the numbers in the joint names are not 1 to 6: {shown}",
-        paste(chain),
+        paste(graph, chain),
         label="the number in a name need not be the axis",
     )

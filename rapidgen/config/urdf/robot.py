@@ -12,6 +12,7 @@ from io import BytesIO
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from rapidgen.config.few import few
 from rapidgen.config.urdf.expand import Description
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Span, error, refusal
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     PlaceOf = Callable[[Element], Span | None]
 
 KINDS = ("revolute", "continuous", "prismatic", "fixed", "floating", "planar")
+MAX_JOINTS = 1000
+MAX_NAME = 200
 _NUMBERS = {
     "limit": ("lower", "upper", "velocity"),
     "mimic": ("multiplier", "offset"),
@@ -93,7 +96,11 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
         ) from None
 
     def span_of(element: "Element") -> Span | None:
-        if description.expanded or not element.sourceline:
+        if description.expanded:
+            named = element if element.tag in ("link", "joint") else element.getparent()
+            known = named is not None and named.get("name")
+            return (description.origin(known, named.tag) if known else None) or place
+        if not element.sourceline:
             return place
         return Span(str(description.path), element.sourceline, 1)
 
@@ -104,9 +111,17 @@ def read_robot(description: Description, place: Span | None) -> UrdfRobot:
             f"{description.path.name} is no robot description: its root is <{root.tag}>",
             "the root of a URDF is <robot>",
         )
+    count = sum(1 for _ in root.iterchildren("joint"))
+    if count > MAX_JOINTS:
+        raise refusal(
+            "RG043",
+            place,
+            f"{description.path.name} has {count:,} joints; a cell has at most {MAX_JOINTS:,}",
+            "give the description of the robot alone",
+        )
     faults = list(_structure(root, span_of, description.path.name))
     if faults:
-        raise DiagnosticError(faults)
+        raise DiagnosticError(few(faults))
     root.set("name", root.get("name") or description.path.stem)
     lines = {e.get("name"): span_of(e) for e in root.iterchildren("joint")}
     return _read(etree.tostring(_skeleton(root)), lines)
@@ -233,6 +248,15 @@ def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagn
         if not own:
             yield error("RG053", span_of(element), f"a <{element.tag}> has no name")
             continue
+        if len(own) > MAX_NAME or not own.isprintable():
+            yield error(
+                "RG053",
+                span_of(element),
+                f"the name of a <{element.tag}> is {len(own)} characters long"
+                if len(own) > MAX_NAME
+                else f"the name {own!a} has a character that is not printed",
+            )
+            continue
         if (element.tag, own) in seen:
             yield error(
                 "RG051",
@@ -243,7 +267,7 @@ def _structure(root: "Element", span_of: "PlaceOf", name: str) -> Iterator[Diagn
         seen[element.tag, own] = 1
         if element.tag == "joint":
             yield from _joint_structure(element, own, span_of)
-    if not any(tag == "joint" for tag, _ in seen):
+    if root.find("joint") is None:
         yield error(
             "RG031",
             span_of(root),

@@ -5,13 +5,14 @@ xacro input is code (it reads files and the environment); plain URDF is only dat
 """
 
 import re
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from xml.parsers import expat
 
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MAX_BYTES = 20_000_000
-_DOCTYPE = re.compile(r"<!\s*(DOCTYPE|ENTITY)", re.IGNORECASE)
 _ARG = re.compile(r"""<xacro:arg\s[^>]*?name\s*=\s*["']([^"']+)["']""")
 _ARG_USE = re.compile(r"""\$\(arg\s+([^)\s]+)\s*\)|\barg\(\s*["']([^"']+)["']""")
 _MACRO = re.compile(r"<xacro:macro\s([^>]*)>", re.DOTALL)
@@ -25,6 +26,8 @@ class Macro:
 
     name: str
     parameters: tuple[tuple[str, bool], ...]
+    joints: int = 0
+    """How many joints it writes."""
 
     @property
     def shown(self) -> str:
@@ -36,6 +39,8 @@ class Macro:
 def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
     """Text and bytes of an XML file; raises DiagnosticError (RG060)."""
     try:
+        if path.exists() and not path.is_file():
+            raise refusal("RG060", place, f"{path} is no file", "give the path of a file")
         with path.open("rb") as stream:
             data = stream.read(MAX_BYTES + 1)
     except (OSError, ValueError) as fault:
@@ -51,9 +56,8 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
         raise refusal(
             "RG060", place, f"{path} is not UTF-8 text", "save the file as UTF-8"
         ) from None
-    hit = _DOCTYPE.search(_COMMENT.sub(lambda m: " " * len(m[0]), text))
-    if hit or "\x00" in text:
-        line = text.count("\n", 0, hit.start()) + 1 if hit else 1
+    line = _doctype(text)
+    if line:
         raise refusal(
             "RG060",
             Span(str(path), line, 1),
@@ -64,6 +68,26 @@ def read_xml(path: Path, *, place: Span | None = None) -> tuple[str, bytes]:
     return text, data
 
 
+class _Declared(Exception):
+    """A document type; nothing behind it is read."""
+
+
+def _doctype(text: str) -> int:
+    """Line of a document type; 0: there is none before the root."""
+
+    def declared(*_: object) -> None:
+        raise _Declared
+
+    parser = expat.ParserCreate()
+    parser.StartDoctypeDeclHandler = declared
+    try:
+        with suppress(expat.ExpatError):  # said where the text is read
+            parser.Parse(text.encode(), True)
+    except _Declared:
+        return parser.CurrentLineNumber
+    return 0
+
+
 def is_xacro(path: Path, text: str) -> bool:
     """True for what xacro has to expand first."""
     return path.suffix == ".xacro" or "xmlns:xacro" in text or "<xacro:" in text
@@ -72,10 +96,13 @@ def is_xacro(path: Path, text: str) -> bool:
 def macros(text: str) -> tuple[Macro, ...]:
     """Macros that a xacro text defines, in order."""
     found = []
-    for hit in _MACRO.finditer(_COMMENT.sub("", text)):
+    plain = _COMMENT.sub("", text)
+    for hit in _MACRO.finditer(plain):
+        end = plain.find("</xacro:macro", hit.end())
+        joints = plain.count("<joint", hit.end(), end if end >= 0 else len(plain))
         given = {m[1]: m[2] if m[2] is not None else m[3] for m in _ATTRIBUTE.finditer(hit[1])}
         if "name" in given:
-            found.append(Macro(given["name"], _parameters(given.get("params", ""))))
+            found.append(Macro(given["name"], _parameters(given.get("params", "")), joints))
     return tuple(found)
 
 

@@ -352,9 +352,14 @@ def _instructions_fail(bench: Bench) -> None:
 def _supervisor_is_gone(bench: Bench) -> None:
     """Should the supervisor not answer nothing moves, and nobody is told that it was done."""
     with bench.beside(bench.system) as other:
-        control, link = other.control(), other.motion()
-        fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        control, link, state = other.control(), other.motion(), other.state()
         other.run(1)
+        if not other.status(state).motion_possible:
+            raise Broken("no motion is possible, before anything has happened")
+        fails(other, "ROS_supervisor", "OpMode", "ERR_OUTOFBND")
+        other.run(1.5 + 2 * other.config.state_period)
+        if other.status(state).motion_possible:
+            raise Broken("the supervisor has ended, STATUS says that motion is possible")
         link.send(other.download(other.wave(8)))
         other.stays(3, "the supervisor does not answer")
         for asked in (control, link):

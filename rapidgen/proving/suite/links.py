@@ -3,11 +3,11 @@
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
-from rapidgen.proving.link import STOP, RawLink, raw_point
+from rapidgen.proving.link import STOP, RawLink, point_frame, raw_point
 from rapidgen.proving.messages import PING, RawComm, RawReason, decode, encode
 from rapidgen.proving.model import Broken
-from rapidgen.proving.stream import BEGIN, END, Streamer
-from rapidgen.proving.track import SETTLED, Point, distance
+from rapidgen.proving.stream import BEGIN, END, FLUSH, Streamer
+from rapidgen.proving.track import Point, changed, distance
 
 case = Theme("links")
 
@@ -111,72 +111,105 @@ def _pings(bench: Bench, link: RawLink, seconds: float = 0.1, *, slowly: bool = 
         raise Broken("PING is not confirmed")
 
 
-def _silent(bench: Bench, old: RawLink, what: str, points: list[Point]) -> RawLink:
-    """A newer client waits until the one before has been silent for a second, whatever moves."""
-    place, stream = bench.position, Streamer(bench, old)
-    if "stream" in what:
-        stream.put(points, BEGIN)
-    elif points:
-        old.send(bench.download(points))
-        bench.wait_until_moving(2)
-    if what == "stopped stream":
-        old.send(STOP)
-    new = bench.motion()
+def _gives_way(bench: Bench, old: RawLink, new: RawLink, what: str) -> None:
+    """A newer client waits until the one before has been silent for a second."""
     for slowly in (True, False):
         bench.run(0.75)
         _pings(bench, old, slowly=slowly)
-    if what == "stream":
-        # Its batches may come far apart, until it has ended, although it moves on.
-        bench.run(2.5)
-        stream.takes("a slow last point", [(place, 6.0)], END)
-        points = [(place, 6.0)]
-        bench.run(0.8)
-        _pings(bench, old)
     last = bench.now
     bench.run(0.8)
-    if what in ("fed", "download", "stream") and bench.standing:
-        raise Broken(f"{what}: the robot does not move, though its client is there")
     old.wait_until_lost(3, f"a silent client gives way: {what}")
     if not 0.9 < bench.now - last < 1.4:
         raise Broken(f"{what}: a client gave way after {bench.now - last:.2f} s of silence")
-    bench.wait_until_standing(3)
-    if points and distance(bench.position, points[-1][0]) < SETTLED:
-        raise Broken(f"{what}: the robot went on for a client that gave way")
     _pings(bench, new, 0.3)
     bench.stays(0.3, f"the client before gave way: {what}")
-    return new
 
 
-@case("silent-at-rest", "a newer client waits for a second of silence", "R12", needs="stream")
+@case("silent-at-rest", "a newer client waits for a second of silence", "R12")
 def _silent_at_rest(bench: Bench) -> None:
     old = bench.motion()
     for _ in range(2):
         _pings(bench, old)
-        old = _silent(bench, old, "nothing", [])
+        new = bench.motion()
+        _gives_way(bench, old, new, "nothing moves")
+        old = new
 
 
-@case(
-    "silent-while-fed", "a client that is silent while its trajectory is fed", "R12", needs="stream"
-)
-def _silent_while_fed(bench: Bench) -> None:
+def _sets_off(bench: Bench, link: RawLink, what: str) -> list[Point]:
+    """Something long is under way; its points."""
     policy = bench.config.trajectory
-    # Slow points: the last few do not find room in the ring for seconds.
-    count = min(policy.ring + 5, policy.capacity)
-    _silent(bench, bench.motion(), "fed", bench.wave(count, duration=1.5, size=0.1))
+    if what == "fed":
+        # Slow points: the last few do not find room in the ring for a while.
+        points = bench.wave(min(policy.ring + 5, policy.capacity), duration=1.0, size=0.1)
+    else:
+        points = bench.wave(9, duration=0.6)
+    if what == "stream":
+        Streamer(bench, link).put(points, BEGIN | FLUSH | END)
+        bench.wait_until_moving()
+    else:
+        bench.sets_off(link, points)
+    return points
 
 
-@case(
-    "silent-while-moving",
-    "a client that is silent while its trajectory or stream moves",
-    "R12",
-    needs="stream",
-)
+@case("silent-while-moving", "whoever connects stops nobody", "R12")
 def _silent_while_moving(bench: Bench) -> None:
-    """Over the other socket of the server, too."""
-    place, old = bench.position, bench.motion()
-    for what, count in (("stream", 4), ("download", 15), ("stopped stream", 4)):
-        old = _silent(bench, old, what, bench.wave(count))
-        bench.moves_through(old, bench.way_to(place))
+    """A trajectory whose client is silent goes on, whoever connects and whatever nonsense comes."""
+    for what in ("download", "stream") if bench.streams else ("download",):
+        old, since = bench.motion(), bench.now
+        points = _sets_off(bench, old, what)
+        for said in (b"GET / HTTP/1.1\r\nHost: robot\r\n\r\n", b"\xff" * 100, b"", _PING, None):
+            new = bench.motion()
+            if said is None:
+                break
+            new.send(said)
+            bench.run(0.3)
+            if bench.standing:
+                raise Broken(f"{what}: a newer client says {said!r}, and the robot stops")
+            new.close()
+        bench.arrives(points, since, 30)
+        bench.run(0.2)
+        _gives_way(bench, old, new, what)
+        new.close(then=1.3)
+
+
+_PING = encode(messages.RawPing(), RawComm.REQUEST)
+
+
+@case("second-stops", "a second client's STOP stops, and its trajectory takes over", "R5, R12")
+def _second_stops(bench: Bench) -> None:
+    """Also byte by byte, and behind something else; whatever the first client does."""
+    old = bench.motion()
+    ways = ("download", "stream", "fed") if bench.streams else ("download", "download", "fed")
+    for number, what in enumerate(ways):
+        _sets_off(bench, old, what)
+        bench.run(0.3)
+        new = bench.motion()
+        bench.run(0.2)
+        if number == 1:
+            for byte in (_PING + STOP)[:-1]:
+                new.send(bytes([byte]))
+                bench.run(0.003)
+            new.send(STOP[-1:])
+        else:
+            new.send(STOP)
+        asked = bench.now
+        bench.wait_until_standing(1)
+        if bench.now - asked > 0.6 + bench.setting.motion.settle:
+            raise Broken(f"{what}: a second client's STOP takes {bench.now - asked:.2f} s")
+        if number == 1 and not isinstance(new.reply(PING, 1), messages.RawAcknowledged):
+            raise Broken("the PING in front of a second client's STOP is not answered")
+        if not isinstance(new.reply(messages.JOINT_TRAJ_PT, 1), messages.RawAcknowledged):
+            raise Broken(f"{what}: a second client's STOP is not confirmed")
+        bench.stays(1, f"{what}: a second client has said STOP")
+        bench.moves_through(new, bench.wave(3))
+        old = new
+    # Its own trajectory takes the place of what is under way, and begins where that has stopped.
+    _sets_off(bench, old, "download")
+    new, far = bench.motion(), changed(bench.position, 0, bench.position[0] + 0.5)
+    new.send(point_frame(0, 2, far, 3.0) + point_frame(1, 2, far, 3.0))
+    bench.wait_until_standing(3)
+    bench.stays(1, "a second client's trajectory begins elsewhere")
+    bench.moves_through(new, bench.wave(3))
 
 
 @case("server-breaks", "a server socket that breaks is opened again")

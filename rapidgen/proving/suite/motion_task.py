@@ -344,12 +344,14 @@ def _halts(bench: Bench) -> None:
     """Stops at a standstill, in a stay and in a zone; then of a path that cannot be cleared."""
     watcher, link, unit = bench.watcher(), bench.motion(), unit_of(bench)
     cycles = _cycles(bench)
+    # Some controllers let a program go on behind StopMove only when the robot has settled.
+    soon = SOON + (0.3 + bench.setting.motion.settle if bench.setting.motion.stop_waits else 0)
     for _ in range(7):
-        link.stop(SOON, "STOP at a standstill is answered")
+        link.stop(soon, "STOP at a standstill is answered")
     begins(bench, link, bench.wave(4, duration=unit))
     bench.run(1.15 * unit)
     since = bench.now
-    link.stop(SOON, "STOP on the way is answered")
+    link.stop(soon, "STOP on the way is answered")
     told = _over_soon(bench, watcher, since, "STOP on the way")
     if (told.planned, told.reached) != (3, 1):
         raise Broken(f"STOP came between points 1 and 2, PROGRESS says {told}")
@@ -358,7 +360,7 @@ def _halts(bench: Bench) -> None:
     bench.wait_until_at(way[1][0], 5)
     bench.run(0.5)
     since = bench.now
-    link.stop(SOON, "STOP in a stay is answered")
+    link.stop(soon, "STOP in a stay is answered")
     told = _over_soon(bench, watcher, since, "STOP in a stay")
     if (told.planned, told.reached) != (3, 2):
         raise Broken(f"STOP came in the stay behind two points, PROGRESS says {told}")

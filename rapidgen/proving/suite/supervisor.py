@@ -32,8 +32,8 @@ def _prompt(bench: Bench, asked: float, what: str) -> None:
         raise Broken(f"{what} is answered after {late:.3f} s")
 
 
-def _end_as_request(bench: Bench, count: int, duration: float) -> bytes:
-    """A trajectory whose end frame is a request."""
+def end_as_request(bench: Bench, count: int, duration: float) -> bytes:
+    """The bytes of a trajectory whose end frame is a request."""
     points = bench.wave(count, duration=duration)
     frames = [point_frame(n, count, *p) for n, p in enumerate(points[:-1])]
     return b"".join((*frames, point_frame(count - 1, count, *points[-1], RawComm.REQUEST)))
@@ -48,7 +48,7 @@ def _answers_soon(bench: Bench) -> None:
     for phase in range(5):
         # Not at the same moment of the supervisor's round each time.
         bench.run(0.3 + 0.021 * phase)
-        link.send(_end_as_request(bench, 5, unit))
+        link.send(end_as_request(bench, 5, unit))
         asked = bench.now
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawAccepted):
@@ -89,7 +89,7 @@ def _answers_soon(bench: Bench) -> None:
         # What comes right behind a stop of the program is refused.
         bench.run(0.4)
         bench.controller.perform("stop")
-        link.send(_end_as_request(bench, 3, unit))
+        link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.NOT_EXECUTING, -1, 0):
             raise Broken(f"right behind a stop of the program a trajectory is answered: {content}")
@@ -144,13 +144,13 @@ def _why_it_ended(bench: Bench) -> None:
             bench.run(0.3)
             link = bench.motion()
             continue
-        link.send(_end_as_request(bench, 3, unit))
+        link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         number += 1
         if content != messages.RawRefused(later, -1, 0):
             raise Broken(f"after {action} a trajectory is answered by {content}")
         # What is received meanwhile is for nothing, although its end comes when all is well again.
-        frames = _end_as_request(bench, 3, unit)
+        frames = end_as_request(bench, 3, unit)
         link.send(frames[:68])
         number += 1
         bench.run(0.3)
@@ -278,7 +278,7 @@ def _builds_differ(bench: Bench) -> None:
         at_call(bench, "ROS_supervisor", "WaitTime", 1, mix)
         bench.until(lambda: task[shown] != good, 0.2, "the supervisor looks")
         mixed = bench.now
-        link.send(_end_as_request(bench, 3, unit))
+        link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
             raise Broken(f"tasks show different builds, a trajectory is answered by {content}")
@@ -301,7 +301,7 @@ def _builds_differ(bench: Bench) -> None:
             continue
         other = datum(bench, f"ros_shown_{role}")
         task[other] = "0123456789ab"
-        link.send(_end_as_request(bench, 3, unit))
+        link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if content != messages.RawRefused(RawReason.BUILD_MISMATCH, -1, 0):
             raise Broken(f"the {role} shows another build, a trajectory is answered by {content}")
@@ -320,7 +320,7 @@ def _builds_differ(bench: Bench) -> None:
         if stopped:
             bench.controller.perform("stop")
         task[shown] = text
-        link.send(_end_as_request(bench, 3, unit))
+        link.send(end_as_request(bench, 3, unit))
         content = messages.decode(link.expect_reply(2, "the end frame is answered"))
         if not isinstance(content, messages.RawRefused) or content.reason != reason:
             raise Broken(f"the motion task shows {text!r}, a trajectory is answered by {content}")

@@ -5,7 +5,7 @@ motion tasks and mechanical units are the cell's.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from rapidgen.system.base.releases import DOMAINS, Domain, header_digits
 from rapidgen.system.cfg import parse_cfg
@@ -18,7 +18,9 @@ class Robot:
 
     task: str
     unit: str
-    external: tuple[str, ...] = field(default=())
+    external: tuple[str, ...] = ()
+    group: str = ""
+    """Name of its mechanical unit group, where it is not made of the unit's."""
 
 
 # RW 5.15-6.13 without 604-1: the motion task has these three and nothing more (PANIN, PAULA,
@@ -70,7 +72,7 @@ def base_system(
     for n, robot in enumerate(ordered, 1):
         # HONG: the seventh axis of an arm is a mechanical unit of the arm's group.
         further = (f"{robot.unit}_7", *robot.external) if yumi else robot.external
-        group = unit_group(robot.unit)
+        group = robot.group or unit_group(robot.unit)
         rows.append((_GROUPED_TASK if grouped else _TASK).format(task=robot.task, group=group))
         named = " ".join(f'-MechanicalUnit_{i} "{unit}"' for i, unit in enumerate(further, 1))
         groups.append(_GROUP.format(group=group, unit=robot.unit, units=named, n=n))

@@ -188,6 +188,7 @@ class Reason(IntEnum):
     MOVING = 25, "another trajectory is being executed"
     NOT_ALLOWED = 26, "the client's address may not move this robot"
     IDLE = 27, "no trajectory is under way"
+    NOT_SERVING = 28, "the program of the robot is not in ROS_run"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "e81a529a1dd8";
+    CONST string ROS_BUILD_MOTION := "7cdbf35debff";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -45,9 +45,6 @@ MODULE ROS_motion
     LOCAL VAR errnum path_gone := -1;
     ! Main moves, or is about to: there the trap may end what it does.
     LOCAL VAR bool in_move := FALSE;
-    LOCAL VAR bool cleared := FALSE;
-    ! StartMove was refused because the robot stands too far from its path.
-    LOCAL VAR bool far_off := FALSE;
     LOCAL VAR ROS_point point;
     ! The place of the point before it.
     LOCAL VAR jointtarget before;
@@ -60,14 +57,19 @@ MODULE ROS_motion
     LOCAL VAR num closed := 0;
     ! Why a move failed.
     LOCAL VAR num fault := 0;
+    LOCAL VAR clock since_busy;
 
     PROC main()
         ROS_run;
     ENDPROC
 
-    ! Serve the ring for ever.
-    PROC ROS_run()
-        ROS_start_task ROS_shown_motion, ROS_BUILD_MOTION = ROS_BUILD_ID;
+    ! Serve the ring: for ever, or until the signal or the datum is TRUE. Then no new
+    ! trajectory is taken, the one under way comes to its end, and the robot stands.
+    PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
+        VAR bool left := FALSE;
+
+        ROS_start_task ROS_shown_motion, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_service := ROS_OUTSIDE;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
         answer ROS_REASON_PROGRAM_STOPPED;
@@ -81,61 +83,58 @@ MODULE ROS_motion
         IPers ROS_speed_asked, speed_bell;
         percent := 0;
         set_speed;
-        WHILE TRUE DO
-            ! Read before the head of the ring: no point comes after this.
-            closed := ROS_closed;
-            IF ROS_abort <> ROS_abort_done THEN
-                answer ROS_halt_reason;
-            ELSEIF fault <> ROS_REASON_NONE THEN
-                give_up;
-            ELSEIF ROS_head <> ROS_tail THEN
-                next_point;
-            ELSEIF closed = ROS_session AND ROS_active() THEN
-                finish;
+        WHILE NOT left DO
+            IF is_wanted(\UntilDI?UntilDI \Until?Until) THEN
+                left := is_over();
             ELSE
-                wait_for_points;
+                ROS_service := ROS_SERVING;
             ENDIF
+            IF NOT left serve_ring;
         ENDWHILE
+        ROS_service := ROS_OUTSIDE;
+        IDelete bell;
+        IDelete speed_bell;
+        ROS_speed_of := -1;
+        set_speed;
     ENDPROC
 
-    ! Event routines (SYS.cfg). Without them Start would first drive back to where the robot
-    ! left the old path, and then go on with it.
-    PROC ROS_on_stop()
-        ROS_stopped := TRUE;
-        interrupted ROS_REASON_PROGRAM_STOPPED;
-    ENDPROC
+    ! TRUE when ROS_run is to return.
+    LOCAL FUNC bool is_wanted(\VAR signaldi UntilDI | PERS bool Until)
+        IF Present(UntilDI) RETURN DInput(UntilDI) = 1;
+        IF Present(Until) RETURN Until;
+        RETURN FALSE;
+    ERROR
+        ! The signal's unit is gone: nobody says so.
+        SkipWarn;
+        RETURN FALSE;
+    ENDFUNC
 
-    PROC ROS_on_start()
-        ROS_stopped := FALSE;
-        interrupted ROS_REASON_PROGRAM_STOPPED;
-    ENDPROC
-
-    PROC ROS_on_power()
-        ROS_stopped := TRUE;
-        interrupted ROS_REASON_POWER_FAILURE;
-    ENDPROC
-
-    ! Nothing of what was ordered so far will move the robot, whose path is gone; `reason` tells
-    ! why.
-    LOCAL PROC drop_points(num reason)
-        IF ROS_active() THEN
-            IF ROS_halted = ROS_session reason := ROS_halt_reason;
-            ROS_dead_reason := reason;
-            ROS_dead := ROS_session;
+    ! TRUE when nothing has been under way for half a second in which none could begin, and
+    ! nothing stops the robot.
+    LOCAL FUNC bool is_over()
+        IF ROS_service <> ROS_LEAVING OR ROS_active() OR ROS_abort <> ROS_abort_done OR IsStopMoveAct() THEN
+            ROS_service := ROS_LEAVING;
+            ClkReset since_busy;
+            ClkStart since_busy;
+            RETURN FALSE;
         ENDIF
-        ROS_tail := ROS_head;
-    ENDPROC
+        RETURN ClkRead(since_busy) > 0.5;
+    ENDFUNC
 
-    ! The program was stopped or started in the middle of a trajectory. Main may still wait in a
-    ! move of it, or be about to begin one; so the robot stays stopped, by this task too, until
-    ! main has answered the supervisor, who is told.
-    LOCAL PROC interrupted(num reason)
-        IF NOT ROS_active() RETURN;
-        ROS_interrupts := ROS_next(ROS_interrupts);
-        stop_robot;
-        clear_path;
-        ! Asked for only now: signals may come later than the stop that they belong to.
-        drop_points ROS_cause(reason);
+    LOCAL PROC serve_ring()
+        ! Read before the head of the ring: no point comes after this.
+        closed := ROS_closed;
+        IF ROS_abort <> ROS_abort_done THEN
+            answer ROS_halt_reason;
+        ELSEIF fault <> ROS_REASON_NONE THEN
+            give_up;
+        ELSEIF ROS_head <> ROS_tail THEN
+            next_point;
+        ELSEIF closed = ROS_session AND ROS_active() THEN
+            finish;
+        ELSE
+            wait_for_points;
+        ENDIF
     ENDPROC
 
     ! Do what the supervisor asks for. Only main does: it is in no move then.
@@ -145,13 +144,13 @@ MODULE ROS_motion
         ! Read first: a request that comes meanwhile is not answered by this.
         asked := ROS_abort;
         clear_path;
-        IF NOT cleared THEN
+        IF NOT ROS_cleared THEN
             ! Unanswered: while there may be a path, nobody lets the robot move.
             WaitTime 0.1;
             RETURN;
         ENDIF
-        drop_points reason;
-        start_robot;
+        ROS_drop_points reason;
+        ROS_start_robot;
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
             RETURN;
@@ -164,13 +163,15 @@ MODULE ROS_motion
     ! The ring is empty. In the middle of a trajectory the robot stands at the last point that
     ! came, since that had no successor.
     LOCAL PROC wait_for_points()
+        VAR bool waited;
+
         IF ROS_active() AND session = ROS_session ROS_starved := session;
         IF ROS_active() OR ROS_phase = ROS_TRAJ_RECEIVING THEN
             ! Points will be here soon.
             WaitTime 0.008;
         ELSE
             WaitUntil ROS_phase = ROS_TRAJ_RECEIVING OR ROS_head <> ROS_tail
-                OR ROS_abort <> ROS_abort_done \PollRate:=0.04;
+                OR ROS_abort <> ROS_abort_done \MaxTime:=0.2 \TimeFlag:=waited \PollRate:=0.04;
         ENDIF
     ENDPROC
 
@@ -236,6 +237,7 @@ MODULE ROS_motion
         ROS_reached := arrived;
     ERROR (path_gone)
         ! The trap comes here: nothing was reached.
+        SkipWarn;
         in_move := FALSE;
         RETURN;
     ENDPROC
@@ -384,7 +386,8 @@ MODULE ROS_motion
 
         start := CalcRobT(from_point, torch \WObj:=table);
         end_point := CalcRobT(to_point, torch \WObj:=table);
-        RETURN Distance(start.trans, end_point.trans) / seconds;
+        ! Not Distance: programs have a global of that name, which would hide it.
+        RETURN VectMagn(end_point.trans - start.trans) / seconds;
     ERROR
         SkipWarn;
         RETURN 9E9;
@@ -413,44 +416,22 @@ MODULE ROS_motion
     LOCAL PROC give_up()
         ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
             \RL2:="At point " + ValToStr(ROS_planned - 1) + ".";
-        stop_robot;
+        ROS_stop_robot;
         clear_path;
-        IF NOT cleared THEN
+        IF NOT ROS_cleared THEN
             WaitTime 0.1;
             RETURN;
         ENDIF
-        drop_points fault;
-        start_robot;
+        ROS_drop_points fault;
+        ROS_start_robot;
         fault := ROS_REASON_NONE;
     ENDPROC
 
-    LOCAL PROC stop_robot()
-        StopMove;
-    ERROR
-        ! It is stopped already.
-        SkipWarn;
-        TRYNEXT;
-    ENDPROC
-
-    ! Take back this task's own stop, when nothing is left of the path; that of the supervisor
-    ! stays. A robot that came to rest too far from the path that it left is not started by
-    ! StartMove; StopMoveReset takes back the stop, and nothing moves.
-    LOCAL PROC start_robot()
-        far_off := FALSE;
-        IF IsStopMoveAct(\FromMoveTask) StartMove;
-        IF far_off StopMoveReset;
-    ERROR
-        SkipWarn;
-        far_off := (ERRNO = ERR_PATHDIST);
-        TRYNEXT;
-    ENDPROC
-
-    ! `cleared`: the robot stands, and nothing is left of its path.
+    ! ROS_cleared: the robot stands, and nothing is left of its path.
     LOCAL PROC clear_path()
-        cleared := FALSE;
+        ROS_cleared := FALSE;
         WaitRob \ZeroSpeed;
-        ClearPath;
-        cleared := TRUE;
+        ROS_clear_path;
     ERROR
         SkipWarn;
         RETURN;
@@ -464,6 +445,7 @@ MODULE ROS_motion
         clear_path;
         IF in_move RAISE path_gone;
     ERROR
+        SkipWarn;
         RAISE;
     ENDTRAP
 ENDMODULE

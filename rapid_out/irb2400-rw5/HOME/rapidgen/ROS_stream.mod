@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "e81a529a1dd8";
+    CONST string ROS_BUILD_STREAM := "7cdbf35debff";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -93,12 +93,6 @@ MODULE ROS_stream
         PackRawBytes told.reached, data, 37 \IntX:=DINT;
         PackRawBytes told.state, data, 41 \IntX:=DINT;
     ENDPROC
-
-    ! TRUE while the newest trajectory is a stream that more points may come for.
-    FUNC bool ROS_is_streaming()
-        IF ended OR code <> ROS_REASON_NONE OR (NOT handed_over) RETURN FALSE;
-        RETURN ROS_session = trajectory AND ROS_active();
-    ENDFUNC
 
     ! The client is gone: a stream that has not begun to move never will.
     PROC ROS_lose_stream()

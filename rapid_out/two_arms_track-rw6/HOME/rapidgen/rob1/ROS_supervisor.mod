@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "b7a354d8101d";
+    CONST string ROS_BUILD_SUPERVISOR := "26bae8df6501";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -57,6 +57,7 @@ MODULE ROS_supervisor
             watch_builds;
             IF ROS_latched_1 release;
             ROS_not_ready_1 := obstacle();
+            ROS_pulse_1 := ROS_next(ROS_pulse_1);
             IEnable;
             WaitTime 0.1;
         ENDWHILE
@@ -73,13 +74,13 @@ MODULE ROS_supervisor
 
         asked := ROS_stop_asked_1;
         IF asked <> ROS_stop_done_1 THEN
-            halt ROS_stop_reason_1;
+            carry_out ROS_stop_reason_1;
             ROS_not_ready_1 := obstacle();
             ROS_stop_done_1 := asked;
         ENDIF
         asked := ROS_control_asked_1;
         IF asked <> ROS_control_done_1 THEN
-            IF ROS_active() OR IsStopMoveAct(\FromNonMoveTask) halt ROS_control_reason_1;
+            carry_out ROS_control_reason_1;
             ROS_not_ready_1 := obstacle();
             ROS_control_done_1 := asked;
         ENDIF
@@ -97,6 +98,15 @@ MODULE ROS_supervisor
             IF ROS_latched_1 release;
             ROS_not_ready_1 := obstacle();
             ROS_look_done_1 := asked;
+        ENDIF
+    ENDPROC
+
+    ! Somebody wants a halt. The moves of a program that is not in ROS_run are its own.
+    LOCAL PROC carry_out(num reason)
+        IF ROS_active() OR ROS_latched_1 OR IsStopMoveAct(\FromNonMoveTask) THEN
+            halt reason;
+        ELSEIF ROS_service_1 = ROS_OUTSIDE AND reason = ROS_REASON_STOPPED AND ROS_executing() <> ROS_TRI_FALSE THEN
+            ErrWrite \W, "ROS: STOP is not for this program", "It is not in ROS_run: its own moves go on.";
         ENDIF
     ENDPROC
 
@@ -163,7 +173,7 @@ MODULE ROS_supervisor
 
     ! Let the robot move again, once nothing is left of the old path.
     LOCAL PROC release()
-        IF ROS_abort_done_1 = ROS_abort_1 THEN
+        IF ROS_abort_done_1 = ROS_abort_1 OR is_others() THEN
             IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
             IF NOT released() THEN
                 tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
@@ -193,6 +203,12 @@ MODULE ROS_supervisor
         ClkReset one;
         ClkStart one;
     ENDPROC
+
+    ! The program was begun anew, and is not in ROS_run: no path of ours is left, and nothing of
+    ! ours may hold its moves.
+    LOCAL FUNC bool is_others()
+        RETURN ROS_service_1 = ROS_OUTSIDE AND (NOT ROS_active());
+    ENDFUNC
 
     ! Say once what is wrong, when the program has run for two seconds since the halt.
     LOCAL PROC tell(string title, string what)
@@ -238,8 +254,11 @@ MODULE ROS_supervisor
         fault := ROS_build_fault();
         IF fault = ROS_REASON_BUILD_MISMATCH RETURN fault;
         reason := ROS_cause(fault);
+        IF reason = ROS_REASON_NOT_EXECUTING AND ROS_executing() = ROS_TRI_TRUE AND ROS_service_1 = ROS_OUTSIDE
+            RETURN ROS_REASON_NOT_SERVING;
         IF reason <> ROS_REASON_NONE RETURN reason;
         IF ROS_executing() = ROS_TRI_FALSE RETURN ROS_REASON_NOT_EXECUTING;
+        IF ROS_service_1 <> ROS_SERVING RETURN ROS_REASON_NOT_SERVING;
         IF ROS_latched_1 OR ROS_paused_1 >= 0 RETURN -1;
         IF ROS_interrupts_seen_1 <> ROS_interrupts_1 RETURN -1;
         RETURN ROS_REASON_NONE;

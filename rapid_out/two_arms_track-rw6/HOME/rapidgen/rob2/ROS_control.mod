@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "b7a354d8101d";
+    CONST string ROS_BUILD_CONTROL := "26bae8df6501";
 
     LOCAL CONST num PORT := 11011;
     ! s between two looks at what the robot does, and for new clients.

@@ -9,15 +9,15 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "b7a354d8101d";
+    CONST string ROS_BUILD_MOTION_SERVER := "26bae8df6501";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
     LOCAL CONST num LOOK_PERIOD := 0.008;
-    ! s of silence after which a newer client is served, and while a stream is under way, whose
-    ! batches may come far apart
+    ! s of silence after which a newer client is served, unless a trajectory is under way
     LOCAL CONST num PATIENCE := 1;
-    LOCAL CONST num STREAM_PATIENCE := 5;
+    ! s between two looks for newer clients
+    LOCAL CONST num NEWCOMER_PERIOD := 0.1;
 
     LOCAL VAR socketdev server;
     LOCAL VAR socketdev client_1;
@@ -25,6 +25,11 @@ MODULE ROS_motionServer
     ! The other socket already holds the next client.
     LOCAL VAR bool taken_over := FALSE;
     LOCAL VAR bool linked := FALSE;
+    ! The other socket holds a newer client, who waits, and what it has said so far.
+    LOCAL VAR bool waiting := FALSE;
+    LOCAL VAR rawbytes early;
+    LOCAL VAR num early_bytes := 0;
+    LOCAL VAR clock since_look;
     LOCAL VAR rawbytes answer;
     ! Of the message at hand: what it asks for, its reply code, and the number of a point.
     LOCAL VAR num comm_type := 0;
@@ -68,6 +73,8 @@ MODULE ROS_motionServer
         taken_over := FALSE;
         linked := TRUE;
         ROS_begin_frames;
+        set_back since_look;
+        IF early_bytes > 0 take_early client;
         WHILE linked AND (NOT taken_over) DO
             IF ROS_fed < ROS_to_feed THEN
                 ROS_feed;
@@ -75,30 +82,130 @@ MODULE ROS_motionServer
                 quiet := quiet + LOOK_PERIOD;
             ELSE
                 silence := PATIENCE;
-                IF ROS_is_streaming() silence := STREAM_PATIENCE;
+                IF ROS_active() silence := NEWCOMER_PERIOD;
                 received := ROS_receive(client, ROS_chunk, silence);
-                quiet := silence;
+                quiet := quiet + silence;
             ENDIF
-            IF received <> 0 THEN
-                quiet := 0;
-            ELSEIF quiet >= PATIENCE THEN
-                quiet := 0;
-                ! Silent: a newer client, if there is one, is served instead. It may be the same
-                ! one, whose old link is dead without a word.
-                taken_over := welcome(newcomer, 0.001);
-            ENDIF
+            ! Silence counts from the end of what was under way.
+            IF received <> 0 OR (silence < PATIENCE AND (NOT ROS_active())) quiet := 0;
             IF received > 0 THEN
                 take_chunk client, received;
             ELSEIF received < 0 THEN
                 linked := FALSE;
             ENDIF
+            IF linked AND ClkRead(since_look) >= NEWCOMER_PERIOD look_at newcomer, quiet;
+            IF quiet >= PATIENCE THEN
+                quiet := 0;
+            ENDIF
         ENDWHILE
-        SocketClose client;
+        leave client;
     ERROR
         ! Nothing that a client sends may end this task.
         ErrWrite \W, "ROS: a client was dropped", "Error " + ValToStr(ERRNO) + " while serving it.";
-        SocketClose client;
+        leave client;
         RETURN;
+    ENDPROC
+
+    ! Whoever waits is served next.
+    LOCAL PROC leave(VAR socketdev client)
+        SocketClose client;
+        taken_over := waiting;
+        waiting := FALSE;
+    ENDPROC
+
+    LOCAL PROC set_back(VAR clock one)
+        ClkReset one;
+        ClkStart one;
+    ENDPROC
+
+    ! A newer client is served when this one has been silent for a while: it may be the same
+    ! one, whose old link is dead without a word. While a trajectory is under way that its client
+    ! is silent means nothing, and to connect is no reason to stop the robot.
+    LOCAL PROC look_at(VAR socketdev newcomer, num quiet)
+        set_back since_look;
+        IF NOT waiting waiting := welcome(newcomer, 0.001);
+        IF NOT waiting RETURN;
+        IF ROS_active() THEN
+            hear newcomer;
+        ELSEIF quiet >= PATIENCE THEN
+            taken_over := TRUE;
+        ENDIF
+    ENDPROC
+
+    ! Who waits may stop what is under way, and begin something else; nothing else counts yet.
+    LOCAL PROC hear(VAR socketdev newcomer)
+        VAR rawbytes more;
+        VAR num bytes;
+        VAR num reason;
+
+        bytes := ROS_peek(newcomer);
+        IF bytes > 0 bytes := ROS_receive(newcomer, more, 0.01);
+        IF bytes = 0 RETURN;
+        IF bytes < 0 THEN
+            dismiss newcomer;
+            RETURN;
+        ENDIF
+        CopyRawBytes more, 1, early, early_bytes + 1 \NoOfBytes:=bytes;
+        early_bytes := early_bytes + bytes;
+        reason := wish();
+        IF reason = ROS_REASON_NONE RETURN;
+        IF reason = ROS_REASON_FRAMING THEN
+            dismiss newcomer;
+            RETURN;
+        ENDIF
+        ROS_end_session reason;
+        taken_over := TRUE;
+    ERROR
+        ! More than a beginning.
+        SkipWarn;
+        dismiss newcomer;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC dismiss(VAR socketdev newcomer)
+        SocketClose newcomer;
+        waiting := FALSE;
+        early_bytes := 0;
+    ENDPROC
+
+    ! What the first message of `early` that says STOP or brings points is for the trajectory under
+    ! way: STOPPED or SUPERSEDED; FRAMING: it is none; 0: there is none yet.
+    LOCAL FUNC num wish()
+        VAR num at := 1;
+        VAR num length;
+        VAR num type;
+        VAR num number;
+
+        WHILE at + ROS_HEADER_BYTES + 7 <= early_bytes DO
+            UnpackRawBytes early, at, length \IntX:=DINT;
+            UnpackRawBytes early, at + 4, type \IntX:=DINT;
+            IF NOT (ROS_HEADER_BYTES <= length AND length <= ROS_MAX_LENGTH) RETURN ROS_REASON_FRAMING;
+            IF at + length + 3 > early_bytes RETURN ROS_REASON_NONE;
+            IF type = ROS_MSG_POINTS RETURN ROS_REASON_SUPERSEDED;
+            IF type = ROS_MSG_JOINT_TRAJ_PT THEN
+                UnpackRawBytes early, at + 16, number \IntX:=DINT;
+                IF number = ROS_SEQ_STOP RETURN ROS_REASON_STOPPED;
+                RETURN ROS_REASON_SUPERSEDED;
+            ENDIF
+            at := at + length + 4;
+        ENDWHILE
+        RETURN ROS_REASON_NONE;
+    ERROR
+        RAISE;
+    ENDFUNC
+
+    ! What a client said while another one was served.
+    LOCAL PROC take_early(VAR socketdev client)
+        VAR num bytes;
+
+        ClearRawBytes ROS_chunk;
+        CopyRawBytes early, 1, ROS_chunk, 1 \NoOfBytes:=early_bytes;
+        bytes := early_bytes;
+        early_bytes := 0;
+        ClearRawBytes early;
+        take_chunk client, bytes;
+    ERROR
+        RAISE;
     ENDPROC
 
     LOCAL FUNC bool welcome(VAR socketdev client, num seconds)
@@ -118,12 +225,12 @@ MODULE ROS_motionServer
 
     ! While the ring is being fed, look for bytes without waiting for them.
     LOCAL FUNC num short_look(VAR socketdev client)
-        VAR num waiting;
+        VAR num here;
 
-        waiting := ROS_peek(client);
-        IF waiting > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
-        IF waiting = 0 WaitTime LOOK_PERIOD;
-        RETURN waiting;
+        here := ROS_peek(client);
+        IF here > 0 RETURN ROS_receive(client, ROS_chunk, PATIENCE);
+        IF here = 0 WaitTime LOOK_PERIOD;
+        RETURN here;
     ENDFUNC
 
     LOCAL PROC take_chunk(VAR socketdev client, num received)
@@ -240,6 +347,11 @@ MODULE ROS_motionServer
         ROS_forget_download;
         ROS_forget_trajectory ROS_REASON_STOPPED;
         ROS_end_session ROS_REASON_STOPPED;
+        IF ROS_service_2 = ROS_OUTSIDE THEN
+            ! The supervisor tells that the program's own moves go on.
+            ROS_stop_reason_2 := ROS_REASON_STOPPED;
+            ROS_stop_asked_2 := ROS_next(ROS_stop_asked_2);
+        ENDIF
         IF NOT ROS_answered() code := ROS_REPLY_FAILURE;
         IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
     ENDPROC

@@ -9,7 +9,7 @@ MODULE ROS_stateServer
     ! moment. Nobody waits for this task. A client that does not read would hold up the others
     ! in a send, so a send that takes too long is broken off, and its client dropped.
 
-    CONST string ROS_BUILD_STATE_SERVER := "b7a354d8101d";
+    CONST string ROS_BUILD_STATE_SERVER := "26bae8df6501";
 
     LOCAL CONST num PORT := 11012;
     LOCAL CONST num PERIOD := 0.1;
@@ -42,6 +42,9 @@ MODULE ROS_stateServer
     LOCAL VAR bool progress_wanted := FALSE;
     LOCAL VAR bool feedback_wanted := FALSE;
     LOCAL VAR bool look_for_clients := FALSE;
+    ! The supervisor's pulse as it was seen last, and for how many s it has not changed.
+    LOCAL VAR num told_pulse := -1;
+    LOCAL VAR num without_pulse := 0;
     LOCAL VAR clock since_look;
 
     ! JOINT and STATUS; what may come behind them; and all of that for one client.
@@ -170,7 +173,7 @@ MODULE ROS_stateServer
         IF ROS_controller_error() = ROS_TRI_TRUE in_error := ROS_TRI_TRUE;
         IF feedback_wanted measure joints;
         IF moving(joints) in_motion := ROS_TRI_TRUE;
-        IF ROS_not_ready_2 = ROS_REASON_NONE possible := ROS_TRI_TRUE;
+        IF is_possible() possible := ROS_TRI_TRUE;
         IF in_error = ROS_TRI_TRUE code := newest.code;
         ROS_pack_status state, code, in_error, in_motion, possible;
 
@@ -183,6 +186,14 @@ MODULE ROS_stateServer
         set_alarm FALSE;
         told_stamp := stamp;
     ENDPROC
+
+    ! TRUE if a trajectory would be taken now: so says a supervisor whose pulse is seen.
+    LOCAL FUNC bool is_possible()
+        without_pulse := without_pulse + PERIOD;
+        IF ROS_pulse_2 <> told_pulse without_pulse := 0;
+        told_pulse := ROS_pulse_2;
+        RETURN without_pulse < 1 AND ROS_not_ready_2 = ROS_REASON_NONE;
+    ENDFUNC
 
     ! All of one period leaves in one send: a socket call costs more than all the rest.
     LOCAL PROC tell_client(num slot)

@@ -1,0 +1,121 @@
+"""What the driver is signed for: the suite on every example, and on what may be configured.
+
+    python benchmarks/signature.py [--part N/M] [--jobs N] [--together N] [--output FILE] [--plan]
+
+Every example of robots/examples, and of the IRB 120 the configurations in which any two of profile,
+commissioning, main and control port meet; each under the settings in which any two assumptions
+about controllers meet. One table at the end. Reports go to FILE (JSON lines) as they come: what has
+been run on the same tree is not run again, so that a run may be broken off and go on later, or be
+done in parts (`--part 1/3`) of which the last one prints the whole table. `--plan` only counts.
+"""
+
+import argparse
+import hashlib
+import json
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from rapidgen.config import load_config
+from rapidgen.config.reference import json_schema
+from rapidgen.proving.covering import covering
+from rapidgen.proving.report import as_json
+from rapidgen.proving.run import prove
+
+ROOT = Path(__file__).resolve().parents[1]
+BASE = ROOT / "robots" / "examples" / "irb120-rw6.yaml"
+CHOICES = {
+    "profile": ("full", "basic"),
+    "commissioning": ("false", "true"),
+    "main": ("driver", "own"),
+    "ports.control": ("11001", "0"),
+}
+
+
+def runs():
+    """Label, configuration and overrides of each run."""
+    examples = sorted(BASE.parent.glob("*.yaml"))
+    found = [(path.stem, path, ()) for path in examples]
+    known = json_schema()["properties"]
+    choices = {key: own for key, own in CHOICES.items() if key.partition(".")[0] in known}
+    for row in covering(choices)[1:]:
+        overrides = tuple(f"{key}={value}" for key, value in row.items())
+        found.append((" ".join(overrides), BASE, overrides))
+    return found
+
+
+def tree():
+    """What the reports depend on besides the configuration."""
+    paths = [p for top in ("rapidgen", "templates", "robots") for p in (ROOT / top).rglob("*.*")]
+    digest = hashlib.sha256()
+    for path in sorted(p for p in paths if p.is_file() and p.suffix != ".pyc"):
+        digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def done(of):
+    """Reports of this tree, by label."""
+    if not GIVEN.output.exists():
+        return {}
+    lines = GIVEN.output.read_text(encoding="utf-8").splitlines()
+    return {row["label"]: row for row in map(json.loads, lines) if row["tree"] == of}
+
+
+def proven(label, path, overrides, of):
+    config = load_config(str(path), overrides=overrides)
+    report = as_json(prove(config, seeds=100, jobs=GIVEN.jobs, strength=GIVEN.together))
+    outcomes = report.pop("outcomes")
+    report |= {"label": label, "tree": of, "cases": len(outcomes)}
+    report["broken"] = [outcome for outcome in outcomes if not outcome["passed"]]
+    return report
+
+
+def show(reports):
+    print(f"{'':58} {'build':12} {'cases':>11} {'schedules':>9} {'lines':>6} {'s':>5}")
+    for row in reports:
+        held = f"{row['cases'] - len(row['broken'])} of {row['cases']}"
+        schedules = f"{row['schedules'] - len(row['findings'])} of {row['schedules']}"
+        lines = row["lines"]["reached"] / max(1, row["lines"]["of"])
+        print(
+            f"{row['label']:58} {row['build_id']:12} {held:>11} {schedules:>9} {lines:6.1%} "
+            f"{row['elapsed']:5.0f}"
+        )
+    for row in reports:
+        for outcome in row["broken"]:
+            print(f"{row['label']}: {outcome['case']} [{outcome['setting']}]", end="")
+            print(f" {' and '.join(outcome['blamed'])}: {outcome['detail'][:120]}")
+        for finding in row["findings"]:
+            print(f"{row['label']}: --replay {finding['seed']}: {finding['detail'][:120]}")
+    cases, broken = sum(row["cases"] for row in reports), sum(len(r["broken"]) for r in reports)
+    print(f"{cases - broken} of {cases} held on {len(reports)} configurations")
+
+
+def main():
+    of, every = tree(), runs()
+    number, parts = (int(n) for n in GIVEN.part.split("/"))
+    reports = done(of)
+    left = [run for run in every[number - 1 :: parts] if run[0] not in reports]
+    print(f"{len(every)} configurations, {len(left)} of part {GIVEN.part} to be run", flush=True)
+    if GIVEN.plan:
+        return False
+    GIVEN.output.parent.mkdir(parents=True, exist_ok=True)
+    for label, path, overrides in left:
+        reports[label] = proven(label, path, overrides, of)
+        with GIVEN.output.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(reports[label]) + "\n")
+        print(f"{label}: {reports[label]['elapsed']:.0f} s", flush=True)
+    found = [reports[label] for label, _, _ in every if label in reports]
+    show(found)
+    return any(not row["passed"] for row in found)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--part", default="1/1")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--together", type=int, default=2, choices=range(4))
+    parser.add_argument("--output", type=Path, default=ROOT / "build" / "signature.jsonl")
+    parser.add_argument("--plan", action="store_true")
+    GIVEN = parser.parse_args()
+    sys.exit(main())

@@ -1,0 +1,47 @@
+"""As many findings as a person reads: the first of each kind, and how many more there are."""
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from rapidgen.diagnostics import Diagnostic, error
+
+_OF_A_KIND = 6
+_TOGETHER = 30
+_MESSAGE, _LABEL, _HELP = 300, 100, 900
+_WHOLE = 3000
+"""Characters of all texts, beyond which only messages are kept."""
+
+
+def few(found: Iterable[Diagnostic]) -> list[Diagnostic]:
+    """The findings with their texts cut where a hostile file made them long."""
+    kept: list[Diagnostic] = []
+    counts: dict[str, int] = {}
+    first: dict[str, Diagnostic] = {}
+    length = 0
+    for d in found:
+        counts[d.code] = counts.get(d.code, 0) + 1
+        first.setdefault(d.code, d)
+        if counts[d.code] > _OF_A_KIND or len(kept) >= _TOGETHER:
+            continue
+        short = replace(
+            d,
+            message=shortened(d.message, _MESSAGE),
+            label=shortened(d.label, _LABEL),
+            help=shortened(d.help, _HELP),
+        )
+        length += len(short.message) + len(short.help) + len(short.label)
+        kept.append(short if length <= _WHOLE else replace(short, help="", label=""))
+    for code, count in counts.items():
+        left = count - sum(d.code == code for d in kept)
+        if left:
+            one = first[code]
+            kept.append(error(code, one.span, f"and {left} more", severity=one.severity))
+    return kept
+
+
+def shortened(text: str, most: int) -> str:
+    """A text, cut in its middle where it is longer."""
+    if len(text) <= most:
+        return text
+    half = most // 2 - 3
+    return f"{text[:half]} ... {text[-half:]}"

@@ -1,0 +1,217 @@
+"""Which variant a chain of joints is, whatever its zero posture, its senses and its names.
+
+Distance and angle between neighbouring axes do not depend on where the joints stand. Where they
+are a variant's, the joints are turned one after the other until each axis lies where the variant
+has it; that gives signs and zeros. Axes 1 and 6 have no zero in this: the file's is kept.
+"""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise, product
+
+from rapidgen.config.geometry import (
+    Line,
+    Skeleton,
+    Vector,
+    add,
+    apply,
+    cross,
+    distance,
+    dot,
+    laid,
+    norm,
+    scale,
+    subtract,
+    turn,
+    unit,
+)
+from rapidgen.config.library import SAME_PLACE, SAME_TURN, Variant, closeness, family, variants
+
+_ROUGH = 0.01
+"""m by which the axes of a careless export may be off, where its name says what it is."""
+_EXACT = math.radians(0.06)
+"""A zero this near to a multiple of 15 degrees is that multiple."""
+_STEP = math.radians(15)
+
+
+@dataclass(frozen=True, slots=True)
+class Alignment:
+    """How joints drive a variant's axes: controller value = sign * joint value + offset (rad)."""
+
+    variant: Variant
+    others: tuple[str, ...]
+    """Variants of the same geometry."""
+    axes: tuple[str, ...]
+    signs: tuple[int, ...]
+    offsets: tuple[float, ...]
+    certain: bool
+    """No other senses fit as well."""
+    rough: bool
+    """Some axis is farther off than sources differ: only the file's own name tells."""
+
+
+def align(lines: Sequence[Line], *names: str) -> Alignment | None:
+    """The variant whose axes these are, in the order of the chain; None: no known one."""
+    return _aligned(lines, names, SAME_PLACE) or (
+        _aligned(lines, names, _ROUGH) if family(*names) else None
+    )
+
+
+def _aligned(lines: Sequence[Line], names: tuple[str, ...], within: float) -> Alignment | None:
+    hits = [v for v in variants() if _is_like(lines, v.skeleton.lines, within)]
+    if within > SAME_PLACE:
+        hits = [v for v in hits if v.family == family(*names)]
+    hits.sort(key=lambda v: closeness(v, *names), reverse=True)
+    for variant in hits:
+        found = sorted(
+            _postures(lines, variant.skeleton, within),
+            key=lambda f: _plainness(f, lines[0].direction),
+        )
+        if not found:
+            continue
+        signs, values = found[0]
+        up = lines[0].direction[2] * signs[0] > 0
+        rivals = [
+            other
+            for other, v in found[1:]
+            if other != signs
+            and _effort(v) < _effort(values) + 0.02
+            and (lines[0].direction[2] * other[0] > 0) == up
+        ]
+        offsets = tuple(-s * v for s, v in zip(signs, values, strict=True))
+        same = [v.name for v in hits if v is not variant and _is_same(v, variant)]
+        axes = tuple(line.axis for line in variant.skeleton.lines)
+        return Alignment(
+            variant, tuple(same), axes, signs, offsets, not rivals, within > SAME_PLACE
+        )
+    return None
+
+
+def _is_same(a: Variant, b: Variant) -> bool:
+    return [line.axis for line in a.skeleton.lines] == [
+        line.axis for line in b.skeleton.lines
+    ] and all(
+        distance(x, y) <= SAME_PLACE
+        for x, y in zip(laid(a.skeleton).lines, laid(b.skeleton).lines, strict=True)
+    )
+
+
+def _effort(values: Sequence[float]) -> float:
+    return sum(abs(value) for value in values)
+
+
+def _plainness(
+    found: tuple[tuple[int, ...], tuple[float, ...]], first: Vector
+) -> tuple[float, bool, int]:
+    """Zeros of the file first, then an arm that stands upright in it, then its senses."""
+    signs, values = found
+    upright = first[2] * signs[0] > -1e-6
+    return round(_effort(values), 2), not upright, sum(sign < 0 for sign in signs)
+
+
+def _is_like(lines: Sequence[Line], known: Sequence[Line], within: float) -> bool:
+    """Whether neighbouring axes have the distances and angles of a variant's."""
+    if [line.slides for line in lines] != [line.slides for line in known] or len(lines) < 4:
+        return False
+    return all(
+        abs(a[0] - b[0]) <= within and abs(a[1] - b[1]) <= SAME_TURN
+        for a, b in zip(_neighbours(lines), _neighbours(known), strict=True)
+    )
+
+
+def _neighbours(lines: Sequence[Line]) -> Iterator[tuple[float, float]]:
+    for a, b in pairwise(lines):
+        angle = math.acos(min(1.0, abs(dot(a.direction, b.direction))))
+        if a.slides or b.slides:
+            yield 0.0, angle
+            continue
+        normal = cross(a.direction, b.direction)
+        way = subtract(b.point, a.point)
+        if norm(normal) < SAME_TURN:
+            yield distance(a, b), angle
+        else:
+            yield abs(dot(way, unit(normal))), angle
+
+
+def _postures(
+    lines: Sequence[Line], known: Skeleton, within: float
+) -> Iterator[tuple[tuple[int, ...], tuple[float, ...]]]:
+    """Signs, and the joint values at which the axes lie as the variant's do at its zero."""
+    there = laid(known).lines
+    for flips in product((1, -1), (1, -1)):
+        here = laid(Skeleton(tuple(lines), (0.0, 0.0, 0.0)), flips).lines
+        if not _lies_on(here[1], there[1], within):
+            continue
+        for values, posed in _turned(here, there, 1, within):
+            signs = tuple(
+                1 if dot(a.direction, b.direction) > 0 else -1
+                for a, b in zip(posed, there, strict=True)
+            )
+            yield signs, (0.0, *values, 0.0)
+
+
+def _turned(
+    here: Sequence[Line], there: Sequence[Line], place: int, within: float
+) -> Iterator[tuple[tuple[float, ...], Sequence[Line]]]:
+    """Values of the joints from `place` on but for the last one, and the axes as they then lie."""
+    if place == len(here) - 1:
+        yield (), here
+        return
+    for value in _values(here[place], here[place + 1], there[place + 1]):
+        posed = [
+            *here[: place + 1],
+            *(_moved(here[place], line, value) for line in here[place + 1 :]),
+        ]
+        if _lies_on(posed[place + 1], there[place + 1], within):
+            for rest, whole in _turned(posed, there, place + 1, within):
+                yield (value, *rest), whole
+
+
+def _values(about: Line, line: Line, wanted: Line) -> Iterator[float]:
+    """Values of a joint that may bring the next axis to where it is wanted."""
+    yield 0.0
+    if about.slides:
+        return
+    found = []
+    if abs(dot(line.direction, about.direction)) < 1 - 1e-5:
+        for flip in (1, -1):
+            found.append(_angle(about, line.direction, scale(wanted.direction, flip)))
+    else:
+        foot, goal = (
+            subtract(
+                end.point,
+                scale(about.direction, dot(subtract(end.point, about.point), about.direction)),
+            )
+            for end in (line, wanted)
+        )
+        found.append(_angle(about, subtract(foot, about.point), subtract(goal, about.point)))
+    for angle in found:
+        if angle is not None and abs(angle) > _EXACT / 4:
+            near = _STEP * round(angle / _STEP)
+            yield near if abs(angle - near) < _EXACT else angle
+
+
+def _angle(about: Line, first: Vector, second: Vector) -> float | None:
+    """From one direction to another about an axis."""
+    axis = about.direction
+    a = subtract(first, scale(axis, dot(first, axis)))
+    b = subtract(second, scale(axis, dot(second, axis)))
+    if norm(a) < 1e-6 or norm(b) < 1e-6:
+        return None
+    return math.atan2(dot(cross(a, b), axis), dot(a, b))
+
+
+def _moved(about: Line, line: Line, value: float) -> Line:
+    if not value:
+        return line
+    rotation = turn(about.direction, value)
+    point = add(about.point, apply(rotation, subtract(line.point, about.point)))
+    return Line(line.axis, point, apply(rotation, line.direction), line.slides)
+
+
+def _lies_on(line: Line, wanted: Line, within: float) -> bool:
+    angle = math.acos(min(1.0, abs(dot(line.direction, wanted.direction))))
+    return angle <= 2 * SAME_TURN and (
+        line.slides or wanted.slides or distance(wanted, line) <= 2 * within
+    )

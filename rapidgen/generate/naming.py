@@ -1,0 +1,62 @@
+"""Names of the configuration that RAPID, or a generated module, has given away already."""
+
+import re
+
+from rapidgen.config.model import GroupConfig
+from rapidgen.diagnostics import Diagnostic, error
+from rapidgen.rapid.builtins import signatures
+from rapidgen.rapid.syntax.lexer import KEYWORDS
+
+_OURS = re.compile(r"ros_|main$", re.IGNORECASE)
+_CODE = re.compile(r'"[^"\n]*"|![^\n]*')
+_DECLARED = re.compile(r"\b([A-Za-z]\w*)[ \t]+([A-Za-z]\w*)")
+_THEIR_TYPES = frozenset({"tooldata", "wobjdata", "loaddata"})
+
+
+def naming(group: GroupConfig, modules: list[str]) -> list[Diagnostic]:
+    """Names of tool, work object and payload that cannot stand beside these modules: RG106.
+
+    RAPID compares names without case; a name of a routine's hides one of its module [K §2.3, 2.12].
+    """
+    names = {
+        "tool": (group.tool.name, "tool0"),
+        "work_object": (group.work_object.name, "wobj0"),
+        "payload": (group.payload.name, "load0"),
+    }
+    chosen = {key: name for key, (name, default) in names.items() if name != default}
+    if not chosen:
+        return []
+    declared = {
+        match[2].casefold()
+        for text in modules
+        for match in _DECLARED.finditer(_CODE.sub("", text))
+        if match[1].casefold() not in _THEIR_TYPES
+    }
+    found = []
+    for number, (key, name) in enumerate(chosen.items()):
+        others = [other.casefold() for other in list(chosen.values())[:number]]
+        why = _why_not(name, declared, others)
+        if why:
+            found.append(
+                error(
+                    "RG106",
+                    None,
+                    f"`{key}.name: {name}` cannot be the name of a datum: {why}",
+                    "choose another name",
+                )
+            )
+    return found
+
+
+def _why_not(name: str, declared: set[str], others: list[str]) -> str:
+    low = name.casefold()
+    if name.upper() in KEYWORDS:
+        return "it is a reserved word of RAPID"
+    if _OURS.match(low):
+        return "the driver's own names begin so"
+    taken = (*signatures.routine_names(), *signatures.type_names(), *signatures.predefined())
+    if low in {each.casefold() for each in taken}:
+        return "RAPID has a type, a routine or a datum of that name"
+    if low in declared:
+        return "the generated modules use it"
+    return "another datum of the configuration has it" if low in others else ""

@@ -1,0 +1,159 @@
+"""Descriptions: every URDF and xacro file below folders, with `rapidgen new` and what it asks for.
+
+    make foreign PROGRAM=descriptions FOREIGN="FOLDER FOLDER ..." [QUICK=1]
+
+A person who gives at most three answers is played: a coupling (that of the family by its name,
+else 0), a speed, a macro, arguments of xacro. What is built is booted on the virtual controller and
+every joint of every group is moved there. The table says why the others are none.
+"""
+
+import os
+import re
+import sys
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from rapidgen.config import load_config
+from rapidgen.config.described import Answers
+from rapidgen.config.model import RobotConfig
+from rapidgen.config.scaffold import from_urdf, write_new
+from rapidgen.diagnostics import DiagnosticError, Severity
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import Bench
+from rapidgen.proving.model import Broken
+
+MOST_ANSWERS = 3
+NO_ROBOT = {"RG059": "delta, positioner alone, another maker", "RG031": "macros or parts only"}
+BROKEN = {
+    "RG032": "a package is not there",
+    "RG033": "left over after expansion",
+    "RG051": "no tree",
+    "RG053": "not what URDF allows",
+    "RG056": "arguments or blocks missing",
+    "RG060": "no XML",
+    "RG061": "xacro cannot expand it",
+}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a description."""
+
+    name: str
+    end: str
+    answers: int = 0
+    note: str = ""
+
+
+def descriptions(folders: list[Path]) -> Iterator[Path]:
+    """Files that may be robots, each text once."""
+    seen = set()
+    for folder in folders:
+        for path in sorted((*folder.rglob("*.urdf"), *folder.rglob("*.xacro"))):
+            data = path.read_bytes() if path.is_file() else b""
+            if data and data not in seen:
+                seen.add(data)
+                yield path
+
+
+def tried(path: Path, folders: list[Path], quick: bool) -> Outcome:
+    """`new`, its answers, boot and motion."""
+    answers, said = Answers(), []
+    macro, arguments, macro_arguments = None, {}, {}
+    with tempfile.TemporaryDirectory() as scratch:
+        cell = Path(scratch) / "cell.yaml"
+        while True:
+            try:
+                text = from_urdf(
+                    path,
+                    folder=cell.parent,
+                    package_paths=folders,
+                    macro=macro,
+                    arguments=arguments,
+                    macro_arguments=macro_arguments,
+                    answers=answers,
+                )
+                write_new(cell, text, package_paths=folders, force=True)
+                break
+            except DiagnosticError as fault:
+                wrong = [d for d in fault.diagnostics if d.severity is Severity.ERROR]
+                more = _answer(wrong, answers)
+                if more is None or len(said) == MOST_ANSWERS:
+                    return _refused(path, wrong, len(said))
+                answers = more
+                said.append(wrong[0].message)
+        config = load_config(cell, package_paths=folders)
+        if quick:
+            return Outcome(path.name, "built", len(said))
+        return Outcome(path.name, *_moved(config, len(said)))
+
+
+def _answer(wrong, answers: Answers) -> Answers | None:
+    open_lines = [d.message for d in wrong if d.code == "RG022"]
+    if len(open_lines) < len(wrong):
+        return None
+    if any("coupling" in line for line in open_lines) and answers.coupling is None:
+        return _with(answers, coupling=0.0)
+    if any(line.endswith("speed' is open") for line in open_lines) and answers.speed is None:
+        return _with(answers, speed=90.0)
+    return None
+
+
+def _with(answers: Answers, **more) -> Answers:
+    from dataclasses import replace
+
+    return replace(answers, **more)
+
+
+def _refused(path: Path, wrong, answers: int) -> Outcome:
+    code = wrong[0].code
+    kinds = {**NO_ROBOT, **BROKEN}
+    if code == "RG022":
+        left = Counter(re.sub(r".*\.(\w+)' is open", r"\1", d.message) for d in wrong)
+        return Outcome(path.name, "open lines", answers, str(dict(left)))
+    return Outcome(path.name, kinds.get(code, code), answers, wrong[0].message)
+
+
+def _moved(config: RobotConfig, answers: int) -> tuple[str, int, str]:
+    try:
+        bench = Bench(config, make_system(config, build(config)))
+    except (DiagnosticError, Broken) as fault:
+        return "not booted", answers, str(fault)[:200]
+    try:
+        for number in range(len(config.groups)):
+            own = bench.of_group(number)
+            own.moves_through(own.motion(), own.wave(3, duration=1.0))
+        bench.healthy()
+    except Broken as fault:
+        return "not moved", answers, str(fault)[:200]
+    finally:
+        bench.close()
+    return "moved", answers, ""
+
+
+def main(arguments: list[str]) -> int:
+    """The table."""
+    folders = [Path(argument) for argument in arguments]
+    quick = bool(os.environ.get("QUICK"))
+    outcomes = []
+    for path in descriptions(folders):
+        outcome = tried(path, folders, quick)
+        outcomes.append(outcome)
+        print(
+            f"{outcome.end:<40} {outcome.answers} {path.name:<50} {outcome.note[:120]}", flush=True
+        )
+    ends = Counter(outcome.end for outcome in outcomes)
+    for end, count in ends.most_common():
+        print(f"{count:5}  {end}")
+    rightly = {*NO_ROBOT.values(), *BROKEN.values()}
+    arms = [o for o in outcomes if o.end not in rightly]
+    good = [o for o in arms if o.end in ("moved", "built")]
+    print(f"{len(good)} of {len(arms)} with an arm: {100 * len(good) / max(1, len(arms)):.0f} %")
+    return 0
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(sys.argv[1:]))

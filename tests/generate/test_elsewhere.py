@@ -1,0 +1,64 @@
+"""Tool, work object and load that a module of the customer's declares; names that are taken."""
+
+import pytest
+
+from rapidgen.config import load_config
+from rapidgen.controller.cell import in_its_cell
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import Bench
+
+ELSEWHERE = {
+    "tool.name": "tGripper",
+    "tool.declared": "elsewhere",
+    "tool.load.mass": 1.5,
+    "work_object.name": "wTable",
+    "work_object.declared": "elsewhere",
+    "payload.name": "lPart",
+    "tcp_speed_limit": 4000,
+}
+
+
+def bench_of(overrides):
+    config = load_config("irb120", overrides=overrides)
+    return Bench(config, in_its_cell(make_system(config, build(config)), config))
+
+
+@pytest.mark.parametrize("given_by", ["GripLoad", "TLoad"])
+def test_the_values_of_another_module_are_taken_at_the_next_trajectory(given_by):
+    with bench_of({**ELSEWHERE, "payload.given_by": given_by}) as bench:
+        view = bench.controller.task("T_ROB1")
+        link = bench.motion()
+        bench.moves_through(link, bench.wave(3))
+        assert view["ROS_motion:tool_now"].tload.mass == 1.5
+        bench.sets_off(link, bench.wave(6), 0.3)
+        tool, load = view["own_data:tGripper"], view["own_data:lPart"]
+        tool.tload.mass, load.mass = 2.5, 0.75
+        view["own_data:tGripper"], view["own_data:lPart"] = tool, load
+        bench.run(0.5)
+        assert view["ROS_motion:tool_now"].tload.mass == 1.5
+        bench.wait_until_standing()
+        bench.run(0.5)
+        bench.moves_through(link, bench.wave(3))
+        assert view["ROS_motion:tool_now"].tload.mass == 2.5
+        assert view["ROS_motion:load_now"].mass == 0.75
+        bench.healthy()
+
+
+TAKEN = ["num", "main", "MODULE", "ROS_run", "robtarget", "MoveAbsJ", "v100", "POINT", "joints"]
+
+
+@pytest.mark.parametrize("name", TAKEN)
+@pytest.mark.parametrize("key", ["tool", "work_object", "payload"])
+def test_a_name_that_is_taken_is_refused(key, name):
+    mass = {"tool.load.mass": 1} if key == "tool" else {}
+    config = load_config("irb120", overrides={f"{key}.name": name, **mass})
+    with pytest.raises(DiagnosticError, match=f"{key}.name: {name}") as refused:
+        build(config)
+    assert [d.code for d in refused.value.diagnostics] == ["RG106"]
+
+
+def test_two_data_of_one_name_are_refused():
+    names = {"tool.name": "both", "tool.load.mass": 1, "work_object.name": "Both"}
+    with pytest.raises(DiagnosticError, match="another datum"):
+        build(load_config("irb120", overrides=names))
