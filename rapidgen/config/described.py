@@ -267,8 +267,11 @@ def _coupling(
 ) -> tuple[str, str]:
     if answers.coupling is not None:
         return f"{answers.coupling:g}", "as said"
-    if variant and variant.coupling is not None:
-        return f"{variant.coupling:g}", f"{variant.name}: {dict(variant.sources)['coupling']}"
+    if variant:
+        source = f"{variant.name}: {dict(variant.sources)['coupling']}"
+        if variant.coupling is not None and "coupling" not in variant.unsure:
+            return f"{variant.coupling:g}", source
+        return OPEN, f"{source}; nobody else says so, check it"
     known = family(*names)
     if known in COUPLED:
         return "1", f"IRB {known} couples axes 2 and 3: axis 3 = joint_3 + joint_2"

@@ -78,7 +78,7 @@ def test_17_a_lever_arm_is_known_by_its_shape(check):
 
 
 @pytest.mark.parametrize(
-    ("model", "other", "off"), [("irb120", "irb1200", "211.4"), ("irb6640", "irb6700", "254.5")]
+    ("model", "other", "off"), [("irb120", "irb1200", "211.4"), ("irb6640", "irb6700", "255.0")]
 )
 def test_19_the_dimensions_of_another_variant(check, model, other, off):
     fault = only("RG055", check(drawn(other), head=f"model: {model}"))

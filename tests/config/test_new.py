@@ -189,6 +189,26 @@ def test_a_person_names_the_robot(tmp_path, person):
     assert load_config(tmp_path / "cell.yaml").groups[0].coupling == 1
 
 
+@pytest.mark.parametrize(
+    ("name", "coupling"),
+    [
+        ("irb2400_10_150", 1),  # by its name: axes along one line are nobody's
+        ("irb4600_20_250", 0),
+        ("irb8700_550_420", None),
+        ("irb580_12", None),
+        ("some_arm", None),
+    ],
+)
+def test_a_coupling_is_known_or_open(tmp_path, name, coupling):
+    (tmp_path / "r.urdf").write_text(f'<robot name="{name}">{chain()}</robot>')
+    path = tmp_path / "cell.yaml"
+    if coupling is None:
+        assert codes(path, urdf=tmp_path / "r.urdf") == (["RG022"], 1)
+    else:
+        new(path, urdf=tmp_path / "r.urdf")
+        assert load_config(path).groups[0].coupling == coupling
+
+
 def test_a_file_is_only_replaced_when_told(tmp_path):
     path = tmp_path / "cell.yaml"
     path.write_text("mine")

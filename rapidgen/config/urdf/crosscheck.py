@@ -8,7 +8,9 @@ from rapidgen.config.draft import GroupDraft, JointDraft
 from rapidgen.config.urdf.robot import UrdfJoint, UrdfRobot
 from rapidgen.diagnostics import Diagnostic, Severity, Span, error
 
-COUPLED = frozenset({"2400", "4400", "6660", "460", "660", "760", "8700"})
+COUPLED = frozenset({"2400", "4400", "6660", "260", "460", "660", "760"})
+ODDLY = frozenset({"8700"})
+"""Coupled in another sense, with a coupled range (RobotComponents issue 181): factor not known."""
 SERIAL = frozenset(
     {"120", "140", "1100", "1200", "1300", "1600", "2600", "4600", "6640", "6650", "6700", "7600"}
 )
@@ -36,7 +38,14 @@ def check_coupling(
     who = f"IRB {known}" if known in COUPLED else ""
     if not who and known not in SERIAL and axes == _PALLETISER:
         who = "a palletiser (axes 1, 2, 3 and 6)"
-    if draft.coupling is None and who:
+    if draft.coupling is None and known in ODDLY:
+        yield error(
+            "RG047",
+            place,
+            f"IRB {known} couples axes 2 and 3 in a way of its own; `coupling` is not given",
+            "compare postures with the controller, and give the factor that you find",
+        )
+    elif draft.coupling is None and who:
         yield error(
             "RG047",
             place,
