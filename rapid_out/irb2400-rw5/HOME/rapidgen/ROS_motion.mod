@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "7c826b023a58";
+    CONST string ROS_BUILD_MOTION := "d2adf982ea9c";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -98,6 +98,10 @@ MODULE ROS_motion
     LOCAL FUNC bool is_wanted(\VAR signaldi UntilDI | PERS bool Until)
         IF Present(UntilDI) RETURN DInput(UntilDI) = 1;
         IF Present(Until) RETURN Until;
+        RETURN FALSE;
+    ERROR
+        ! The signal's unit is not there.
+        SkipWarn;
         RETURN FALSE;
     ENDFUNC
 

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "11debe5ac41a";
+    CONST string ROS_BUILD_MOTION := "383092559c25";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -99,6 +99,10 @@ MODULE ROS_motion
     LOCAL FUNC bool is_wanted(\VAR signaldi UntilDI | PERS bool Until)
         IF Present(UntilDI) RETURN DInput(UntilDI) = 1;
         IF Present(Until) RETURN Until;
+        RETURN FALSE;
+    ERROR
+        ! The signal's unit is not there.
+        SkipWarn;
         RETURN FALSE;
     ENDFUNC
 
