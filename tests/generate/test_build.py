@@ -136,7 +136,8 @@ def test_an_edited_module_has_no_map(output, tmp_path):
     write(output, tmp_path / "irb120")
     path = tmp_path / "irb120/HOME/rapidgen/ROS_motion.mod"
     path.write_bytes(b"! edited\n" + path.read_bytes())
-    motion = read_folder(tmp_path / "irb120").tasks[0].modules[-1]
+    modules = read_folder(tmp_path / "irb120").tasks[0].modules
+    motion = next(m for m in modules if m.name == "ROS_motion")
     assert motion.origin == ()
     assert motion.data.startswith(b"! edited")
 

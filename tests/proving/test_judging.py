@@ -39,9 +39,7 @@ def changed(name, old, new):
 
 
 def test_a_mutant_is_noticed_by_a_case_that_reaches_it(judge):
-    mutant = changed(
-        "ROS_motion", b"MoveAbsJ point.target, SPEED \\T:=point.duration, fine", b"WaitTime 0;!"
-    )
+    mutant = changed("ROS_motion", b"MoveAbsJ point.target \\NoEOffs", b"WaitTime 0;!")
     assert [case.name for case in judge.concerned(mutant)] == ["whole-trajectory"]
     verdict = judge.judge(mutant)
     assert verdict.by == "whole-trajectory"

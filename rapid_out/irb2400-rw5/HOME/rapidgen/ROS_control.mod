@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "62dbff17d282";
+    CONST string ROS_BUILD_CONTROL := "0dd786d04005";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.

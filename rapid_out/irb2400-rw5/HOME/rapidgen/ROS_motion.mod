@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "62dbff17d282";
+    CONST string ROS_BUILD_MOTION := "0dd786d04005";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -104,7 +104,7 @@ MODULE ROS_motion
         IF Present(Until) RETURN Until;
         RETURN FALSE;
     ERROR
-        ! The signal's unit is not there: nobody has asked for it.
+        ! The signal's unit is not there.
         SkipWarn;
         RETURN FALSE;
     ENDFUNC

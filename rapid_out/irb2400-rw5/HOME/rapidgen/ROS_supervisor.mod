@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "62dbff17d282";
+    CONST string ROS_BUILD_SUPERVISOR := "0dd786d04005";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -23,6 +23,8 @@ MODULE ROS_supervisor
     ! Bells since the halt, and how many of them at most: a program that does not hear them
     ! would end with too many of them waiting.
     LOCAL VAR num bells := 0;
+    ! The program did not run when it was to be rung.
+    LOCAL VAR bool unheard := FALSE;
     LOCAL CONST num MOST_BELLS := 12;
     ! StartMove was refused because the robot stands too far from its path.
     LOCAL VAR bool far_off := FALSE;
@@ -185,7 +187,7 @@ MODULE ROS_supervisor
         IF ROS_executing() = ROS_TRI_FALSE THEN
             ! It cannot answer, nor hear a bell: the time for that begins when it runs.
             set_back since_halt;
-            set_back since_bell;
+            unheard := TRUE;
             RETURN;
         ENDIF
         IF IsStopMoveAct(\FromMoveTask) AND ROS_motors_on() <> ROS_TRI_FALSE THEN
@@ -194,7 +196,10 @@ MODULE ROS_supervisor
             tell "ROS: the motion task does not answer", "The robot stays stopped.";
         ENDIF
         ! Clocks count 49 days: they are not read for long.
-        IF bells < MOST_BELLS THEN
+        IF unheard THEN
+            unheard := FALSE;
+            ring;
+        ELSEIF bells < MOST_BELLS THEN
             IF ClkRead(since_bell) > 0.25 ring;
         ENDIF
     ENDPROC

@@ -9,7 +9,7 @@ MODULE ROS_control
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
     ! starts it again. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "79c8cc302937";
+    CONST string ROS_BUILD_CONTROL := "8727b516cade";
 
     LOCAL CONST num PORT := 11001;
     ! s between two looks at what the robot does, and for new clients.

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "79c8cc302937";
+    CONST string ROS_BUILD_MOTION := "8727b516cade";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -100,7 +100,7 @@ MODULE ROS_motion
         IF Present(Until) RETURN Until;
         RETURN FALSE;
     ERROR
-        ! The signal's unit is not there: nobody has asked for it.
+        ! The signal's unit is not there.
         SkipWarn;
         RETURN FALSE;
     ENDFUNC
