@@ -103,6 +103,9 @@ driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the s
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
+reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
+	$(BIN)/python benchmarks/reach.py
+
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
 

@@ -328,6 +328,15 @@ class Kinematics:
         arm = {*self._own, *self._inner}
         return tuple(i for i in range(len(self.group.joints)) if i not in arm)
 
+    def found(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+        """Postures within the ranges that reach a pose, one after the other as they are found."""
+        if self.is_closed_form:
+            yield from self.solutions(pose, near)
+            return
+        for postures in self._rounds(pose, near):
+            for posture in postures:
+                yield from self._turned(posture)
+
     def _rounds(self, pose: Pose, near: Posture) -> Iterator[Iterator[Posture]]:
         """Postures that iteration finds, as close in turns to `near` as can be."""
         places = (*self._own, *self._inner)
