@@ -1,5 +1,6 @@
 """The control server's own: it stops by itself, awaits heartbeats to the moment, loses clients."""
 
+from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
@@ -20,26 +21,64 @@ _PING = messages.encode(messages.RawPing(), RawComm.REQUEST)
 
 @case("stops-alone", "STOP while the supervisor hangs", "R7b")
 def _alone(bench: Bench) -> None:
-    """One task alone stops the robot: while it hangs nobody says that it is done; then it is."""
+    """Whoever asks the supervisor in vain stops the robot itself, and nobody says it is done."""
+    for port in ("control", "motion", "heartbeat"):
+        with bench.beside(bench.system) as other:
+            _stops_alone(other, port)
+
+
+def _stops_alone(bench: Bench, port: str) -> None:
     control, link = bench.control(), bench.motion()
     supervisor = bench.controller.task(bench.task("ROS_supervisor"))
-    points = bench.wave(12)
-    bench.sets_off(link, points, 0.5)
-    orders = watched_orders(bench)
+    bench.sets_off(link, bench.wave(12), 0.5)
+    if port == "heartbeat":
+        control.ask(messages.RawHeartbeat(0.2))
+    orders, last = watched_orders(bench), bench.last_event
     supervisor.stop()
     asked = bench.now
-    for chosen in (control, link):
+    if port != "heartbeat":
+        chosen = control if port == "control" else link
         chosen.send(STOP)
-    bench.run(0.02)
-    if [o.instruction for o in orders].count("StopMove"):
-        raise Broken(f"the supervisor hangs, STOP came, then {orders}")
-    for chosen in (control, link):
         told = chosen.reply(_TRAJ, 2)
         if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - asked < 1.5:
             raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
+    bench.wait_until_standing(max(0.01, 1.3 - (bench.now - asked)))
+    if [o.instruction for o in orders].count("StopMove") != 1:
+        raise Broken(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
+    said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
+    if said != ["ROS: the supervisor does not answer"]:
+        raise Broken(f"the supervisor hangs, the robot was stopped, the event log says {said}")
     for paused in (0, 1):
-        told = control.ask(messages.RawPause(paused))
-        not_done(told, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
+        refused = control.ask(messages.RawPause(paused))
+        not_done(refused, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
+    bench.stays(1, "the robot was stopped, the supervisor hangs")
+    supervisor.start()
+    bench.stays(3, "the supervisor goes on")
+    if bench.setting.motion.stop_owner == "kind":
+        bench.moves_through(link, bench.wave(3))
+        return
+    # There the supervisor cannot take back what a server has done.
+    said = [e.title for e in bench.controller.log.since(last)]
+    if "ROS: the robot stays stopped" not in said:
+        raise Broken(f"a server's stop cannot be taken back, the event log says {said}")
+    link.send(bench.download(bench.wave(3)))
+    bench.stays(4, "a server's stop cannot be taken back")
+
+
+@case("cannot-stop-alone", "a server that cannot stop the robot, either")
+def _cannot(bench: Bench) -> None:
+    """Where another task's StopMove is refused the event log says that the robot goes on."""
+    control, link = bench.control(), bench.motion()
+    supervisor = bench.controller.task(bench.task("ROS_supervisor"))
+    bench.sets_off(link, bench.wave(12), 0.5)
+    last = bench.last_event
+    fails(bench, "ROS_control", "StopMove", "ERR_PATH_STOP")
+    supervisor.stop()
+    control.send(STOP)
+    told = control.reply(_TRAJ, 2)
+    said = [e for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
+    if not isinstance(told, messages.RawFailure) or [e.type for e in said] != [EventType.ERROR]:
+        raise Broken(f"nobody stops the robot, {told}, the event log says {said}")
     supervisor.start()
     bench.rests(3, 1, "the supervisor goes on, and was asked to stop")
     bench.moves_through(link, bench.wave(3))

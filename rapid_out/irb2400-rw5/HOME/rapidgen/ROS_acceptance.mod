@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "0dd786d04005";
+    CONST string ROS_BUILD_ACCEPTANCE := "7f09e08661a4";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -235,7 +235,7 @@ MODULE ROS_acceptance
         ! So is what forbade motion meanwhile, even if it is over.
         FOR try FROM 1 TO 30 DO
             ROS_look_asked := ROS_next(ROS_look_asked);
-            IF NOT ROS_answered() RETURN ROS_REASON_INTERNAL;
+            IF NOT ROS_answered(ROS_LATE) RETURN ROS_REASON_INTERNAL;
             IF ROS_not_ready > ROS_REASON_NONE RETURN ROS_not_ready;
             IF ROS_hindered = ROS_trajectory RETURN ROS_hindrance;
             IF ROS_not_ready = ROS_REASON_NONE RETURN ROS_REASON_NONE;
@@ -244,10 +244,9 @@ MODULE ROS_acceptance
         RETURN ROS_REASON_NOT_EXECUTING;
     ENDFUNC
 
-    ! TRUE when the supervisor has answered all that it was asked, FALSE if it does not within a
-    ! second.
-    FUNC bool ROS_answered()
-        FOR try FROM 1 TO 250 DO
+    ! TRUE when the supervisor has answered all that it was asked, FALSE if it does not in time.
+    FUNC bool ROS_answered(num seconds)
+        FOR try FROM 1 TO 250 * seconds DO
             IF ROS_stop_done = ROS_stop_asked AND ROS_look_done = ROS_look_asked RETURN TRUE;
             WaitTime 0.004;
         ENDFOR
@@ -260,6 +259,13 @@ MODULE ROS_acceptance
         IF NOT ROS_active() RETURN;
         ROS_stop_reason := reason;
         ROS_stop_asked := ROS_next(ROS_stop_asked);
+    ENDPROC
+
+    ! Wait for the halt that was asked for. Without an answer this task stops the robot, and asks
+    ! again: the supervisor may have just answered what came before.
+    PROC ROS_await_halt()
+        IF ROS_answered(ROS_SOON) RETURN;
+        IF ROS_stopped_alone() ROS_stop_asked := ROS_next(ROS_stop_asked);
     ENDPROC
 
     ! STOP: what has not begun to move never will, and a refusal is no fault any more.

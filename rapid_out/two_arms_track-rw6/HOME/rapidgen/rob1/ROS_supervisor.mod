@@ -11,7 +11,7 @@ MODULE ROS_supervisor
     ! which an old path must not go on: e-stop, motors off, program stop, change of mode.
     ! A pause: StopMove alone, so that the path is kept, and StartMove when it is asked for.
 
-    CONST string ROS_BUILD_SUPERVISOR := "8727b516cade";
+    CONST string ROS_BUILD_SUPERVISOR := "f7c7bb4d6983";
 
     LOCAL VAR intnum asked_to_stop;
     LOCAL VAR intnum asked_to_look;
@@ -178,7 +178,11 @@ MODULE ROS_supervisor
         IF ROS_abort_done_1 = ROS_abort_1 OR is_others() THEN
             IF ROS_executing() = ROS_TRI_FALSE OR ROS_motors_on() = ROS_TRI_FALSE RETURN;
             IF NOT released() THEN
-                tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
+                IF far_off THEN
+                    tell "ROS: the robot stays stopped", "It stands too far from the path that it left.";
+                ELSE
+                    tell "ROS: the robot stays stopped", "Its stop cannot be taken back.";
+                ENDIF
                 RETURN;
             ENDIF
             ROS_latched_1 := FALSE;
@@ -295,11 +299,14 @@ MODULE ROS_supervisor
     ENDFUNC
 
     ! Take back the stop when nothing is left of the path. Where the robot came to rest too far
-    ! from it, which is of no interest any more, StopMoveReset does, and nothing moves.
+    ! from it, which is of no interest any more, StopMoveReset does, and nothing moves. A stop by a
+    ! server may be that task's own on some controllers: then it stays.
     LOCAL FUNC bool released()
-        IF started() RETURN TRUE;
-        IF far_off StopMoveReset;
-        RETURN far_off AND (NOT IsStopMoveAct(\FromNonMoveTask));
+        IF NOT started() THEN
+            IF NOT far_off RETURN FALSE;
+            StopMoveReset;
+        ENDIF
+        RETURN NOT IsStopMoveAct(\FromNonMoveTask);
     ERROR
         SkipWarn;
         RETURN FALSE;

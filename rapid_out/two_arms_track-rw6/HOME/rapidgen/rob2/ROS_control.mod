@@ -7,9 +7,9 @@ MODULE ROS_control
     !
     ! STOP, PAUSE, SPEED, HEARTBEAT and SIGNAL, which no point delays. On STOP and on a missing
     ! heartbeat this task asks the supervisor, by an interrupt: only one task stops the robot, and
-    ! starts it again. It may hang in a send.
+    ! starts it again. Only if that does not answer this task stops it. It may hang in a send.
 
-    CONST string ROS_BUILD_CONTROL := "8727b516cade";
+    CONST string ROS_BUILD_CONTROL := "f7c7bb4d6983";
 
     LOCAL CONST num PORT := 11011;
     ! s between two looks at what the robot does, and for new clients.
@@ -226,7 +226,7 @@ MODULE ROS_control
         linked := (sequence = ROS_SEQ_STOP);
         IF NOT linked RETURN;
         ask_stop ROS_REASON_STOPPED;
-        IF answered(ROS_control_asked_2, ROS_control_done_2) THEN
+        IF answered(ROS_control_asked_2, ROS_control_done_2, ROS_LATE - ROS_SOON) THEN
             confirm client;
         ELSE
             ROS_pack_reply answer, ROS_frame_type, ROS_REPLY_FAILURE;
@@ -236,15 +236,18 @@ MODULE ROS_control
         RAISE;
     ENDPROC
 
-    ! Ask the supervisor for a halt: it stops the robot.
+    ! Ask the supervisor for a halt: it stops the robot. Without an answer this task does, and asks
+    ! again: the supervisor may have just answered what came before.
     LOCAL PROC ask_stop(num reason)
         ROS_control_reason_2 := reason;
         ROS_control_asked_2 := ROS_next(ROS_control_asked_2);
+        IF answered(ROS_control_asked_2, ROS_control_done_2, ROS_SOON) RETURN;
+        IF ROS_stopped_alone() ROS_control_asked_2 := ROS_next(ROS_control_asked_2);
     ENDPROC
 
-    ! TRUE when all that was `asked` is `done`, FALSE if it is not within a second.
-    LOCAL FUNC bool answered(PERS num asked, PERS num done)
-        FOR try FROM 1 TO 250 DO
+    ! TRUE when all that was `asked` is `done`, FALSE if it is not in time.
+    LOCAL FUNC bool answered(PERS num asked, PERS num done, num seconds)
+        FOR try FROM 1 TO 250 * seconds DO
             IF done = asked RETURN TRUE;
             WaitTime 0.004;
         ENDFOR
@@ -261,7 +264,7 @@ MODULE ROS_control
         ENDIF
         ROS_pause_wanted_2 := (paused = 1);
         ROS_pause_asked_2 := ROS_next(ROS_pause_asked_2);
-        IF answered(ROS_pause_asked_2, ROS_pause_done_2) THEN
+        IF answered(ROS_pause_asked_2, ROS_pause_done_2, ROS_LATE) THEN
             report client, ROS_pause_refused_2;
         ELSE
             report client, ROS_REASON_INTERNAL;
@@ -283,7 +286,7 @@ MODULE ROS_control
             ROS_speed_wanted_2 := percent;
             ROS_speed_of_2 := ROS_session_2;
             ROS_speed_asked_2 := ROS_next(ROS_speed_asked_2);
-            IF answered(ROS_speed_asked_2, ROS_speed_done_2) THEN
+            IF answered(ROS_speed_asked_2, ROS_speed_done_2, ROS_LATE) THEN
                 confirm client;
             ELSE
                 report client, ROS_REASON_INTERNAL;

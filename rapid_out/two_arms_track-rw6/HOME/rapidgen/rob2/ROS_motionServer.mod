@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "8727b516cade";
+    CONST string ROS_BUILD_MOTION_SERVER := "f7c7bb4d6983";
 
     LOCAL CONST num PORT := 11010;
     ! s between two looks for bytes while the ring is being fed
@@ -360,7 +360,8 @@ MODULE ROS_motionServer
             ROS_stop_reason_2 := ROS_REASON_STOPPED;
             ROS_stop_asked_2 := ROS_next(ROS_stop_asked_2);
         ENDIF
-        IF NOT ROS_answered() code := ROS_REPLY_FAILURE;
+        ROS_await_halt;
+        IF NOT ROS_answered(ROS_LATE - ROS_SOON) code := ROS_REPLY_FAILURE;
         IF requested reply client, ROS_MSG_JOINT_TRAJ_PT, code;
     ENDPROC
 ENDMODULE
