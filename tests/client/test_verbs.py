@@ -349,8 +349,9 @@ def test_record_with_the_controllers_time(streaming, tmp_path):
     assert main(words) == 0
     recorded = Trajectory.from_csv(out)
     assert len(recorded.times) > 1
-    # of a clock that runs twice as fast as this one
-    assert np.diff(recorded.times) == pytest.approx(0.02, abs=1e-4)
+    # of a clock that runs twice as fast as this one; on a busy machine a message may be left out
+    periods = np.diff(recorded.times) / 0.02
+    assert periods == pytest.approx(np.maximum(np.round(periods), 1), abs=5e-3)
 
 
 def test_stop_over_the_control_port_when_the_motion_port_is_dead(streaming, capsys):
