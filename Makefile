@@ -69,7 +69,7 @@ picture: $(STAMP)
 	$(BIN)/python -m tests.docs.picture
 
 # Trials of programs that are no part of this project: FOREIGN is the folder that holds them,
-# PROGRAM the trial (abb_driver, backups, descriptions, ros_nodes, godel, irb140, keyence, motion_program_exec, open_abb, rfl, text_servers; default: any).
+# PROGRAM the trial (abb_driver, backups, deployed, descriptions, godel, irb140, keyence, motion_program_exec, open_abb, rfl, ros_nodes, text_servers; default: any).
 PROGRAM = trial
 foreign: $(STAMP)
 	$(BIN)/python -m tests.foreign.$(PROGRAM) $(FOREIGN)
@@ -103,8 +103,14 @@ driver-mutants: $(STAMP) ## 12 min: which mutants of the generated modules the s
 motion-campaign: $(STAMP) ## 10 min: 10,000 random programs with random stops
 	$(BIN)/python -m tests.motion.campaign
 
+reach: $(STAMP) ## 3 min: 10,000 poses of every shipped model, by formula or search
+	$(BIN)/python benchmarks/reach.py
+
 exploration: $(STAMP) ## 1 min: schedules until known defects of drivers are found
 	$(BIN)/python benchmarks/exploration.py --jobs 2
+
+ceiling: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories under a ceiling
+	$(BIN)/python benchmarks/ceiling.py
 
 schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
 	$(BIN)/python benchmarks/fast_stops.py --jobs 2 --pairs irb120 irb6700

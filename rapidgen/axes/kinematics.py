@@ -9,24 +9,21 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import atan2, floor, hypot, pi
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import Literal, TypeAlias
 
 from rapidgen.axes import frames
-from rapidgen.axes.arm_angle import ArmAngle
+from rapidgen.axes.chain import Posture as Posture
+from rapidgen.axes.chain import Step, along, steps_of
 from rapidgen.axes.four_axes import BRANCHES as FOUR_BRANCHES
 from rapidgen.axes.four_axes import Branch as FourBranch
 from rapidgen.axes.four_axes import FourAxes, palletiser, scara
 from rapidgen.axes.frames import IDENTITY, Pose, Quaternion, Vector
 from rapidgen.axes.limits import ROUNDING
 from rapidgen.axes.mapping import JointMap
+from rapidgen.axes.searching import ArmSearch
 from rapidgen.axes.wrist import BRANCHES, SINGULAR, Angles, WristArm
 from rapidgen.config.model import ChainLink, GroupConfig
 
-if TYPE_CHECKING:
-    from rapidgen.axes.numeric import Search
-
-Posture = tuple[float, ...]
-"""Controller axis values in wire order, rad and m."""
 AxisConfiguration = tuple[int, int, int, int]
 """cf1, cf4, cf6, cfx"""
 ConfigurationCheck: TypeAlias = Literal["turn", "quarter"]
@@ -39,66 +36,20 @@ _TURN = 2 * pi
 
 
 @dataclass(frozen=True)
-class _Step:
-    """One step of the chain with its fixed part as a pose."""
-
-    fixed: Pose
-    axis: Vector
-    joint: int
-    """Place in wire order, -1 without a joint."""
-    prismatic: bool
-    follows: tuple[tuple[int, float], ...]
-
-
-def _steps(group: GroupConfig, chain: Sequence[ChainLink]) -> tuple[_Step, ...]:
-    names = [joint.name for joint in group.joints]
-    kinds = {joint.name: joint.kind for joint in group.joints}
-
-    def step(link: ChainLink) -> _Step:
-        return _Step(
-            fixed=(link.xyz, frames.from_rpy(*link.rpy)),
-            axis=link.axis,
-            joint=names.index(link.joint) if link.joint else -1,
-            prismatic=bool(link.joint) and kinds[link.joint] == "prismatic",
-            follows=tuple((names.index(name), k) for name, k in link.follows),
-        )
-
-    return tuple(map(step, chain))
-
-
-def _along(steps: tuple[_Step, ...], values: Posture) -> Pose:
-    """The end of a chain for joint values in the sense of the URDF."""
-    pose = IDENTITY
-    for step in steps:
-        pose = frames.compose(pose, step.fixed)
-        if step.joint >= 0:
-            amount = values[step.joint]
-        elif step.follows:
-            amount = sum(values[i] * k for i, k in step.follows)
-        else:
-            continue
-        if step.prismatic:
-            pose = frames.compose(pose, (frames.scale(step.axis, amount), frames.UNIT))
-        else:
-            pose = pose[0], frames.multiply(pose[1], frames.about(step.axis, amount))
-    return pose
-
-
-@dataclass(frozen=True)
 class MovingFrame:
     """The user frame of a unit that carries work objects, in the root of the robot's chain."""
 
     map: JointMap
-    steps: tuple[_Step, ...]
+    steps: tuple[Step, ...]
 
     @classmethod
     def of(cls, group: GroupConfig, chain: Sequence[ChainLink]) -> "MovingFrame":
         """The frame at the end of a chain of the group's joints."""
-        return cls(JointMap.of(group), _steps(group, chain))
+        return cls(JointMap.of(group), steps_of(group, chain))
 
     def pose(self, posture: Posture) -> Pose:
         """Where it is, for controller axis values in wire order."""
-        return _along(self.steps, self.map.to_urdf(posture))
+        return along(self.steps, self.map.to_urdf(posture))
 
 
 @dataclass(frozen=True)
@@ -107,14 +58,14 @@ class Kinematics:
 
     group: GroupConfig
     map: JointMap
-    steps: tuple[_Step, ...]
+    steps: tuple[Step, ...]
 
     @classmethod
     def of(cls, group: GroupConfig) -> "Kinematics | None":
         """The kinematics of a group; None when its model has no geometry."""
         if not group.chain:
             return None
-        return cls(group, JointMap.of(group), _steps(group, group.chain))
+        return cls(group, JointMap.of(group), steps_of(group, group.chain))
 
     # -- forward ----------------------------------------------------------------------------
 
@@ -122,10 +73,10 @@ class Kinematics:
         """Flange of a posture."""
         values = self.map.to_urdf(posture)
         if self._arm is None:
-            return _along(self.steps, values)
+            return along(self.steps, values)
         arm, first, _, _ = self._arm
         pose = arm.forward(self._robot_angles(values))
-        base = _along(self.steps[:first], values) if first else None
+        base = along(self.steps[:first], values) if first else None
         return pose if base is None else frames.compose(base, pose)
 
     # -- inverse ----------------------------------------------------------------------------
@@ -147,7 +98,7 @@ class Kinematics:
             branch = four.branch([self.map.to_urdf(near)[i] for i in places])
             return self._of_four(pose, near, branch)
         if arm is None:
-            return self._iterate(pose, near)
+            return self.arm.near(pose, near)
         values = self.map.to_urdf(near)
         angles = self._robot_angles(values)
         solved = arm[0].solve(self._from_base(pose, values), arm[0].branch(angles), angles[3])
@@ -158,7 +109,7 @@ class Kinematics:
         if self._four is not None:
             return any(self._of_four(pose, near, branch) is not None for branch in FOUR_BRANCHES)
         if self._arm is None:
-            return any(True for postures in self._rounds(pose, near) for _ in postures)
+            return any(True for postures in self.arm.rounds(pose, near) for _ in postures)
         values = self.map.to_urdf(near)
         based = self._from_base(pose, values)
         return any(self._arm[0].solve(based, branch, 0.0) is not None for branch in BRANCHES)
@@ -177,7 +128,7 @@ class Kinematics:
                 if four is not None:
                     found += [p for p in self._turned(four) if not _known(p, found)]
         elif self._arm is None:
-            for number, postures in enumerate(self._rounds(pose, near)):
+            for number, postures in enumerate(self.arm.rounds(pose, near)):
                 for posture in postures:
                     found += [p for p in self._turned(posture) if not _known(p, found)]
                     if len(found) >= _ENOUGH:
@@ -196,48 +147,6 @@ class Kinematics:
                     found += [p for p in self._turned(posture) if not _known(p, found)]
         found.sort(key=lambda p: sum(abs(a - b) for a, b in zip(p, near, strict=True)))
         return found
-
-    # -- arms of seven axes -----------------------------------------------------------------
-
-    @cached_property
-    def seventh(self) -> int:
-        """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
-        own = [self.group.joints[i].axis for i in self._own]
-        return self._inner[0] if len(self._inner) == 1 and len(own) == 6 else -1
-
-    @cached_property
-    def _angle(self) -> ArmAngle:
-        # The reference points from an arm towards the middle between two (both home targets of
-        # public programs for the IRB 14000); for a single arm along y [mem].
-        side = self.steps[0].fixed[0][1]
-        return ArmAngle((0.0, -1.0 if side > 0 else 1.0, 0.0))
-
-    def arm_angle(self, posture: Posture) -> float:
-        """What eax_a of a robtarget is in a posture of an arm with seven axes (rad)."""
-        values = tuple(posture[i] for i in self._along)
-        return self._angle.of(self._search(posture, whole=True).lines(values)[1])
-
-    def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
-        """Postures within the ranges for a pose and an arm angle, as they are found from `near`."""
-        start = tuple(near[i] for i in self._along)
-        found: list[Posture] = []
-        for values in self._angle.postures(self._search(near, whole=True), pose, angle, start):
-            posture = list(near)
-            for place, value in zip(self._along, values, strict=True):
-                posture[place] = value
-            for turned in self._turned(self._near(tuple(posture), near)):
-                if self._fits_seventh(turned) and not _known(turned, found):
-                    found.append(turned)
-                    yield turned
-
-    def _fits_seventh(self, posture: Posture) -> bool:
-        joint = self.group.joints[self.seventh]
-        return joint.lower - ROUNDING <= posture[self.seventh] <= joint.upper + ROUNDING
-
-    @cached_property
-    def _along(self) -> tuple[int, ...]:
-        """Places of the arm's axes in the order of the chain."""
-        return tuple(s.joint for s in self.steps if s.joint in (*self._own, *self._inner))
 
     def _robot_angles(self, values: Posture) -> Angles:
         assert self._arm is not None
@@ -258,7 +167,7 @@ class Kinematics:
         first = self._arm[1]
         if not first:
             return pose
-        return frames.compose(frames.invert(_along(self.steps[:first], values)), pose)
+        return frames.compose(frames.invert(along(self.steps[:first], values)), pose)
 
     def _as_posture(self, solved: Angles, near: Angles, values: Posture) -> Posture:
         """Controller values of solved angles, each on the turn that is closest to `near`."""
@@ -269,87 +178,36 @@ class Kinematics:
             urdf[place] = sign * (angle + _TURN * round((old - angle) / _TURN))
         return self.map.to_controller(urdf)
 
-    def _search(self, near: Posture, *, whole: bool = False) -> "Search":
-        """The search of this arm, with what carries it as in `near`; `whole`: with its seventh."""
-        key = whole, tuple(near[i] for i in self._outside)
-        if key not in self._searches:
-            for old in [k for k in self._searches if k[0] == whole]:
-                del self._searches[old]
-            places = self._along if whole else (*self._own, *self._inner)
-            free = len(places) if whole else len(self._own)
-            self._searches[key] = self._make_search(near, places, free)
-        return self._searches[key]
-
-    def _make_search(self, near: Posture, places: tuple[int, ...], free: int) -> "Search":
-        from rapidgen.axes.numeric import Link, Search, linear  # numpy: where there is no formula
-
-        weights, constants = linear(self.map.to_urdf, near, places)
-        links = []
-        for step in self.steps:
-            parts = ((step.joint, 1.0),) if step.joint >= 0 else step.follows
-            moved = [sum(weights[i][n] * k for i, k in parts) for n in range(len(places))]
-            links.append(
-                Link(
-                    step.fixed,
-                    step.axis,
-                    step.prismatic,
-                    tuple(moved) if parts else (),
-                    sum(constants[i] * k for i, k in parts),
-                )
-            )
-        joints = [self.group.joints[place] for place in places]
-        return Search(
-            tuple(links),
-            tuple((joint.lower, joint.upper) for joint in joints),
-            tuple(joint.kind == "revolute" for joint in joints),
-            free,
-        )
+    def found(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+        """Postures within the ranges that reach a pose, one after the other as they are found."""
+        if self.is_closed_form:
+            yield from self.solutions(pose, near)
+            return
+        for postures in self.arm.rounds(pose, near):
+            for posture in postures:
+                yield from self._turned(posture)
 
     @cached_property
-    def _searches(self) -> dict[tuple[bool, tuple[float, ...]], "Search"]:
-        return {}
+    def arm(self) -> ArmSearch:
+        """What iteration can find, where there is no formula."""
+        return ArmSearch(self.group, self.map, self.steps)
 
-    @cached_property
-    def _own(self) -> tuple[int, ...]:
-        """Places of the robot axes."""
-        return tuple(i for i, j in enumerate(self.group.joints) if j.axis.startswith("rax"))
+    @property
+    def seventh(self) -> int:
+        """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
+        return self.arm.seventh
 
-    @cached_property
-    def _inner(self) -> tuple[int, ...]:
-        """Places of the external axes inside of the arm: the seventh of a YuMi arm."""
-        order = [s.joint for s in self.steps if s.joint >= 0]
-        own = [order.index(i) for i in self._own if i in order]
-        among = range(min(own), max(own)) if own else range(0)
-        return tuple(order[n] for n in among if order[n] not in self._own)
-
-    @cached_property
-    def _outside(self) -> tuple[int, ...]:
-        """Places of the external axes under the arm, and of those that the chain does not name."""
-        arm = {*self._own, *self._inner}
-        return tuple(i for i in range(len(self.group.joints)) if i not in arm)
-
-    def _rounds(self, pose: Pose, near: Posture) -> Iterator[Iterator[Posture]]:
-        """Postures that iteration finds, as close in turns to `near` as can be."""
-        places = (*self._own, *self._inner)
-        for found in self._search(near).rounds(pose, tuple(near[i] for i in places)):
-            yield (self._near(self._placed(values, near), near) for values in found)
-
-    def _placed(self, values: Posture, near: Posture) -> Posture:
-        whole = list(near)
-        for place, value in zip((*self._own, *self._inner), values, strict=True):
-            whole[place] = value
-        return tuple(whole)
-
-    def _iterate(self, pose: Pose, start: Posture) -> Posture | None:
-        places = (*self._own, *self._inner)
-        values = self._search(start).near(pose, tuple(start[i] for i in places))
-        return None if values is None else self._near(self._placed(values, start), start)
-
-    def _near(self, posture: Posture, near: Posture) -> Posture:
-        return tuple(
-            v + _TURN * round((n - v) / _TURN) if j.kind == "revolute" else v
-            for v, n, j in zip(posture, near, self.group.joints, strict=True)
-        )
+    def at_arm_angle(self, pose: Pose, angle: float, near: Posture) -> Iterator[Posture]:
+        """Postures within the ranges for a pose and an arm angle, as they are found from `near`."""
+        joint = self.group.joints[self.seventh]
+        found: list[Posture] = []
+        for posture in self.arm.at_arm_angle(pose, angle, near):
+            for turned in self._turned(posture):
+                value = turned[self.seventh]
+                fits = joint.lower - ROUNDING <= value <= joint.upper + ROUNDING
+                if fits and not _known(turned, found):
+                    found.append(turned)
+                    yield turned
 
     def _turned(self, posture: Posture) -> list[Posture]:
         """The posture with every turn of its axes that lies within the ranges."""
@@ -501,7 +359,7 @@ class Kinematics:
         arm, first, places = self._four
         values = self.map.to_urdf(near)
         if first:
-            pose = frames.compose(frames.invert(_along(self.steps[:first], values)), pose)
+            pose = frames.compose(frames.invert(along(self.steps[:first], values)), pose)
         solved = arm.solve(pose, branch)
         if solved is None:
             return None
@@ -512,7 +370,7 @@ class Kinematics:
         return self.map.to_controller(urdf)
 
     @staticmethod
-    def _zero_frame(steps: tuple[_Step, ...]) -> tuple[list[Vector], list[Vector], Pose]:
+    def _zero_frame(steps: tuple[Step, ...]) -> tuple[list[Vector], list[Vector], Pose]:
         """A point and the direction of each axis at zero, and the flange, from the base."""
         pose, points, axes = IDENTITY, [], []
         for step in steps:
@@ -527,10 +385,10 @@ def _recognise(
     points: list[Vector], axes: list[Vector], flange: Pose, first: int, places: tuple[int, ...]
 ) -> tuple[WristArm, int, tuple[int, ...], tuple[int, ...]] | None:
     signs = []
-    for axis, along in zip(axes, (2, 1, 1, 0, 1, 0), strict=True):
-        if abs(abs(axis[along]) - 1.0) > _NEAR:
+    for axis, n in zip(axes, (2, 1, 1, 0, 1, 0), strict=True):
+        if abs(abs(axis[n]) - 1.0) > _NEAR:
             return None
-        signs.append(1 if axis[along] > 0 else -1)
+        signs.append(1 if axis[n] > 0 else -1)
     if abs(points[0][0]) > _NEAR or abs(points[0][1]) > _NEAR:
         return None
     # Axis 5 is met by axis 4 and axis 6 (both along x) in the wrist centre.

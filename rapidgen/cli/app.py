@@ -23,7 +23,7 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, render
 # sentence that stands here (a test compares).
 VERBS = {
     "robots": "List the shipped models.",
-    "new": "Write a commented configuration; what stays open is marked ??? in it.",
+    "new": "Write a commented configuration that checks and builds.",
     "check": "Say everything that is wrong with configurations and RAPID.",
     "explain": "Explain what a diagnostic's code means, with a bad and a good example.",
     "schema": "Print the JSON schema of the configuration file.",

@@ -101,7 +101,7 @@ def _way(bench: Bench, chance: random.Random) -> list[Point]:
             abs(b - a) / (0.97 * joint.speed) + joint.speed / joint.acceleration
             for a, b, joint in zip(here, there, bench.group.joints, strict=True)
         )
-        points.append((there, max(seconds, bench.tcp_seconds(here, there))))
+        points.append((there, max(seconds, 1.1 * bench.tcp_seconds(here, there))))
     return points
 
 

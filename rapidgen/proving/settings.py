@@ -30,6 +30,19 @@ class Setting:
     faults: FaultPlan = field(default_factory=FaultPlan)
     coverage: bool = False
 
+    @property
+    def slowness(self) -> float:
+        """How much longer than by default the driver's work takes, at least 1.
+
+        What a case allows for work, not for waiting, goes with it.
+        """
+        return max(1.0, self.costs.builtin_scale)
+
+    @property
+    def latest_interrupt(self) -> float:
+        """s from an event to its trap, at most."""
+        return self.costs.interrupt_delay[1] * 1e-9
+
     def early(self) -> "Setting":
         """The same on a controller of which no task has run yet: no robot that settles first."""
         return replace(self, motion=replace(self.motion, settle=0.0))

@@ -63,7 +63,7 @@ def test_a_posture_in_robotstudio(row):
 def test_an_arm_angle_in_robotstudio(row):
     joints, _, _, about_z, about_y = row
     arm = single()
-    axes = arm._search(posture_of(arm, joints), whole=True).lines(
+    axes = arm.arm.search(posture_of(arm, joints), whole=True).lines(
         [math.radians(v) for v in joints]
     )[1]
     for reference, angle in (((0.0, 0.0, 1.0), about_z), ((0.0, 1.0, 0.0), about_y)):
@@ -81,7 +81,7 @@ def test_the_home_target_of_public_programs(name, side):
     x_, y_, z_ = PLACE
     assert [v * 1000 for v in position] == pytest.approx((x_, side * y_, z_), abs=2e-3)
     assert frames.angle_between(q, frames.normalise((w, side * x, y, side * z))) < 1e-5
-    assert math.degrees(arm.arm_angle(home)) == pytest.approx(side * ARM_ANGLE, abs=2e-4)
+    assert math.degrees(arm.arm.arm_angle(home)) == pytest.approx(side * ARM_ANGLE, abs=2e-4)
     from_afar = tuple(v + 0.3 for v in home)
     target = (
         (x_ / 1000, side * y_ / 1000, z_ / 1000),
@@ -97,9 +97,9 @@ def test_a_pose_with_its_arm_angle_is_found_from_afar():
     start = tuple((j.lower + j.upper) / 2 for j in arm.group.joints)
     for _ in range(15):
         posture = tuple(draw.uniform(j.lower, j.upper) for j in arm.group.joints)
-        pose, angle = arm.forward(posture), arm.arm_angle(posture)
+        pose, angle = arm.forward(posture), arm.arm.arm_angle(posture)
         found = next(arm.at_arm_angle(pose, angle, start))
         assert max(map(abs, frames.error(arm.forward(found), pose))) < 1e-7
-        assert math.remainder(arm.arm_angle(found) - angle, 2 * math.pi) == pytest.approx(
+        assert math.remainder(arm.arm.arm_angle(found) - angle, 2 * math.pi) == pytest.approx(
             0, abs=1e-7
         )

@@ -173,12 +173,12 @@ def test_a_refusal_that_does_not_come_is_seen(bench):
 
 def test_lines_that_the_operator_does_not_get_are_seen(bench):
     pendant = _Pendant(bench)
-    with red("the pendant shows"):
+    with red("the event log has"):
         pendant.says(RawReason.NO_START, 0, 0, after="nothing")
     point = bench.download(bench.wave(3))[68:136]
     for reason, place, joint, wrong in (
         (RawReason.NO_START, 0, 0, ""),
-        (RawReason.JOINT_LIMIT, 0, 0, "the pendant shows"),
+        (RawReason.JOINT_LIMIT, 0, 0, "the event log says"),
         (RawReason.NO_START, 2, 0, "the event log says"),
         (RawReason.NO_START, 0, 3, "the event log says"),
     ):

@@ -164,3 +164,10 @@ def test_a_setting_can_be_asked_for_again(made_up, capsys):
     assert main([*made_up, "--assume", "settle=0.2"]) == 0
     assert main([*made_up, "--assume", "settle=0.2,for_loop=tested"]) == 1
     assert "made-up [as asked]: it did not hold" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("costs", "slowness"), [("0.25", 1.0), ("1.0", 1.0), ("4.0", 4.0)])
+def test_bounds_are_wider_where_work_takes_longer_and_never_narrower(costs, slowness):
+    setting = assumed([f"costs={costs}"])
+    assert setting.slowness == slowness
+    assert setting.latest_interrupt == pytest.approx(0.03)

@@ -30,7 +30,6 @@ OF_THE_ROBOT = (
     "first-of-all",
     "stream-joints",
     "away-from-zero",
-    "batch-padding",
     "stop-on-path",
     "e-stop",
     "corners",
@@ -109,8 +108,8 @@ DEFECTS = {
     "padding": ("ROS_download", "IF NOT (padding = 0) ROS_object", "IF FALSE ROS_object"),
     "newest-takes-over": (
         "ROS_motionServer",
-        "taken_over := welcome(newcomer, 0.001);",
-        "",
+        "ELSEIF quiet >= PATIENCE THEN\n            taken_over := TRUE;",
+        "ELSEIF quiet >= PATIENCE THEN",
     ),
     "leaves-moving": (
         "ROS_motionServer",

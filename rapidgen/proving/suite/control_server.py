@@ -41,15 +41,16 @@ def _stops_alone(bench: Bench, port: str) -> None:
         link.close()
     elif port != "heartbeat":
         chosen.send(STOP)
-    bench.wait_until_standing(1.3 + bench.setting.motion.settle)
+    motion = bench.setting.motion
+    bench.wait_until_standing(1.3 + motion.settle + motion.servo_lag)
     if port in ("control", "motion"):
         told = chosen.reply(_TRAJ, 2)
-        # Some controllers let a program go on behind StopMove only when the robot has settled.
         if not isinstance(told, messages.RawFailure) or not 0.9 < bench.now - asked < 1.8:
             raise Broken(f"STOP is answered by {told} after {bench.now - asked:.2f} s")
     if [o.instruction for o in orders].count("StopMove") != 1:
         raise Broken(f"the supervisor hangs, a stop was asked for ({port}), then {orders}")
-    bench.run(2 * bench.setting.motion.settle)
+    # Some controllers let a program go on behind StopMove, and tell of it, only then.
+    bench.run(2 * motion.settle if motion.stop_waits else 0)
     said = [e.title for e in bench.controller.log.since(last) if e.title.startswith("ROS")]
     if said != ["ROS: the supervisor does not answer"]:
         raise Broken(f"the supervisor hangs, the robot was stopped, the event log says {said}")
@@ -115,9 +116,12 @@ def _beats(bench: Bench) -> None:
             bench.run(0.001)
         bench.wait_until_standing(3)
         stops = [o.time for o in orders if o.instruction == "StopMove"]
-        if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + 0.04:
+        late = bench.setting.latest_interrupt + 0.01 * bench.setting.slowness
+        if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + late:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         if seconds > 1:
+            # Some controllers let the supervisor go on only when the robot has settled.
+            control.expect(messages.RawStopped, 3, "a missing heartbeat stops the robot")
             told = control.ask(messages.RawHeartbeat(0.2))
             if not isinstance(told, messages.RawHeartbeatReply) or told.state != _FAILED:
                 raise Broken(f"a heartbeat after one was missing is answered by {told}")

@@ -15,8 +15,6 @@ case = Theme("taking")
 _BEGIN, _END = int(RawSpecial.BEGIN), int(RawSpecial.END)
 _TAKEN = messages.RawAcknowledged()
 _NO_START = messages.RawRefused(RawReason.NO_START, 0, 0)
-_SLACK = 0.05
-"""s that a motion may begin later, or last longer, than it was asked to."""
 _LEAST = 0.1
 """s in which every axis has gone a short way."""
 
@@ -29,10 +27,15 @@ def _inward(bench: Bench, steps: Position) -> Position:
     )
 
 
+def _slack(bench: Bench) -> float:
+    """s that a motion may begin later, or last longer, than it was asked to."""
+    return 0.03 + 0.02 * bench.setting.slowness
+
+
 def _in_time(bench: Bench, what: str, seen: float, wanted: float) -> None:
     """Broken unless something took as long as wanted; an axis needs its time, too."""
     motion = bench.setting.motion
-    more = max(_SLACK, _LEAST - wanted) + motion.settle + motion.servo_lag
+    more = max(_slack(bench), _LEAST - wanted) + motion.settle + motion.servo_lag
     if not 0.95 * wanted - 0.02 <= seen <= wanted + more:
         raise Broken(f"{what} took {seen:.3f} s, not {wanted:.3f} s")
 

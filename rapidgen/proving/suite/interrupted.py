@@ -14,12 +14,15 @@ from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawTrajectorySta
 from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.errors import set_counters
 from rapidgen.proving.suite.motion_task import begins, datum, patience, unit_of
+from rapidgen.proving.track import distance
 from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
 
 case = Theme("interrupted")
 
 _TRAJ = JOINT_TRAJ_PT
+_CREEP = 5e-4
+"""rad or m: as far as a robot may get between Start and the stop by an event routine."""
 
 
 def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
@@ -206,7 +209,13 @@ def _start_alone(bench: Bench) -> None:
             other.run(patience(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
                 _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
+            here = other.position
             other.start_again()
+            if other.setting.random_schedule:
+                # Start sets the path in motion, and chance which task is first to go on.
+                other.run(0.3)
+                if distance(other.position, here) > _CREEP:
+                    raise Broken(f"{action}, then Start: the robot went on to {other.position}")
             other.stays(patience(other), f"{action}, then Start")
             _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
             if action in ("stop", "e-stop"):

@@ -167,7 +167,8 @@ def _silent_while_moving(bench: Bench) -> None:
                 raise Broken(f"{what}: a newer client says {said!r}, and the robot stops")
             new.close()
         bench.arrives(points, since, 30)
-        bench.run(0.2)
+        # To the driver it is over when the controller says so: the axes follow late.
+        bench.run(0.2 - bench.setting.motion.servo_lag)
         _gives_way(bench, old, new, what)
         new.close(then=1.3)
 

@@ -27,7 +27,8 @@ def refused(
     """
     state, link = bench.watcher(), bench.motion()
     link.send(frames)
-    bench.stays(3, f"it had to be refused: {messages.text_of(reasons[0])}")
+    # A controller has read all of it by then.
+    bench.stays(3 * bench.setting.slowness, f"it had to be refused: {messages.text_of(reasons[0])}")
     status, told = bench.status(state), bench.progress(state)
     reason, wrong = messages.split_error_code(status.error_code)
     if status.in_error != 1 or reason not in reasons or (joint and wrong != joint):

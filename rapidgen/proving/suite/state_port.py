@@ -62,8 +62,9 @@ def subscribe(bench: Bench, features: RawFeature, link: RawLink | None = None) -
     return client
 
 
-_LATE = 0.005
-"""s: what else the controller has to do may delay a round by so much."""
+def _late(bench: Bench) -> float:
+    """s: what else the controller has to do may delay a round by so much."""
+    return 0.005 * bench.setting.slowness
 
 
 def on_turn(bench: Bench, found: Sequence[Round], what: str) -> None:
@@ -72,7 +73,7 @@ def on_turn(bench: Bench, found: Sequence[Round], what: str) -> None:
     if len(found) < 3:
         raise Broken(f"{what}: {len(found)} rounds")
     offs = [r.time - found[0].time - n * period for n, r in enumerate(found)]
-    if max(offs) - min(offs) > 2 * _LATE:
+    if max(offs) - min(offs) > 2 * _late(bench):
         raise Broken(f"{what}: rounds are {min(offs):.4f} to {max(offs):.4f} s off their turns")
 
 
@@ -192,7 +193,7 @@ def _is_measured(bench: Bench, told: Sequence[Round], what: str) -> None:
         if not (0 <= now.time < _WRAP and now.valid_fields == 0b111):
             raise Broken(f"{what}: {now}")
         seconds = (now.time - before.time) % _WRAP
-        if abs(seconds - period) > 2 * _LATE:
+        if abs(seconds - period) > 2 * _late(bench):
             raise Broken(f"{what}: stamps {before.time} and {now.time} are of two rounds")
         for joint in range(count):
             gone = (now.positions[joint] - before.positions[joint]) / seconds
@@ -244,7 +245,7 @@ def _over_the_ends(bench: Bench) -> None:
         _is_measured(bench, found, what)
         stamps = _stamps(found)
         lost = found[-1].time - found[0].time - (stamps[-1] - stamps[0]) % _WRAP
-        if abs(lost) > _LATE:
+        if abs(lost) > _late(bench):
             raise Broken(f"{what}: the stamps have lost {lost:.4f} s")
     _late_by_half(bench, link)
 
@@ -257,7 +258,7 @@ def _late_by_half(bench: Bench, link: RawLink) -> None:
     times = [one.time for one in rounds(link, since)]
     gaps = [b - a for a, b in pairwise(times)]
     wanted = (0.0, 0.5 * period, period)
-    if any(abs(gap - w) > 2 * _LATE for gap, w in zip(gaps, wanted, strict=False)):
+    if any(abs(gap - w) > 2 * _late(bench) for gap, w in zip(gaps, wanted, strict=False)):
         raise Broken(f"a round was late by half a period, rounds came at {times}")
 
 

@@ -10,25 +10,28 @@ from rapidgen.proving.messages import RawComm, RawMode, RawReason, RawTrajectory
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, Streamer
 from rapidgen.proving.suite.motion_task import (
-    SOON,
     begins,
     begins_soon,
     datum,
     patience,
+    soon,
     unit_of,
 )
 
 case = Theme("halting")
 
-_PROMPT = 0.055
-"""s for what the supervisor does in a trap: an interrupt comes after 30 ms at most."""
 _TRAJ = messages.JOINT_TRAJ_PT
+
+
+def _at_once(bench: Bench) -> float:
+    """s for what the supervisor does in a trap."""
+    return bench.setting.latest_interrupt + 0.025 * bench.setting.slowness
 
 
 def _prompt(bench: Bench, asked: float, what: str) -> None:
     late = bench.now - asked
     # Some controllers let a program go on behind StopMove only when the robot stands.
-    if late > _PROMPT + (0.3 if bench.setting.motion.stop_waits else 0):
+    if late > _at_once(bench) + (0.3 if bench.setting.motion.stop_waits else 0):
         raise Broken(f"{what} is answered after {late:.3f} s")
 
 
@@ -167,8 +170,8 @@ def _why_it_ended(bench: Bench) -> None:
 
 
 def _is_paused(bench: Bench, watcher: RawLink, planned: int, reached: int) -> None:
-    bench.wait_until_standing(0.1 + SOON + bench.setting.motion.servo_lag)
-    bench.run(SOON + 2 * bench.config.state_period)
+    bench.wait_until_standing(0.1 + soon(bench) + bench.setting.motion.servo_lag)
+    bench.run(soon(bench) + 2 * bench.config.state_period)
     told, status = bench.progress(watcher), bench.status(watcher)
     if (told.state, told.planned, told.reached, told.reason) != (
         RawTrajectoryState.PAUSED,
@@ -194,7 +197,7 @@ def _pause_by_step(bench: Bench) -> None:
 
     def goes_on() -> None:
         ask(0)
-        bench.wait_until_moving(_PROMPT + bench.setting.motion.servo_lag)
+        bench.wait_until_moving(_at_once(bench) + bench.setting.motion.servo_lag)
 
     for paused in (1, 0):
         ask(paused, RawReason.IDLE)
@@ -211,7 +214,7 @@ def _pause_by_step(bench: Bench) -> None:
     fails(bench, "ROS_supervisor", "StopMove", "ERR_PATH_STOP")
     ask(1, RawReason.INTERNAL)
     ask(0)
-    bench.run(SOON + 2 * bench.config.state_period)
+    bench.run(soon(bench) + 2 * bench.config.state_period)
     if bench.standing or bench.status(watcher)[3:] != (0, 1, RawMode.AUTO, 1):
         raise Broken("a pause that was refused, and the end of none, stop the robot")
     bench.wait_until_at(way[3][0], 5)

@@ -131,7 +131,7 @@ def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:
     place = kinematics.seventh
     if place < 0:
         return posture
-    return (*posture[:place], kinematics.arm_angle(posture), *posture[place + 1 :])
+    return (*posture[:place], kinematics.arm.arm_angle(posture), *posture[place + 1 :])
 
 
 def configuration_of(data: Value) -> AxisConfiguration:

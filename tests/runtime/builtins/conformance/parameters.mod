@@ -17,8 +17,8 @@ MODULE parameters
         VAR num lower;
         ReadCfgData "/EIO/EIO_SIGNAL/doLamp", "SignalType", text;
         TPWrite text;
-        ReadCfgData "/SYS/CAB_TASKS/T_ROB1", "Entry", text;
-        TPWrite ValToStr(text = "main");
+        ReadCfgData "/SYS/CAB_TASKS/T_ROB1", "Type", text;
+        TPWrite ValToStr(text = "NORMAL");
         ReadCfgData "/EIO/EIO_SIGNAL/none", "SignalType", text;
         ReadCfgData "/EIO/EIO_SIGNAL/doLamp", "SignalType", upper;
         each;

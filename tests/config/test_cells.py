@@ -1,0 +1,106 @@
+"""`new` on cells: tracks, gantries, positioners, grippers, several arms; and what is no robot."""
+
+import pytest
+
+from rapidgen.cli.new import new
+from rapidgen.config import load_config
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import Bench
+from tests.config.drawing import BASE, arm, drawn, joint, links, robot
+
+TABLE = joint("tilt", "base_link", "frame", lower=-2, upper=2) + links("frame")
+PLATE = joint("plate", "frame", "top") + links("top")
+FINGER = joint("finger", "tool0", "f", "prismatic", lower=0, upper=0.02) + links("f")
+
+
+def with_parts(text, *parts):
+    return text.replace("</robot>", f"{''.join(parts)}</robot>")
+
+
+def carried(text, *names):
+    """The arm on linear axes, one upon the other."""
+    text = text.replace('<parent link="base_link"/>', f'<parent link="on_{names[-1]}"/>')
+    parts, below = [], "base_link"
+    for name in names:
+        parts.append(joint(name, below, f"on_{name}", "prismatic", lower=0, upper=3, velocity=1))
+        parts.append(links(f"on_{name}"))
+        below = f"on_{name}"
+    return with_parts(text, *parts)
+
+
+def made(tmp_path, text, **options):
+    (tmp_path / "robot.urdf").write_text(text)
+    new(tmp_path / "cell.yaml", urdf=tmp_path / "robot.urdf", force=True, **options)
+    return load_config(tmp_path / "cell.yaml")
+
+
+def axes(group):
+    return {j.name: j.axis for j in group.joints if j.axis.startswith("eax")}
+
+
+CELLS = {
+    "track": (carried(drawn("irb120"), "rail"), {"rail": "eax_a"}),
+    "gantry": (
+        carried(drawn("irb1200"), "x", "y", "z"),
+        {"x": "eax_a", "y": "eax_b", "z": "eax_c"},
+    ),
+    "positioner": (with_parts(drawn("irb120"), TABLE, PLATE), {"tilt": "eax_a", "plate": "eax_b"}),
+    "gripper": (with_parts(drawn("irb120"), FINGER), {}),
+    "track and positioner": (
+        with_parts(carried(drawn("irb2400"), "rail"), TABLE),
+        {"rail": "eax_a", "tilt": "eax_b"},
+    ),
+    "palletiser": (drawn("irb460"), {}),
+    "scara": (drawn("irb910sc"), {}),
+    "seven axes": (drawn("irb14050"), {"joint_7": "eax_a"}),
+}
+
+
+@pytest.mark.parametrize("case", CELLS)
+def test_a_cell_is_built_and_moves(tmp_path, case):
+    text, external = CELLS[case]
+    config = made(tmp_path, text, coupling=1 if case == "palletiser" else None)
+    (group,) = config.groups
+    assert axes(group) == external
+    carriers = [p for p in group.positioners if {s.joint for s in p.chain} & set(external)]
+    assert bool(carriers) == ("positioner" in case)
+    with Bench(config, make_system(config, build(config))) as bench:
+        bench.moves_through(bench.motion(), bench.wave(3, duration=1.0))
+        bench.healthy()
+
+
+def test_two_arms_of_a_yumi(tmp_path):
+    from rapidgen.config.registry import find_shipped
+
+    text = (find_shipped("irb14000").parent / "urdf" / "irb14000.urdf").read_text()
+    config = made(tmp_path, text)
+    assert [(g.name, g.task) for g in config.groups] == [("rob_l", "T_ROB_L"), ("rob_r", "T_ROB_R")]
+    assert [len(g.joints) for g in config.groups] == [7, 7]
+
+
+DELTA = robot(
+    BASE,
+    *(
+        joint(f"upper_{n}", "base_link", f"u{n}") + links(f"u{n}")
+        + joint(f"lower_{n}", f"u{n}", f"v{n}") + links(f"v{n}")
+        for n in (1, 2, 3)
+    ),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "word"),
+    [
+        (DELTA, "a delta robot"),
+        (robot(BASE, TABLE, PLATE), "2 joints and no robot"),
+        (robot(BASE, arm(), name="kuka_kr5_arc"), "is no robot of ABB"),
+        (robot(BASE, arm(), name="ur10e_robot"), "is no robot of ABB"),
+    ],
+)
+def test_what_is_no_robot_of_abb_is_told_as_such(tmp_path, text, word):
+    with pytest.raises(DiagnosticError) as caught:
+        made(tmp_path, text)
+    assert [d.code for d in caught.value.diagnostics] == ["RG059"]
+    assert word in caught.value.diagnostics[0].message
+    assert not (tmp_path / "cell.yaml").exists()
