@@ -22,7 +22,7 @@ _PING = messages.encode(messages.RawPing(), RawComm.REQUEST)
 @case("stops-alone", "STOP while the supervisor hangs", "R7b")
 def _alone(bench: Bench) -> None:
     """Whoever asks the supervisor in vain stops the robot itself, and nobody says it is done."""
-    for port in ("control", "motion", "heartbeat"):
+    for port in ("control", "motion", "heartbeat", "leaves"):
         with bench.beside(bench.system) as other:
             _stops_alone(other, port)
 
@@ -36,7 +36,9 @@ def _stops_alone(bench: Bench, port: str) -> None:
     orders, last = watched_orders(bench), bench.last_event
     supervisor.stop()
     asked = bench.now
-    if port != "heartbeat":
+    if port == "leaves":
+        link.close()
+    elif port != "heartbeat":
         chosen = control if port == "control" else link
         chosen.send(STOP)
         told = chosen.reply(_TRAJ, 2)
@@ -57,6 +59,7 @@ def _stops_alone(bench: Bench, port: str) -> None:
         refused = control.ask(messages.RawPause(paused))
         not_done(refused, RawReason.INTERNAL, f"the supervisor hangs, PAUSE {paused}")
     bench.stays(1, "the robot was stopped, the supervisor hangs")
+    link = link if port != "leaves" else bench.motion()
     supervisor.start()
     bench.stays(3, "the supervisor goes on")
     if bench.setting.motion.stop_owner == "kind":

@@ -390,6 +390,27 @@ def _halts(bench: Bench) -> None:
         raise Broken("main of the motion task began anew")
 
 
+@case("halted-twice", "another halt while main leaves a move", "R5, R7b")
+def _halted_twice(bench: Bench) -> None:
+    """Where the trap has left a move a bell rings again, before main does anything else."""
+    link, unit = bench.motion(), unit_of(bench)
+    task = bench.rapid_task("ROS_motion")
+
+    def ask() -> None:
+        link.at_once(STOP)
+        # Long enough for the motion server and for two interrupts.
+        task.sleep(0.08)
+
+    for call in (1, 2):
+        begins(bench, link, bench.wave(5, duration=unit))
+        bench.run(1.15 * unit)
+        at_call(bench, "ROS_motion", "SkipWarn", call, ask)
+        link.send(STOP)
+        bench.rests(2, 0.5, "it was stopped twice")
+        bench.healthy()
+        bench.moves_through(link, bench.wave(3))
+
+
 def datum(bench: Bench, name: str) -> str:
     """Full name of a PERS of this group: with several groups they end in its number."""
     task = bench.rapid_task("ROS_motion")

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "d18784666d9f";
+    CONST string ROS_BUILD_MOTION := "e09af2ab96b3";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -238,7 +238,6 @@ MODULE ROS_motion
     ERROR (path_gone)
         ! The trap comes here: nothing was reached.
         SkipWarn;
-        in_move := FALSE;
         RETURN;
     ENDPROC
 
@@ -443,7 +442,10 @@ MODULE ROS_motion
         IF ROS_speed_asked <> ROS_speed_done set_speed;
         IF ROS_abort = ROS_abort_done RETURN;
         clear_path;
-        IF in_move RAISE path_gone;
+        IF NOT in_move RETURN;
+        ! Now: a bell may ring again before main does anything.
+        in_move := FALSE;
+        RAISE path_gone;
     ERROR
         SkipWarn;
         RAISE;

@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "88f945faf20e";
+    CONST string ROS_BUILD_MOTION := "4187793f3053";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -225,7 +225,6 @@ MODULE ROS_motion
     ERROR (path_gone)
         ! The trap comes here: nothing was reached.
         SkipWarn;
-        in_move := FALSE;
         RETURN;
     ENDPROC
 
@@ -394,7 +393,10 @@ MODULE ROS_motion
         IF ROS_speed_asked_1 <> ROS_speed_done_1 set_speed;
         IF ROS_abort_1 = ROS_abort_done_1 RETURN;
         clear_path;
-        IF in_move RAISE path_gone;
+        IF NOT in_move RETURN;
+        ! Now: a bell may ring again before main does anything.
+        in_move := FALSE;
+        RAISE path_gone;
     ERROR
         SkipWarn;
         RAISE;

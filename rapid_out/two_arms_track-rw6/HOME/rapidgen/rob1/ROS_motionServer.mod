@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "88f945faf20e";
+    CONST string ROS_BUILD_MOTION_SERVER := "4187793f3053";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -229,6 +229,7 @@ MODULE ROS_motionServer
         ROS_lose_download;
         ROS_lose_stream;
         ROS_end_session ROS_REASON_CLIENT_LOST;
+        ROS_await_halt;
     ENDPROC
 
     ! While the ring is being fed, look for bytes without waiting for them.
