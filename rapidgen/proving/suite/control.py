@@ -27,6 +27,12 @@ def stop(link: RawLink, seconds: float = 1) -> None:
         raise Broken("STOP on the control port is not confirmed")
 
 
+def stopped(link: RawLink, trajectory: int) -> None:
+    """Wait for STOPPED of this trajectory; that of one before may come first."""
+    while link.expect(messages.RawStopped, 3, "STOPPED arrives").trajectory != trajectory:
+        pass
+
+
 def not_done(told: object, reason: RawReason, what: str) -> None:
     """Broken unless a reply says that it was not done, for that reason."""
     if told != messages.RawNotDone(reason):
@@ -297,7 +303,7 @@ def _heartbeats(bench: Bench) -> None:
         bench.sets_off(link, bench.wave(30))
         control.ask(beat)
         # Some controllers let the supervisor go on only when the robot has settled.
-        control.expect(messages.RawStopped, 3, "without a heartbeat the robot stops again")
+        stopped(control, bench.progress(watcher).trajectory)
         told = control.ask(messages.RawHeartbeat(0))
         if (
             not isinstance(told, messages.RawHeartbeatReply)

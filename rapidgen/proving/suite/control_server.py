@@ -9,7 +9,7 @@ from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import RawComm, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.stream import BEGIN, Streamer
-from rapidgen.proving.suite.control import not_done, stop
+from rapidgen.proving.suite.control import not_done, stop, stopped
 from rapidgen.proving.suite.streams import way
 
 case = Theme("controlling", needs="control")
@@ -108,7 +108,7 @@ def _beats(bench: Bench) -> None:
         bench.sets_off(link, bench.wave(12))
         orders.clear()
         control.ask(messages.RawHeartbeat(0.1))
-        control.ask(messages.RawHeartbeat(seconds))
+        beating = control.ask(messages.RawHeartbeat(seconds))
         last = bench.now
         bench.run(seconds - 0.01)
         for _ in range(8):
@@ -120,8 +120,10 @@ def _beats(bench: Bench) -> None:
         if not stops or not seconds - 0.02 <= stops[0] - last <= seconds + late:
             raise Broken(f"heartbeats of {seconds} s: the last at {last:.3f} s, stops {stops}")
         if seconds > 1:
+            if not isinstance(beating, messages.RawHeartbeatReply):
+                raise Broken(f"HEARTBEAT is answered by {beating}")
             # Some controllers let the supervisor go on only when the robot has settled.
-            control.expect(messages.RawStopped, 3, "a missing heartbeat stops the robot")
+            stopped(control, beating.trajectory)
             told = control.ask(messages.RawHeartbeat(0.2))
             if not isinstance(told, messages.RawHeartbeatReply) or told.state != _FAILED:
                 raise Broken(f"a heartbeat after one was missing is answered by {told}")

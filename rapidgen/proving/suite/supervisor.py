@@ -251,7 +251,7 @@ def _stop_in_the_end_of_a_pause(bench: Bench) -> None:
     def stop() -> None:
         link.at_once(STOP)
         # Long enough for the motion server, too short for an interrupt.
-        supervisor.sleep(0.004)
+        supervisor.sleep(0.004 * bench.setting.slowness)
 
     for _ in range(4):
         begins(bench, link, bench.wave(4, duration=unit, size=0.3))
