@@ -113,7 +113,7 @@ DEFECTS = {
     ),
     "leaves-moving": (
         "ROS_motionServer",
-        "ROS_end_session ROS_REASON_CLIENT_LOST;\n    ENDPROC",
+        "ROS_end_session ROS_REASON_CLIENT_LOST;\n        ROS_await_halt;\n    ENDPROC",
         "ENDPROC",
     ),
 }
