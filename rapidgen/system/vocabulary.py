@@ -1,8 +1,8 @@
 """Sections, attributes and words of cfg files, by release, each with who has shown it.
 
 Sources: backups of controllers of RobotWare 5.15 (KRAKER), 5.61 (MCUBE), 6.03-6.14 and 7.5-7.6,
-ABB's own files for 7.x (RARO, the DAP example on HOME of a 7.6), field.md in short. What nobody
-has shown is not here, and is refused in a generated file.
+ABB's own files for 7.x (RARO, the DAP example on HOME of a 7.6); docs/rapid/cfg.md names
+them. What nobody has shown is not here, and is refused in a generated file.
 """
 
 from collections.abc import Mapping

@@ -1,7 +1,7 @@
 """abb_driver on the same controller: it goes first, its files stay, its signals are used.
 
-Its instances are those of its own page and of a RW 6.06 backup that has it (field.md, HONG): three
-modules with -AllTask, two SEMISTATIC tasks, the motion module in T_ROB1.
+Its instances are those of its own page and of a RW 6.06 backup that has it (HONG in
+docs/rapid/cfg.md): three modules with -AllTask, two SEMISTATIC tasks, the motion module in T_ROB1.
 """
 
 import shutil

@@ -1,4 +1,4 @@
-"""Loading a cfg file onto a controller: events that controllers answered with, rows of field.md §1.
+"""Loading a cfg file onto a controller: events that controllers answered with (docs/rapid/cfg.md).
 
 Each base is one of the delivered ones; each fault was met by a controller, or contradicts what
 all backups and ABB's own files show.
