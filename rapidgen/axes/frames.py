@@ -6,7 +6,15 @@ Written for speed on single poses: no arrays, no classes with methods to look up
 from math import acos, asin, atan2, cos, pi, sin, sqrt
 from typing import TypeAlias
 
-Vector: TypeAlias = tuple[float, float, float]
+from rapidgen.config.vectors import Vector as Vector
+from rapidgen.config.vectors import add as add
+from rapidgen.config.vectors import cross as cross
+from rapidgen.config.vectors import dot as dot
+from rapidgen.config.vectors import norm as norm
+from rapidgen.config.vectors import scale as scale
+from rapidgen.config.vectors import subtract as subtract
+from rapidgen.config.vectors import unit as unit
+
 Quaternion: TypeAlias = tuple[float, float, float, float]
 Pose: TypeAlias = tuple[Vector, Quaternion]
 """Position and orientation of one frame in another."""
@@ -18,48 +26,9 @@ UNIT: Quaternion = (1.0, 0.0, 0.0, 0.0)
 IDENTITY: Pose = (ORIGIN, UNIT)
 
 
-def add(a: Vector, b: Vector) -> Vector:
-    """a + b"""
-    return a[0] + b[0], a[1] + b[1], a[2] + b[2]
-
-
-def subtract(a: Vector, b: Vector) -> Vector:
-    """a - b"""
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
-
-
-def scale(a: Vector, factor: float) -> Vector:
-    """factor * a"""
-    return a[0] * factor, a[1] * factor, a[2] * factor
-
-
-def dot(a: Vector, b: Vector) -> float:
-    """Scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """Vector product."""
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
-
-
-def norm(a: Vector) -> float:
-    """Length."""
-    return sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
-
-
 def distance(a: Vector, b: Vector) -> float:
     """Distance of two points."""
     return norm(subtract(a, b))
-
-
-def unit(a: Vector) -> Vector:
-    """a / |a|. ZeroDivisionError for the zero vector."""
-    return scale(a, 1 / norm(a))
 
 
 def multiply(a: Quaternion, b: Quaternion) -> Quaternion:

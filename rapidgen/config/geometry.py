@@ -12,8 +12,8 @@ from typing import TypeAlias
 
 from rapidgen.config.draft import GroupDraft
 from rapidgen.config.model import ChainLink
+from rapidgen.config.vectors import Vector, add, cross, dot, norm, scale, subtract, unit
 
-Vector: TypeAlias = tuple[float, float, float]
 Matrix: TypeAlias = tuple[Vector, Vector, Vector]
 _PARALLEL = 1e-3
 IDENTITY: Matrix = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
@@ -49,45 +49,6 @@ class Difference:
     angle: float
     turned: tuple[str, ...]
     end: float
-
-
-def add(a: Vector, b: Vector) -> Vector:
-    """Sum."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def subtract(a: Vector, b: Vector) -> Vector:
-    """Difference."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def scale(a: Vector, by: float) -> Vector:
-    """A multiple."""
-    return (a[0] * by, a[1] * by, a[2] * by)
-
-
-def dot(a: Vector, b: Vector) -> float:
-    """Inner product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Vector, b: Vector) -> Vector:
-    """Cross product."""
-    return (
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    )
-
-
-def norm(a: Vector) -> float:
-    """Length."""
-    return math.sqrt(dot(a, a))
-
-
-def unit(a: Vector) -> Vector:
-    """The direction of a vector that is not zero."""
-    return scale(a, 1 / norm(a))
 
 
 def apply(m: Matrix, v: Vector) -> Vector:

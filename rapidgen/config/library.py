@@ -13,7 +13,8 @@ from functools import cache
 from rapidgen._data import data_folder
 from rapidgen._json import Json, Members, items, members, number, text
 from rapidgen.config.draft import GroupDraft
-from rapidgen.config.geometry import Difference, Line, Skeleton, compare, skeleton, unit
+from rapidgen.config.geometry import Difference, Line, Skeleton, compare, skeleton
+from rapidgen.config.vectors import unit
 
 SAME_PLACE = 0.003
 """m by which two public sources of one variant may differ (rounded dimensions)."""

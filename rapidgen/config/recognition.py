@@ -10,23 +10,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
 
-from rapidgen.config.geometry import (
-    Line,
-    Skeleton,
-    Vector,
-    add,
-    apply,
-    cross,
-    distance,
-    dot,
-    laid,
-    norm,
-    scale,
-    subtract,
-    turn,
-    unit,
-)
+from rapidgen.config.geometry import Line, Skeleton, apply, distance, laid, turn
 from rapidgen.config.library import SAME_PLACE, SAME_TURN, Variant, closeness, family, variants
+from rapidgen.config.vectors import Vector, add, cross, dot, norm, scale, subtract, unit
 
 _ROUGH = 0.01
 """m by which the axes of a careless export may be off, where its name says what it is."""

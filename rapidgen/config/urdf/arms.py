@@ -5,10 +5,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 from rapidgen.config.axis_sets import ROBOT_AXES
-from rapidgen.config.geometry import IDENTITY, Line, Vector, add, apply, from_rpy, times
+from rapidgen.config.geometry import IDENTITY, Line, apply, from_rpy, times
 from rapidgen.config.recognition import Alignment, align
 from rapidgen.config.urdf.graph import Graph
 from rapidgen.config.urdf.robot import UrdfJoint
+from rapidgen.config.vectors import Vector, add
 from rapidgen.diagnostics import Diagnostic, Span, error, refusal
 
 MOST_MOVING = 120

@@ -1,0 +1,45 @@
+"""Vectors of three numbers as plain tuples: for single ones, without arrays."""
+
+import math
+from typing import TypeAlias
+
+Vector: TypeAlias = tuple[float, float, float]
+
+
+def add(a: Vector, b: Vector) -> Vector:
+    """Sum."""
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
+
+
+def subtract(a: Vector, b: Vector) -> Vector:
+    """Difference."""
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def scale(a: Vector, by: float) -> Vector:
+    """A multiple."""
+    return (a[0] * by, a[1] * by, a[2] * by)
+
+
+def dot(a: Vector, b: Vector) -> float:
+    """Inner product."""
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+
+
+def cross(a: Vector, b: Vector) -> Vector:
+    """Cross product."""
+    return (
+        a[1] * b[2] - a[2] * b[1],
+        a[2] * b[0] - a[0] * b[2],
+        a[0] * b[1] - a[1] * b[0],
+    )
+
+
+def norm(a: Vector) -> float:
+    """Length."""
+    return math.sqrt(dot(a, a))
+
+
+def unit(a: Vector) -> Vector:
+    """The direction of a vector. ZeroDivisionError for the zero vector."""
+    return scale(a, 1 / norm(a))
