@@ -14,17 +14,7 @@ from rapidgen.system.adding import faults_within
 from rapidgen.system.base.releases import DOMAINS
 from rapidgen.system.cfg import CfgText, parse_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
-from rapidgen.system.interpret import (
-    ModuleEntry,
-    crosses_of,
-    events_of,
-    groups_of,
-    inputs_of,
-    modules_of,
-    outputs_of,
-    signals_of,
-    tasks_of,
-)
+from rapidgen.system.interpret import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.loading import load_entries, load_module
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 from rapidgen.system.paths import inside, module_files, read_limited
@@ -73,19 +63,14 @@ def read_backup(folder: Path | str, *, notes: list[Diagnostic] | None = None) ->
         )
         for n, task in enumerate(tasks_of(sys_cfg), 1)
     )
-    return System(
+    found = System(
         name=folder.resolve().name,
         tasks=tasks,
-        signals=signals_of(eio_cfg),
-        outputs=outputs_of(eio_cfg, sys_cfg),
-        inputs=inputs_of(eio_cfg, sys_cfg),
-        cross=crosses_of(eio_cfg),
-        events=events_of(sys_cfg),
-        groups=groups_of(sys_cfg),
         robotware=_robotware(info, sys_cfg, collected),
         home=home if home.is_dir() else None,
         robot_types=_robot_types(folder, collected),
     )
+    return with_cfg(found, sys_cfg, eio_cfg)
 
 
 def _robot_types(folder: Path, notes: list[Diagnostic]) -> tuple[tuple[str, str], ...]:

@@ -5,7 +5,7 @@ are only remembered are marked [mem].
 """
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, cast, get_args
 
 from rapidgen.diagnostics import DiagnosticError, Span, refusal, suggest
@@ -17,6 +17,7 @@ from rapidgen.system.model import (
     QueueSpec,
     SignalSpec,
     SignalType,
+    System,
     SystemInput,
     SystemOutput,
     TaskSpec,
@@ -245,4 +246,17 @@ def _fault(cfg: CfgText, instance: Instance, label: str, help: str = "") -> Diag
         "an instance in a cfg file cannot be understood",
         help,
         label=label,
+    )
+
+
+def with_cfg(system: System, sys: CfgText, eio: CfgText) -> System:
+    """`system` with signals, event routines and unit groups of its two domains."""
+    return replace(
+        system,
+        signals=signals_of(eio),
+        outputs=outputs_of(eio, sys),
+        inputs=inputs_of(eio, sys),
+        cross=crosses_of(eio),
+        events=events_of(sys),
+        groups=groups_of(sys),
     )

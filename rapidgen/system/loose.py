@@ -7,15 +7,7 @@ from pathlib import Path
 
 from rapidgen.diagnostics import refusal
 from rapidgen.system.cfg import CfgText, parse_cfg
-from rapidgen.system.interpret import (
-    crosses_of,
-    events_of,
-    groups_of,
-    inputs_of,
-    outputs_of,
-    signals_of,
-    tasks_of,
-)
+from rapidgen.system.interpret import tasks_of, with_cfg
 from rapidgen.system.loading import expand, load_module
 from rapidgen.system.model import System, TaskSpec
 from rapidgen.system.paths import read_limited
@@ -62,18 +54,13 @@ def read_files(
             spec = TaskSpec(task, entry=entry, motion=task in motion)
         modules = tuple(load_module(path) for path in paths)
         specs.append(replace(spec, modules=modules))
-    return System(
+    found = System(
         name=name,
         tasks=tuple(specs),
-        signals=signals_of(eio_cfg),
-        outputs=outputs_of(eio_cfg, sys_cfg),
-        inputs=inputs_of(eio_cfg, sys_cfg),
-        cross=crosses_of(eio_cfg),
-        events=events_of(sys_cfg),
-        groups=groups_of(sys_cfg),
         robotware=robotware,
         home=home,
     )
+    return with_cfg(found, sys_cfg, eio_cfg)
 
 
 def _merged(texts: Sequence[CfgText], domain: str, robotware: tuple[int, int]) -> CfgText:

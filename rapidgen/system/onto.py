@@ -10,17 +10,7 @@ from rapidgen.system.adding import Addition, add
 from rapidgen.system.base import Robot, base_system
 from rapidgen.system.cfg import parse_cfg
 from rapidgen.system.controller_cfg import ControllerCfg
-from rapidgen.system.interpret import (
-    ModuleEntry,
-    crosses_of,
-    events_of,
-    groups_of,
-    inputs_of,
-    modules_of,
-    outputs_of,
-    signals_of,
-    tasks_of,
-)
+from rapidgen.system.interpret import ModuleEntry, modules_of, tasks_of, with_cfg
 from rapidgen.system.model import ModuleFile, System, TaskSpec
 
 Load = Callable[[TaskSpec, tuple[ModuleEntry, ...], str], tuple[ModuleFile, ...]]
@@ -129,16 +119,7 @@ def onto(
     for task in tasks_of(sys):
         known = replace(task, modules=before.get(task.name.casefold(), under.common))
         tasks.append(replace(task, modules=load(known, entries, own[0].path if own else "")))
-    return replace(
-        under.system,
-        tasks=tuple(tasks),
-        signals=signals_of(eio),
-        outputs=outputs_of(eio, sys),
-        inputs=inputs_of(eio, sys),
-        cross=crosses_of(eio),
-        events=events_of(sys),
-        groups=groups_of(sys),
-    )
+    return with_cfg(replace(under.system, tasks=tuple(tasks)), sys, eio)
 
 
 def bad_manifest(path: Path, label: str) -> DiagnosticError:
