@@ -58,7 +58,7 @@ def test_plan_then_exactly_that_plan(run, built, home, tmp_path, kit):
     url, file = f"dir://{home}", tmp_path / "plan.json"
     code, out, _ = run("plan", built(OLD), "--to", url, "--detailed-exitcode", "--out", file)
     assert code == 2
-    assert "  + HOME:/rapidgen/ROS_common.sys " in out
+    assert "  + HOME:/rapidgen: " in out
     assert "Plan: 6 to add, 0 to change, 0 to remove." in out
     assert run("plan", built(OLD), "--to", url)[0] == 0
     assert json.loads(file.read_text())["plans"][0]["name"] == "cell1"
@@ -72,6 +72,20 @@ def test_plan_then_exactly_that_plan(run, built, home, tmp_path, kit):
     assert (code, "RG522" in err) == (1, True)
     code, _, err = run("plan", built(OLD), "--to", "dir:///nowhere", "--detailed-exitcode")
     assert (code, "RG506" in err) == (1, True)
+
+
+def test_a_plan_is_short_and_tells_what_was_configured_otherwise(run, home):
+    url = ("--to", f"dir://{home}")
+    out = run("plan", "irb120", *url)[1]
+    assert len(out.splitlines()) <= 25
+    assert "HOME:/rapidgen: 13 files, new, " in out
+    assert "  + SYS: CAB_TASKS T_ROS_RECV, T_ROS_SUP, T_ROS_CONTROL, T_ROS_STATE\n" in out
+    assert run("deploy", "irb120", *url, "--yes")[0] == 0
+    out = run("plan", "irb120", *url, "--set", "state.rate=20")[1]
+    assert len(out.splitlines()) <= 25
+    assert "  ~ state_period: 0.1 -> 0.05\n" in out
+    assert "  ~ HOME:/rapidgen/ROS_stateServer.mod   +3 -3\n" in out
+    assert "files, nothing but the build's id\n" in out
 
 
 def test_nobody_there_to_answer(run, built, home, monkeypatch):

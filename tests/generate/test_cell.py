@@ -224,3 +224,11 @@ def test_the_firewall_of_the_cell_stays_open(backup):
     opened = sio.replace("-EnableOnIONet", "-EnableOnPublicNet -EnableOnPrivateNet")
     (backup / "SYSPAR/SIO.cfg").write_text(opened)
     assert "SIO.cfg" not in built(backup, "crb15000")[2]
+
+
+def test_another_build_id_where_the_cell_makes_other_files(backup):
+    before = built(backup)[1]
+    edit(backup, "SYS.cfg", "-SeqNo 50", "-SeqNo 60")
+    after = built(backup)[1]
+    assert [f.data for f in before.files] != [f.data for f in after.files]
+    assert before.build_id != after.build_id
