@@ -14,7 +14,7 @@ from rapidgen.config import to_manifest
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import DiagnosticError
 from rapidgen.generate import layout
-from rapidgen.generate.cell import Cell, in_the_way, missing, used_signals
+from rapidgen.generate.cell import Cell, check_data, in_the_way, missing, used_signals
 from rapidgen.generate.context import group_context, used_constants
 from rapidgen.generate.lint import lint
 from rapidgen.generate.naming import naming
@@ -37,7 +37,8 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     Raises DiagnosticError: RG101 (a name or text of the configuration does not fit into RAPID),
     RG105 (the first line of a cfg file is not known for this RobotWare), RG106 (a name is taken in
     RAPID), RG110 (the cell has something in another way), RG112 (its program has a name that ours
-    needs), RG720..RG723 (it would not load the files).
+    needs), RG113 (it does not declare data that it should), RG720..RG723 (it would not load the
+    files).
     """
     templates = data_folder("templates")
     renderer = Renderer(templates)
@@ -46,6 +47,7 @@ def build(config: RobotConfig, cell: Cell | None = None) -> Output:
     parameters = cfg_files(config, system)
     used = {}
     if cell is not None:
+        check_data(config, cell.system)
         used = used_signals(parameters, cell)
         parameters = missing(parameters, cell)
     files = [

@@ -14,6 +14,7 @@ from rapidgen.deploy import parse_target
 from rapidgen.deploy.secrets import Credentials, Secret, find_password, redact
 from rapidgen.diagnostics import DiagnosticError, render
 from rapidgen.faces import serve_ftp, serve_sftp
+from tests.generate.cell_backup import write_backup
 from tests.refusal import refusal, refused
 
 OLD, NEW = "aaaaaaaaaaaa", "bbbbbbbbbbbb"
@@ -243,3 +244,17 @@ def test_a_url_that_leads_nowhere_tells_what_there_is(run, built, url):
     assert "error[RG509]" in err
     assert "help:" in err
     assert "Errno" not in err
+
+
+def test_a_plan_with_a_backup_looks_for_data_of_the_users_program(run, home, tmp_path):
+    backup = write_backup(tmp_path / "cell")
+    cfg = backup / "SYSPAR/SYS.cfg"
+    cfg.write_text(cfg.read_text().replace("T_MOVE", "T_ROB1"))
+    words = ("irb120", "--to", f"dir://{home}", "--backup", backup, "--set", "payload.name=lPart")
+    code, _, err = run("plan", *words)
+    assert code == 2
+    assert "RG113" in err
+    assert "loaddata lPart" in err
+    program = backup / "RAPID/TASK1/PROGMOD/theirs.mod"
+    program.write_text(program.read_text().replace("  PROC", "  PERS loaddata lPart;\n  PROC", 1))
+    assert run("plan", *words)[0] == 0
