@@ -246,16 +246,15 @@ def test_a_generated_folder_must_be_whole(tmp_path):
     with pytest.raises(DiagnosticError) as caught:
         read_folder(tmp_path)
     assert code_of(caught) == ["RG710"]
-    put(tmp_path / "HOME/a.sys", MODULE % b"Shared")
-    put(tmp_path / "HOME/b.sys", MODULE % b"shared")
+    put(tmp_path / "HOME/a.sys", MODULE % b"Aye")
+    robot, added = read_folder(tmp_path).tasks
+    assert (robot.name, robot.motion, [m.name for m in robot.modules]) == ("T_ROB1", True, ["Aye"])
+    put(tmp_path / "HOME/b.sys", MODULE % b"aye")
     with (tmp_path / "SYS.cfg").open("a") as cfg:
         cfg.write('\n -File "HOME:/b.sys" -AllTask\n')
     with pytest.raises(DiagnosticError) as caught:
         read_folder(tmp_path)
     assert code_of(caught) == ["RG714"]
-    put(tmp_path / "HOME/a.sys", MODULE % b"Aye")
-    robot, added = read_folder(tmp_path).tasks
-    assert (robot.name, robot.motion, [m.name for m in robot.modules]) == ("T_ROB1", True, ["Aye"])
     assert (added.name, added.type) == ("T_A", "SEMISTATIC")
 
 
