@@ -127,7 +127,7 @@ def unexpected(
 
 def _mend(expected: str) -> str:
     if "';'" in expected:
-        return (
+        return "a statement or declaration ends with ';': perhaps the one before has none"
             "a statement or declaration ends with ';': perhaps the one before this place has none"
         )
     return f"write {expected} here, or take out what stands here"
