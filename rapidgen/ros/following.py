@@ -55,13 +55,22 @@ class Feedback:
         return difference
 
 
-class _Under:
-    """A goal under way: who wants it to end."""
+class UnderWay:
+    """A goal from its acceptance to its end, and whether somebody wants it to end."""
 
     def __init__(self) -> None:
         self.ending = asyncio.Event()
         self.over = asyncio.Event()
         self.is_replaced = False
+
+    def cancel(self) -> None:
+        """End it, on the follower's loop; `follow` returns when the robot stands."""
+        self.ending.set()
+
+    def replace(self) -> None:
+        """End it in favour of another one."""
+        self.is_replaced = True
+        self.ending.set()
 
 
 class Follower:
@@ -79,23 +88,23 @@ class Follower:
         self._policy = policy
         self._now = now
         self._note = note
-        self._current: _Under | None = None
+        self._current: UnderWay | None = None
 
     @property
     def is_busy(self) -> bool:
         """Whether a goal is under way."""
         return self._current is not None
 
-    def cancel(self) -> None:
-        """End the goal under way; its `follow` returns when the robot stands."""
-        if self._current is not None:
-            self._current.ending.set()
+    async def follow(
+        self, goal: Goal, tell: Callable[[Feedback], None], under: UnderWay
+    ) -> Outcome:
+        """Carry out a goal; returns when it is over and, after a stop, the robot stands.
 
-    async def follow(self, goal: Goal, tell: Callable[[Feedback], None]) -> Outcome:
-        """Carry out a goal; returns when it is over and, after a stop, the robot stands."""
+        `under` is how it is cancelled, also before this is called.
+        """
         try:
             asked = judge(goal, self._robot.group.names, self._policy.defaults, self._now())
-            under = await self._enter()
+            await self._enter(under)
         except GoalRefused as refused:
             return refused.outcome
         except RobotError as error:
@@ -107,8 +116,8 @@ class Follower:
                 self._current = None
             under.over.set()
 
-    async def _enter(self) -> _Under:
-        """The place of the goal under way, once nobody else has it. Raises GoalRefused."""
+    async def _enter(self, under: UnderWay) -> None:
+        """Take the place of the goal under way, once nobody has it. Raises GoalRefused."""
         while (other := self._current) is not None:
             if self._policy.replace == "refuse":
                 raise GoalRefused(
@@ -116,16 +125,14 @@ class Follower:
                     "another goal is executed: cancel it and wait for its end "
                     "(replace: approach would stop it)",
                 )
-            other.is_replaced = True
-            other.ending.set()
+            other.replace()
             await other.over.wait()
-        self._current = under = _Under()
-        return under
+        self._current = under
 
     async def _carried_out(
-        self, asked: Asked, under: _Under, tell: Callable[[Feedback], None]
+        self, asked: Asked, under: UnderWay, tell: Callable[[Feedback], None]
     ) -> Outcome:
-        if asked.start is not None and await self._waited(asked.start, under):
+        if await self._waited(asked.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
         try:
             asked = self._fitted(asked)
@@ -142,16 +149,16 @@ class Follower:
             self._note(note)
         return await self._until_over(asked, execution, under, tell)
 
-    async def _waited(self, start: float, under: _Under) -> bool:
-        """Wait for the moment `start` s of ROS time; True when the goal is ended meanwhile."""
+    async def _waited(self, start: float, under: UnderWay) -> bool:
+        """Wait for the moment `start` s of ROS time; True when the goal is ended before it."""
         while (left := start - self._now()) > 0:
             ending = asyncio.ensure_future(under.ending.wait())
             # ROS time may be simulated, at a speed of its own: it is looked at again.
             await asyncio.wait({ending}, timeout=min(left, 0.1))
             if under.ending.is_set():
-                return True
+                break
             await _cancelled(ending)
-        return False
+        return under.ending.is_set()
 
     def _fitted(self, asked: Asked) -> Asked:
         """The points as the user's policy has them sent. Raises GoalRefused."""
@@ -189,7 +196,7 @@ class Follower:
         )
         return asked.with_trajectory(trajectory.starting_at(state, seconds), told)
 
-    async def _accepted(self, trajectory: Trajectory, under: _Under) -> AsyncExecution | None:
+    async def _accepted(self, trajectory: Trajectory, under: UnderWay) -> AsyncExecution | None:
         """The motion; None when the goal was ended before the controller took it."""
         sending = asyncio.ensure_future(self._robot.execute(trajectory))
         ending = asyncio.ensure_future(under.ending.wait())
@@ -208,7 +215,7 @@ class Follower:
         self,
         asked: Asked,
         execution: AsyncExecution,
-        under: _Under,
+        under: UnderWay,
         tell: Callable[[Feedback], None],
     ) -> Outcome:
         result = asyncio.ensure_future(execution.result())
@@ -365,7 +372,7 @@ async def _stopped(execution: AsyncExecution) -> Outcome | None:
     return None
 
 
-def _ended_early(under: _Under, where: str) -> Outcome:
+def _ended_early(under: UnderWay, where: str) -> Outcome:
     if under.is_replaced:
         return Outcome(Status.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
     return Outcome(Status.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 import numpy as np
 from driven import booted, robot_of
 
-from rapidgen.ros.following import Follower, Policy
+from rapidgen.ros.following import Follower, Policy, UnderWay
 from rapidgen.ros.goals import Goal, Point
 from rapidgen.testing.asyncio_clock import VirtualLoop
 
@@ -20,8 +20,8 @@ class Station:
         self.notes, self.fed = [], []
         self.follower = Follower(robot, policy, loop.time, self.notes.append)
 
-    def follow(self, goal):
-        return self.follower.follow(goal, self.fed.append)
+    def follow(self, goal, under=None):
+        return self.follower.follow(goal, self.fed.append, under or UnderWay())
 
     def run(self, coroutine):
         return self.loop.run_until_complete(coroutine)

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from ready import NAMES, goal, station
 
-from rapidgen.ros.following import Policy
+from rapidgen.ros.following import Policy, UnderWay
 from rapidgen.ros.goals import Code, Defaults, Point, Status, Tolerance
 
 THERE = goal(0.0, 0.1, 0.2)
@@ -110,7 +110,8 @@ def test_a_stamp_in_the_past_is_refused_and_one_under_way_is_not():
 @pytest.mark.parametrize("after", [0.0, 0.05, 0.4, 1.2])
 def test_cancel_ends_when_the_robot_stands(after):
     with station() as s:
-        outcome = s.run(_after(s, after, s.follow(goal(0.0, 0.5, 1.0)), s.follower.cancel))
+        under = UnderWay()
+        outcome = s.run(_after(s, after, s.follow(goal(0.0, 0.5, 1.0), under), under.cancel))
         assert outcome.status is Status.CANCELED
         assert s.stands
         stood = s.joints
@@ -130,8 +131,17 @@ async def _after(s, seconds, following, act):
 def test_cancel_before_the_stamp():
     with station() as s:
         asked = replace(THERE, stamp=s.loop.time() + 5)
-        outcome = s.run(_after(s, 1.0, s.follow(asked), s.follower.cancel))
+        under = UnderWay()
+        outcome = s.run(_after(s, 1.0, s.follow(asked, under), under.cancel))
         assert outcome.status is Status.CANCELED
+        assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
+
+
+def test_cancelled_before_it_was_begun():
+    with station() as s:
+        under = UnderWay()
+        under.cancel()
+        assert s.run(s.follow(goal(0.0, 0.5), under)).status is Status.CANCELED
         assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
 
 
