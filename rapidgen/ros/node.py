@@ -60,10 +60,13 @@ class Driver(LifecycleNode):  # type: ignore[misc]
         self._running: list[Future[None]] = []
         self.add_on_set_parameters_callback(self._parameters_set)
         if self.get_parameter("autostart").value:
-            self.trigger_configure()
-            self.trigger_activate()
+            self._start()
 
     # Life cycle
+
+    def _start(self) -> None:
+        if self.trigger_configure() is TransitionCallbackReturn.SUCCESS:
+            self.trigger_activate()
 
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Read the configuration; topics, services and actions are there from now on."""
