@@ -15,7 +15,7 @@ from rapidgen.client.aio import AsyncExecution, AsyncRobot
 from rapidgen.client.core.motion import Result
 from rapidgen.client.errors import MotionError, MotionStopped, RobotError, StopFailed
 from rapidgen.client.trajectory import Array, Trajectory
-from rapidgen.ros.goals import Asked, Code, Defaults, Goal, GoalRefused, Outcome, Status, judge
+from rapidgen.ros.goals import Asked, Code, Defaults, Ending, Goal, GoalRefused, Outcome, judge
 from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
 
 _APPROACH = 0.1
@@ -37,7 +37,7 @@ class Policy:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Feedback:
+class GoalFeedback:
     """Of FollowJointTrajectory: positions rad or m and velocities (k,), `time` s since the start;
     `error` is desired minus actual."""
 
@@ -96,7 +96,7 @@ class Follower:
         return self._current is not None
 
     async def follow(
-        self, goal: Goal, tell: Callable[[Feedback], None], under: UnderWay
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
     ) -> Outcome:
         """Carry out a goal; returns when it is over and, after a stop, the robot stands.
 
@@ -130,7 +130,7 @@ class Follower:
         self._current = under
 
     async def _carried_out(
-        self, asked: Asked, under: UnderWay, tell: Callable[[Feedback], None]
+        self, asked: Asked, under: UnderWay, tell: Callable[[GoalFeedback], None]
     ) -> Outcome:
         if await self._waited(asked.start or 0.0, under):
             return _ended_early(under, "before it started: nothing moved")
@@ -168,8 +168,10 @@ class Follower:
                 "path_tolerance cannot be watched: this driver sends no feedback with the "
                 "controller's time (-1 asks for none)",
             )
+        shortest = self._robot.group.policy.min_segment
         if self._policy.dense == "resample":
-            asked = resampled(asked, self._robot.group.policy.min_segment)
+            asked = resampled(asked, shortest)
+        asked = with_time_to_stop(asked, shortest)
         if self._policy.replace == "approach":
             asked = self._approached(asked)
         return asked
@@ -216,7 +218,7 @@ class Follower:
         asked: Asked,
         execution: AsyncExecution,
         under: UnderWay,
-        tell: Callable[[Feedback], None],
+        tell: Callable[[GoalFeedback], None],
     ) -> Outcome:
         result = asyncio.ensure_future(execution.result())
         watching = asyncio.ensure_future(self._watch(asked, tell))
@@ -240,7 +242,7 @@ class Follower:
         finally:
             await _cancelled(result, watching, ending)
 
-    async def _watch(self, asked: Asked, tell: Callable[[Feedback], None]) -> Outcome:
+    async def _watch(self, asked: Asked, tell: Callable[[GoalFeedback], None]) -> Outcome:
         """Tell feedback; returns when a tolerance is violated."""
         since: float | None = None
         before = desired = 0.0
@@ -250,7 +252,7 @@ class Follower:
             passed, before = time - before, time
             # Simulated or real, the controller's time; slower under an override, none in a pause.
             desired += max(passed, 0.0) * self._pace
-            told = Feedback(
+            told = GoalFeedback(
                 asked.trajectory.names,
                 desired,
                 asked.desired(desired),
@@ -288,13 +290,13 @@ class Follower:
         worst = int(np.argmax(off - asked.goal))
         if off[worst] > asked.goal[worst]:
             return Outcome(
-                Status.ABORTED,
+                Ending.ABORTED,
                 Code.GOAL_TOLERANCE_VIOLATED,
                 f"the controller ended the motion {off[worst]:.4f} from the last point at "
                 f"{asked.trajectory.names[worst]}, and {asked.goal[worst]:g} was allowed",
             )
         told = f"done in {result.seconds:.2f} s, {asked.trajectory.duration:.2f} s were asked for"
-        return Outcome(Status.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
+        return Outcome(Ending.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
 
 
 def resampled(asked: Asked, shortest: float) -> Asked:
@@ -315,7 +317,22 @@ def resampled(asked: Asked, shortest: float) -> Asked:
     return asked.with_trajectory(fresh, note)
 
 
-def _violation(asked: Asked, told: Feedback, window: float) -> Outcome | None:
+def with_time_to_stop(asked: Asked, shortest: float) -> Asked:
+    """A last segment below `shortest` s is given that time; the way is the same.
+
+    Planners that sample at a period leave such a rest at the end of nearly every path.
+    """
+    times = asked.trajectory.times
+    if len(times) < 2 or times[-1] - times[-2] >= shortest - _GRACE:
+        return asked
+    rest = float(times[-1] - times[-2])
+    later = np.append(times[:-1], times[-2] + shortest)
+    fresh = Trajectory(later, asked.trajectory.positions, asked.trajectory.names)
+    note = f"the last segment of {rest:.3f} s was given {shortest:g} s"
+    return asked.with_trajectory(fresh, note)
+
+
+def _violation(asked: Asked, told: GoalFeedback, window: float) -> Outcome | None:
     """What of the tolerances does not hold, or None.
 
     When the robot began to move is known to one sample: it is compared with all that was asked
@@ -323,7 +340,7 @@ def _violation(asked: Asked, told: Feedback, window: float) -> Outcome | None:
     """
     if told.time > asked.trajectory.duration + asked.goal_time + window:
         return Outcome(
-            Status.ABORTED,
+            Ending.ABORTED,
             Code.GOAL_TOLERANCE_VIOLATED,
             f"not at the goal {told.time - asked.trajectory.duration:.2f} s after its time, and "
             f"{asked.goal_time:g} s were allowed",
@@ -339,7 +356,7 @@ def _violation(asked: Asked, told: Feedback, window: float) -> Outcome | None:
         worst = int(np.argmax(off - allowed))
         if off[worst] > allowed[worst]:
             return Outcome(
-                Status.ABORTED,
+                Ending.ABORTED,
                 Code.PATH_TOLERANCE_VIOLATED,
                 f"{what}{told.names[worst]} was {off[worst]:.4f} off its path "
                 f"{told.time:.2f} s after the start, and {allowed[worst]:g} was allowed",
@@ -374,12 +391,12 @@ async def _stopped(execution: AsyncExecution) -> Outcome | None:
 
 def _ended_early(under: UnderWay, where: str) -> Outcome:
     if under.is_replaced:
-        return Outcome(Status.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
-    return Outcome(Status.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")
+        return Outcome(Ending.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
+    return Outcome(Ending.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")
 
 
 def _aborted(code: Code, error: RobotError) -> Outcome:
-    return Outcome(Status.ABORTED, code, reason(error))
+    return Outcome(Ending.ABORTED, code, reason(error))
 
 
 def reason(error: RobotError) -> str:

@@ -31,7 +31,7 @@ class Code(IntEnum):
     GOAL_TOLERANCE_VIOLATED = -5
 
 
-class Status(Enum):
+class Ending(Enum):
     """How a goal ended, in the words of action_msgs/GoalStatus."""
 
     SUCCEEDED = "succeeded"
@@ -43,7 +43,7 @@ class Status(Enum):
 class Outcome:
     """The end of a goal: its status, error_code and error_string."""
 
-    status: Status
+    status: Ending
     code: Code
     text: str
 
@@ -58,7 +58,7 @@ class GoalRefused(Exception):
     @property
     def outcome(self) -> Outcome:
         """As an action's result."""
-        return Outcome(Status.ABORTED, self.code, str(self))
+        return Outcome(Ending.ABORTED, self.code, str(self))
 
 
 @dataclass(frozen=True, slots=True)

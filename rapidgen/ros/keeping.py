@@ -1,6 +1,6 @@
 """The link to one motion group: up before the robot, saying why it waits, back when it is.
 
-One `Link` runs on one asyncio loop. What it sees goes to a `Public`, which publishes it.
+One `RobotLink` runs on one asyncio loop. What it sees goes to a `Public`, which publishes it.
 """
 
 import asyncio
@@ -10,8 +10,8 @@ from typing import Protocol
 from rapidgen.client.aio import AsyncRobot
 from rapidgen.client.core.state import State
 from rapidgen.client.errors import NotReady, RequestRefused, RobotError
-from rapidgen.ros.following import Feedback, Follower, Policy, UnderWay, reason
-from rapidgen.ros.goals import Code, Goal, Outcome, Status
+from rapidgen.ros.following import Follower, GoalFeedback, Policy, UnderWay, reason
+from rapidgen.ros.goals import Code, Ending, Goal, Outcome
 from rapidgen.ros.stamps import Stamps
 from rapidgen.ros.telling import (
     Health,
@@ -41,7 +41,7 @@ class Public(Protocol):
         """For the log: a change of the link, or what was done with a goal."""
 
 
-class Link:
+class RobotLink:
     """One motion group of a robot as the door sees it."""
 
     def __init__(
@@ -113,13 +113,13 @@ class Link:
     # What others ask for
 
     async def follow(
-        self, goal: Goal, tell: Callable[[Feedback], None], under: UnderWay
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
     ) -> Outcome:
         """Carry out a goal; without a link it is aborted with the reason."""
         follower = self._follower
         if follower is None:
             text = f"no link to the robot: {self._why}"
-            return Outcome(Status.ABORTED, Code.INVALID_GOAL, text)
+            return Outcome(Ending.ABORTED, Code.INVALID_GOAL, text)
         self._paused_at = None
         return await follower.follow(goal, tell, under)
 

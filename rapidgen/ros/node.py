@@ -1,4 +1,4 @@
-"""The ROS 2 node: the only file that imports rclpy. Messages in, the `Link` asked, messages out.
+"""The ROS 2 node: the only file that imports rclpy. Messages in, `RobotLink` asked, messages out.
 
 The links run on one asyncio loop in a thread; rclpy's callbacks wait for what they asked of it.
 QoS: everything that is told is reliable, volatile, depth 10, as joint_state_broadcaster has it.
@@ -31,9 +31,9 @@ from rapidgen.client.errors import RobotError
 from rapidgen.config import load_config
 from rapidgen.config.model import RobotConfig
 from rapidgen.diagnostics import DiagnosticError
-from rapidgen.ros.following import Feedback, UnderWay, reason
-from rapidgen.ros.goals import Goal, Outcome, Point, Status, Tolerance
-from rapidgen.ros.keeping import Link
+from rapidgen.ros.following import GoalFeedback, UnderWay, reason
+from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
+from rapidgen.ros.keeping import RobotLink
 from rapidgen.ros.parameters import DECLARED, Parameters, read
 from rapidgen.ros.telling import Health, JointStates, RobotStatus
 
@@ -46,7 +46,7 @@ T = TypeVar("T")
 _QOS = QoSProfile(depth=10)
 
 
-class Driver(LifecycleNode):  # type: ignore[misc]
+class RobotNode(LifecycleNode):  # type: ignore[misc]
     """One robot, each of its groups with topics, services and an action of its own."""
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401
@@ -143,13 +143,13 @@ class Door:
 
     def __init__(
         self,
-        node: Driver,
+        node: RobotNode,
         make: Callable[[], AsyncRobot],
         parameters: Parameters,
         space: str,
         controller: str,
     ) -> None:
-        self.link = Link(make, parameters.policy, node.now, self)
+        self.link = RobotLink(make, parameters.policy, node.now, self)
         self._node = node
         self._prefix = parameters.tf_prefix
         self._name = controller
@@ -272,7 +272,7 @@ class Door:
     def _execute(self, handle: Any) -> Any:  # noqa: ANN401
         """A goal, until the robot stands: in a thread of the executor."""
 
-        def tell(feedback: Feedback) -> None:
+        def tell(feedback: GoalFeedback) -> None:
             if handle.is_active:
                 handle.publish_feedback(self._feedback(feedback))
 
@@ -282,7 +282,7 @@ class Door:
         with self._lock:
             del self._goals[bytes(handle.goal_id.uuid)]
         log = self._node.get_logger()
-        (log.info if outcome.status is Status.SUCCEEDED else log.warning)(
+        (log.info if outcome.status is Ending.SUCCEEDED else log.warning)(
             f"{self._name}: goal {outcome.status.value}: {outcome.text}"
         )
         return _ending(handle, outcome)
@@ -312,7 +312,7 @@ class Door:
         name = told.name.removeprefix(self._prefix)
         return Tolerance(name, told.position, told.velocity, told.acceleration)
 
-    def _feedback(self, feedback: Feedback) -> Any:  # noqa: ANN401
+    def _feedback(self, feedback: GoalFeedback) -> Any:  # noqa: ANN401
         message = FollowJointTrajectory.Feedback()
         message.header.stamp = self._node.get_clock().now().to_msg()
         message.joint_names = [self._prefix + name for name in feedback.names]
@@ -331,9 +331,9 @@ class Door:
 
 def _ending(handle: Any, outcome: Outcome) -> Any:  # noqa: ANN401
     """The result, and the goal in its last state. A cancelled goal that was done is done."""
-    if outcome.status is Status.SUCCEEDED:
+    if outcome.status is Ending.SUCCEEDED:
         handle.succeed()
-    elif outcome.status is Status.CANCELED and handle.is_cancel_requested:
+    elif outcome.status is Ending.CANCELED and handle.is_cancel_requested:
         handle.canceled()
     else:
         handle.abort()
@@ -381,7 +381,7 @@ def _duration(seconds: float) -> Duration:
 def run(arguments: list[str]) -> int:
     """The node, until Ctrl-C; `arguments` as ROS 2 has them (`--ros-args -p config:=...`)."""
     rclpy.init(args=arguments)
-    node = Driver()
+    node = RobotNode()
     # A goal holds a thread while it is carried out, a service while it is asked.
     executor = MultiThreadedExecutor(num_threads=8)
     executor.add_node(node)

@@ -19,10 +19,10 @@ SPEED = 10.0
 def driver_type(monkeypatch):
     standin.install(monkeypatch)
     monkeypatch.delitem(sys.modules, "rapidgen.ros.node", raising=False)
-    from rapidgen.ros.node import Driver
+    from rapidgen.ros.node import RobotNode
 
     monkeypatch.setattr(standin.LifecycleNode, "clock", staticmethod(time.monotonic_ns))
-    yield Driver
+    yield RobotNode
     sys.modules.pop("rapidgen.ros.node", None)
 
 

@@ -3,7 +3,7 @@
 import pytest
 from ready import goal, station
 
-from rapidgen.ros.goals import Status
+from rapidgen.ros.goals import Ending
 from rapidgen.ros.telling import Level, health, no_link, robot_status, unknown_status
 
 
@@ -42,7 +42,7 @@ def test_a_refusal_stays_visible():
             return made
 
         s.robot._core.check = unchecked
-        assert s.outcome(goal(0.0, 0.1)).status is Status.ABORTED
+        assert s.outcome(goal(0.0, 0.1)).status is Ending.ABORTED
         status, found = told(s)
         assert status.in_error == 1
         assert status.error_code == 104
