@@ -128,8 +128,6 @@ def unexpected(
 def _mend(expected: str) -> str:
     if "';'" in expected:
         return "a statement or declaration ends with ';': perhaps the one before has none"
-            "a statement or declaration ends with ';': perhaps the one before this place has none"
-        )
     return f"write {expected} here, or take out what stands here"
 
 
