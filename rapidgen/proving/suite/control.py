@@ -206,8 +206,9 @@ def _nobody_answers(bench: Bench) -> None:
     bench.stays(3, "the program was stopped and started")
     bench.moves_through(link, bench.wave(3))
     bench.sets_off(link, bench.wave(12))
-    fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM")
+    ends = fails(bench, "ROS_motion", "SpeedRefresh", "ERR_SPEED_REFRESH_LIM", 1000)
     not_done(control.ask(messages.RawSpeed(50)), RawReason.INTERNAL, "SPEED that is not set")
+    ends()
     done(control.ask(messages.RawSpeed(50)), "SPEED")
 
 
