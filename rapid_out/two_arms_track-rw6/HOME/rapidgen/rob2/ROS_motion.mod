@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "09203015fbe6";
+    CONST string ROS_BUILD_MOTION := "a61b4260a541";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -33,11 +33,11 @@ MODULE ROS_motion
     LOCAL VAR intnum speed_bell;
     LOCAL VAR intnum tick;
     ! Percent of the programmed speed that is wanted, for which the point at hand has its time, and
-    ! the newest move on the path (0: it is short); percent by SpeedRefresh, 101: not said.
+    ! the newest move of the trajectory (0: it is short); percent by SpeedRefresh.
     LOCAL VAR num pace := 100;
     LOCAL VAR num taken := 100;
     LOCAL VAR num latest := 0;
-    LOCAL VAR num share := 101;
+    LOCAL VAR num share := 100;
     LOCAL VAR num repeats := 0;
     ! Leaves a move whose path is gone, by a long jump out of the trap.
     LOCAL VAR errnum path_gone := -1;
@@ -79,8 +79,7 @@ MODULE ROS_motion
         IDelete speed_bell;
         CONNECT speed_bell WITH on_bell;
         IPers ROS_speed_asked_2, speed_bell;
-        latest := 0;
-        share := 101;
+        IF repeats > 0 say_again;
         set_speed;
         WHILE NOT left DO
             IF is_wanted(\UntilDI?UntilDI \Until?Until) THEN
@@ -252,7 +251,6 @@ MODULE ROS_motion
         IF ROS_abort_2 = ROS_abort_done_2
             MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, tool0 \WObj:=wobj0;
         in_move := FALSE;
-        IF zone.finep latest := 0;
         IF zone.finep share := 100;
     ERROR
         in_move := FALSE;
@@ -268,6 +266,7 @@ MODULE ROS_motion
         ROS_reached_2 := 0;
         ROS_started_2 := session;
         IDisable;
+        latest := 0;
         set_speed;
         taken := pace;
         IEnable;
@@ -356,9 +355,8 @@ MODULE ROS_motion
         RETURN 9E9;
     ENDFUNC
 
-    ! Find the speed that is wanted for the trajectory under way. Points get their time for it. A move
-    ! that has its time already is slowed down by SpeedRefresh, ten times a second: it may hold for one
-    ! move only, and do nothing while the robot stands. Short moves are over before it acts.
+    ! Find the speed that is wanted for the trajectory under way: points get their time for it. A long
+    ! move that has its time already is slowed down by SpeedRefresh.
     LOCAL PROC set_speed()
         VAR num asked;
         VAR num percent := 100;
@@ -371,9 +369,7 @@ MODULE ROS_motion
             SpeedRefresh due;
             share := due;
             repeats := 5;
-            IDelete tick;
-            CONNECT tick WITH on_tick;
-            ITimer 0.1, tick;
+            say_again;
         ENDIF
         pace := percent;
         ROS_speed_done_2 := asked;
@@ -383,11 +379,18 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
+    ! It may hold for one move only, and do nothing at a standstill. One bell at a time may wait.
+    LOCAL PROC say_again()
+        IDelete tick;
+        CONNECT tick WITH on_tick;
+        ITimer \Single, 0.1, tick;
+    ENDPROC
+
     LOCAL TRAP on_tick
-        SpeedRefresh share;
-        repeats := repeats - 1;
         IF share < 100 OR (NOT in_move) OR IsStopMoveAct() repeats := 5;
-        IF repeats = 0 IDelete tick;
+        repeats := repeats - 1;
+        IF repeats > 0 say_again;
+        SpeedRefresh share;
     ERROR
         SkipWarn;
         RETURN;
@@ -413,7 +416,6 @@ MODULE ROS_motion
         ROS_cleared := FALSE;
         WaitRob \ZeroSpeed;
         ROS_clear_path;
-        IF ROS_cleared latest := 0;
         IF ROS_cleared share := 100;
     ERROR
         SkipWarn;
