@@ -57,7 +57,10 @@ def explore(
     """
     chance = random.Random(f"{seed} walk")
     # Half of the histories have stops at statements, which needs code that reports them.
-    places = _places(config, system) if seed % 4 < 2 else ()
+    try:
+        places = _places(config, system) if seed % 4 < 2 else ()
+    except FAILURES as error:
+        return Explored(seed, "", Finding(seed, f"while nothing disturbs it: {error}", "", ()))
     setting = Setting(
         seed=seed,
         random_schedule=True,

@@ -8,6 +8,7 @@ import pytest
 from rapidgen.cli.app import main
 from rapidgen.config import load_config
 from rapidgen.generate import build, make_system
+from rapidgen.proving.bench import with_module
 from rapidgen.proving.explore import STEPS, explore
 from rapidgen.rapid import check, parse
 from tests.proving.defective import CAPACITY, DEFECTS, FOLDER, small_driver, with_defect
@@ -45,6 +46,23 @@ def test_a_known_defect_is_found(defect):
     if defect.startswith("R7"):
         assert "WaitTestAndSet lock" in "\n".join(finding.log)
         assert ("pp-to-main" in finding.plan) == (defect == "R7a")
+
+
+@pytest.mark.parametrize(
+    ("seed", "told"), [(0, "while nothing disturbs it: length"), (6, "length")]
+)
+def test_bytes_that_are_no_message_are_a_finding(seed, told):
+    """Also where they come before a history begins: to whoever looks what the driver executes."""
+    system = make_system(SIX_AXES, build(SIX_AXES))
+    modules = [module for task in system.tasks for module in task.modules]
+    sends = next(module for module in modules if module.name == "ROS_socket")
+    broken = sends.data.replace(
+        b"SocketSend client", b"PackRawBytes 1, data, 1 \\IntX:=DINT;\n        SocketSend client"
+    )
+    system = with_module(system, sends.path, broken)
+    finding = explore(SIX_AXES, system, seed, only=("stopped",)).finding
+    assert finding is not None
+    assert finding.detail.startswith(told)
 
 
 def test_nothing_is_found_without_a_defect():
