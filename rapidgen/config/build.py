@@ -22,6 +22,8 @@ DEFAULT_PORTS = (11000, 11001, 11002)
 PORT_STEP = 10
 _PLAIN_PORTS_END = 4999
 
+SLOWEST_TCP = 10
+"""mm/s that a ceiling of the TCP must leave; own choice, v5 and v10 are the slowest of ABB."""
 _SMALL_ZONES = ("fine", "z0", "z1", "z5", "z10")
 
 
@@ -177,6 +179,7 @@ def _group(
     joints = joints_of(keys, draft, path, report)
     kept = kept_axes(draft, dict(keys.keep.items()), path, report)
     names = {joint.name for joint in draft.joints}
+    _check_ceiling(keys.tcp_speed_limit, (*path, "tcp_speed_limit"), report)
     _chain(draft.chain, (*path, "chain"), names, "`joints`", report)
     external = {joint.name for joint in joints if joint.axis.startswith("eax")}
     for unit, chain in list(draft.positioners.items()):
@@ -221,6 +224,18 @@ def _group(
         ),
         kept=kept,
     )
+
+
+def _check_ceiling(limit: float, path: KeyPath, report: DraftFindings) -> None:
+    """RG006: m/s where mm/s are meant; a way of some cm would take minutes."""
+    if limit < SLOWEST_TCP:
+        report.error(
+            "RG006",
+            f"'tcp_speed_limit': {limit:g} mm/s is no speed to work with",
+            path,
+            f"less than {SLOWEST_TCP} mm/s",
+            f"the unit is mm/s: {limit:g} m/s is {1000 * limit:g}",
+        )
 
 
 def _is_shipped(path: KeyPath, name: str, report: DraftFindings) -> bool:

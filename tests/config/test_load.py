@@ -90,6 +90,14 @@ def test_yaml_1_2_reads_yes_as_a_text_and_9e9_as_a_number(tmp_path):
     ]
 
 
+@pytest.mark.parametrize("ceiling", ["0.5", "9.99"])
+def test_a_ceiling_in_m_per_s_is_refused(tmp_path, ceiling):
+    (found,) = faults(tmp_path, f"model: irb120\ntcp_speed_limit: {ceiling}\n")
+    assert (found.code, found.span.line) == ("RG006", 2)
+    assert f"{float(ceiling) * 1000:g}" in found.help
+    assert load(tmp_path, "model: irb120\ntcp_speed_limit: 10\n").groups[0].tcp_speed_limit == 0.01
+
+
 def test_octal_looking_numbers_are_decimal(tmp_path):
     config = load(tmp_path, "model: irb120\ntrajectory: {capacity: 0100}")
     assert config.trajectory.capacity == 100
