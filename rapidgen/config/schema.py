@@ -317,7 +317,7 @@ class GroupKeys(_Part):
         default_factory=WorkObjectKeys
     )
     tcp_speed_limit: Annotated[
-        float, Rule("Ceiling of the tool's speed, mm/s.", ge=0.001, le=10000)
+        float, Rule("Ceiling of the tool's speed, mm/s; at least 10.", gt=0, le=10000)
     ] = 5000.0
     ports: Annotated[PortsKeys, Rule("TCP ports.")] = field(default_factory=PortsKeys)
     source: Annotated[

@@ -7,6 +7,7 @@ import math
 from collections.abc import Callable, Sequence
 from itertools import pairwise
 
+from rapidgen.motion.moves import Move
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench
@@ -189,6 +190,32 @@ def _before_the_order(bench: Bench) -> None:
     bench.sets_off(link, points)
     bench.arrives(points, begun, 30)
     _as_asked(bench, since[0], 50, 1.5)
+
+
+@case("speed-between", "a speed that comes as a trajectory begins is not held twice")
+def _between(bench: Bench) -> None:
+    """All its moves get their time: that those before it were long counts no more."""
+    control, link, group = bench.control(), bench.motion(), bench.motion_group
+    bench.moves_through(link, _line(bench, 2, 1.0))
+    bench.run(0.5)
+    refreshed: list[float] = []
+
+    def ask() -> None:
+        control.at_once(messages.encode(messages.RawSpeed(50), RawComm.REQUEST))
+        bench.rapid_task("ROS_motion").sleep(0.05)
+
+    def heard(move: Move) -> None:
+        refreshed.append(group.refresh)
+
+    at_call(bench, "ROS_motion", "IDisable", 1, ask)
+    group.listeners.append(heard)
+    points, since = _line(bench, 4, 1.0), bench.now
+    bench.sets_off(link, points)
+    bench.arrives(points, since, 30)
+    group.listeners.remove(heard)
+    if refreshed != [1.0] * (len(points) - 1):
+        raise Broken(f"{len(points) - 1} moves with their time for SPEED 50, held to {refreshed}")
+    _as_asked(bench, since, 50, 1.0)
 
 
 @case("speed", "a speed for one trajectory")
