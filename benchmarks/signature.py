@@ -6,7 +6,9 @@ Every example of robots/examples, and of the IRB 120 the configurations in which
 commissioning, main and control port meet; each under the settings in which any two assumptions
 about controllers meet. One table at the end. Reports go to FILE (JSON lines) as they come: what has
 been run on the same tree is not run again, so that a run may be broken off and go on later, or be
-done in parts (`--part 1/3`) of which the last one prints the whole table. `--plan` only counts.
+done in parts (`--part 1/3`) of which the last one prints the whole table. `--plan` only
+counts, and loads
+each configuration.
 """
 
 import argparse
@@ -18,7 +20,6 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 
 from rapidgen.config import load_config
-from rapidgen.config.reference import json_schema
 from rapidgen.proving.covering import covering
 from rapidgen.proving.report import as_json
 from rapidgen.proving.run import prove
@@ -26,10 +27,14 @@ from rapidgen.proving.run import prove
 ROOT = Path(__file__).resolve().parents[1]
 BASE = ROOT / "robots" / "examples" / "irb120-rw6.yaml"
 CHOICES = {
-    "profile": ("full", "basic"),
-    "commissioning": ("false", "true"),
-    "main": ("driver", "own"),
-    "ports.control": ("11001", "0"),
+    # The basic profile has no control port.
+    "profile and control port": (
+        "profile=full ports.control=11001",
+        "profile=full ports.control=0",
+        "profile=basic ports.control=0",
+    ),
+    "commissioning": ("commissioning=false", "commissioning=true"),
+    "main": ("main=driver", "main=own"),
 }
 
 
@@ -37,10 +42,8 @@ def runs():
     """Label, configuration and overrides of each run."""
     examples = sorted(BASE.parent.glob("*.yaml"))
     found = [(path.stem, path, ()) for path in examples]
-    known = json_schema()["properties"]
-    choices = {key: own for key, own in CHOICES.items() if key.partition(".")[0] in known}
-    for row in covering(choices)[1:]:
-        overrides = tuple(f"{key}={value}" for key, value in row.items())
+    for row in covering(CHOICES)[1:]:
+        overrides = tuple(text for texts in row.values() for text in texts.split())
         found.append((" ".join(overrides), BASE, overrides))
     return found
 
@@ -98,6 +101,8 @@ def main():
     left = [run for run in every[number - 1 :: parts] if run[0] not in reports]
     print(f"{len(every)} configurations, {len(left)} of part {GIVEN.part} to be run", flush=True)
     if GIVEN.plan:
+        for _, path, overrides in every:
+            load_config(str(path), overrides=overrides)
         return False
     GIVEN.output.parent.mkdir(parents=True, exist_ok=True)
     for label, path, overrides in left:
