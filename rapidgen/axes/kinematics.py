@@ -145,7 +145,7 @@ class Kinematics:
                 if solved is not None:
                     posture = self._as_posture(solved, angles, values)
                     found += [p for p in self._turned(posture) if not _known(p, found)]
-        found.sort(key=lambda p: sum(abs(a - b) for a, b in zip(p, near, strict=True)))
+        found.sort(key=lambda posture: _apart(posture, near))
         return found
 
     def _robot_angles(self, values: Posture) -> Angles:
@@ -192,7 +192,7 @@ class Kinematics:
         """What iteration can find, where there is no formula."""
         return ArmSearch(self.group, self.map, self.steps)
 
-    @property
+    @cached_property
     def seventh(self) -> int:
         """Place of the axis between axes 2 and 3 whose robtargets name the arm angle; else -1."""
         return self.arm.seventh
@@ -202,7 +202,7 @@ class Kinematics:
         joint = self.group.joints[self.seventh]
         found: list[Posture] = []
         for posture in self.arm.at_arm_angle(pose, angle, near):
-            for turned in self._turned(posture):
+            for turned in sorted(self._turned(posture), key=lambda turn: _apart(turn, near)):
                 value = turned[self.seventh]
                 fits = joint.lower - ROUNDING <= value <= joint.upper + ROUNDING
                 if fits and not _known(turned, found):
@@ -234,14 +234,19 @@ class Kinematics:
 
         cfx (memory of RobotWare): +4 wrist centre behind axis 1, +2 behind the lower arm, +1
         axis 5 negative. It is 0 for robots with a parallel rod, whose arm cannot turn over
-        (S4 datasys 1-confdata), and where there is no closed form.
+        (S4 datasys 1-confdata), and where there is no closed form. Of an arm with seven axes see
+        `ArmAngle.cfx`; its quarters have their multiple of 90 degrees in the middle.
         """
         quarters = []
+        early = self._early
         for axis in ("rax_1", "rax_4", "rax_6"):
             place = self._axes.get(axis)
-            quarters.append(0 if place is None else quarter(posture[place], self._linear[place]))
+            linear = place is not None and self._linear[place]
+            quarters.append(0 if place is None else quarter(posture[place] + early, linear))
         x = 0
-        if self._arm is not None and self._tells_branches:
+        if self.seventh >= 0:
+            x = self.arm.cfx(posture)
+        elif self._arm is not None and self._tells_branches:
             angles = self._robot_angles(self.map.to_urdf(posture))
             back, behind, _ = self._arm[0].branch(angles)
             x = 4 * back + 2 * behind + (posture[self._axes["rax_5"]] < 0)
@@ -256,11 +261,11 @@ class Kinematics:
             other = self.configuration(posture)[3] ^ wanted[3]
             if other and not (other == 1 and abs(posture[self._axes["rax_5"]]) <= SINGULAR):
                 return None
-        worst = 0.0
+        worst, early = 0.0, self._early
         for axis, cf in zip(("rax_1", "rax_4", "rax_6"), wanted, strict=False):
             place = self._axes.get(axis)
             if place is not None:
-                at = posture[place] / (1.0 if self._linear[place] else pi / 2)
+                at = (posture[place] + early) / (1.0 if self._linear[place] else pi / 2)
                 worst = max(worst, cf - at, at - cf - 1)
         return worst
 
@@ -293,7 +298,12 @@ class Kinematics:
     @property
     def _tells_branches(self) -> bool:
         """Whether cfx says on which of the eight branches a posture lies."""
-        return self._arm is not None and not self.group.coupling
+        return self.seventh >= 0 or (self._arm is not None and not self.group.coupling)
+
+    @cached_property
+    def _early(self) -> float:
+        """rad by which quarters of axes 1, 4 and 6 begin before their multiple of 90 degrees."""
+        return pi / 4 if self.seventh >= 0 else 0.0
 
     @cached_property
     def _axes(self) -> dict[str, int]:
@@ -421,6 +431,10 @@ def quarter(value: float, linear: bool = False) -> int:
     """
     size = 1.0 if linear else pi / 2
     return int(value / size) if value >= 0 else int(value / size - 1)
+
+
+def _apart(posture: Posture, other: Posture) -> float:
+    return sum(abs(a - b) for a, b in zip(posture, other, strict=True))
 
 
 def _known(posture: Posture, found: list[Posture]) -> bool:
