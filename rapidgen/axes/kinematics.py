@@ -232,8 +232,8 @@ class Kinematics:
     def configuration(self, posture: Posture) -> AxisConfiguration:
         """confdata of a posture: quarter turns of axes 1, 4 and 6, and cfx.
 
-        cfx (memory of RobotWare): +4 wrist centre behind axis 1, +2 behind the lower arm, +1
-        axis 5 negative. It is 0 for robots with a parallel rod, whose arm cannot turn over
+        cfx: +4 wrist centre behind axis 1, +2 behind the lower arm [mem], +1 axis 5 negative
+        (390 targets of public programs have 0, 1, 4 and 5 so). It is 0 for robots with a parallel rod, whose arm cannot turn over
         (S4 datasys 1-confdata), and where there is no closed form. Of an arm with seven axes see
         `ArmAngle.cfx`; its quarters have their multiple of 90 degrees in the middle.
         """

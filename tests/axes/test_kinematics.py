@@ -210,7 +210,7 @@ def test_metres_of_a_linear_axis():
 
 
 def test_cfx_tells_the_eight_branches_apart():
-    # [mem] +4 behind axis 1, +2 behind the lower arm, +1 axis 5 negative
+    # +4 behind axis 1, +2 behind the lower arm [mem], +1 axis 5 negative
     own = kinematics("irb120")
     posture = (0.1, 0.2, 0.3, 0.7, 0.5, 0.4)
     found = {own.configuration(p)[3] for p in own.solutions(own.forward(posture), posture)}
