@@ -1,8 +1,9 @@
-"""confdata of an arm with six axes against the targets of a controller's backup.
+"""confdata of arms with six axes against targets in backups of controllers, with tool0 in wobj0.
 
-IRB 120 hanging from a ceiling, RobotWare 6.07, all moves with tool0 in wobj0
-(PaulaFreudenberger/ABB-Rapid-Git; base_frame_orient of MOC.cfg [0, -0.707107, 0.707107, 0]): place
-(mm), orientation, confdata. All 29 targets agree, the rows are those that differ.
+HANGING: an IRB 120, RobotWare 6.07 (PaulaFreudenberger/ABB-Rapid-Git; base_frame_orient of MOC.cfg
+[0, -0.707107, 0.707107, 0]); all 29 targets agree. STANDING: a CRB 15000-5/0.95 (rparak's
+Unity3D_ABB_CRB_15000_GoFa_EGM, backup of 2023-02-03); 47 of 48 agree, one has no such posture. The
+rows are those that differ: place (mm), orientation, confdata.
 """
 
 import pytest
@@ -28,6 +29,26 @@ HANGING = [
     ((-409.32, -5.18, -684.87), (0.231863, 0.562916, 0.732904, 0.303672), (-2, -1, -2, 4)),
     ((-67.83, 85.11, -686.63), (0.306892, 0.728538, -0.564782, -0.236793), (-1, -1, 0, 5)),
 ]
+STANDING = [
+    ((41.163, 462.906, 470.445), (0.00224, -0.386858, 0.92201, 0.01526), (0, 0, 0, 0)),
+    ((272.648, -1.26, 231.134), (0.344759, 0.536062, -0.76708, -0.07326), (0, -1, -1, 0)),
+    ((435.378, -65.15, 208.232), (0.071742, -0.7977, -0.5977, -0.035814), (-1, 0, 0, 0)),
+    ((-492.643, -617.697, 959.809), (0.788917, 0.489901, -0.063517, 0.365476), (-2, 1, 0, 2)),
+    ((-468.954, -640.093, 957.035), (0.80458, 0.482278, -0.113449, 0.327397), (-2, 1, 0, 2)),
+    ((-443.152, -499.893, 978.428), (0.766606, 0.411975, -0.247309, 0.425945), (-2, 1, 0, 0)),
+    ((373.536, 136.528, 430.799), (0.183426, -0.798301, -0.272964, -0.504541), (0, 1, 0, 0)),
+    ((411.233, 214.448, 462.357), (0.029017, -0.79926, -0.390972, -0.455501), (0, 1, 0, 1)),
+    ((464.075, 235.074, 495.653), (0.125889, 0.980195, -0.060689, 0.140308), (0, 1, 0, 1)),
+    ((436.399, 185.751, 440.245), (0.083333, -0.836604, -0.298512, -0.451708), (0, 1, 0, 1)),
+    ((384.976, 184.29, 436.962), (0.130016, -0.904696, -0.099378, -0.393377), (0, 1, 0, 1)),
+    ((581.155, 294.388, 592.781), (0.188105, 0.633526, -0.750379, 0.013897), (0, -1, -1, 0)),
+    ((553.179, 356.432, 589.507), (0.16638, 0.676077, -0.716882, 0.036301), (0, -1, -1, 0)),
+    ((411.345, 291.304, 296.075), (0.010151, 0.952984, -0.300747, 0.035631), (0, -1, -2, 0)),
+    ((-446.701, 30.716, 747.7), (0.003958, -0.956966, -0.289377, 0.021483), (1, 0, -1, 0)),
+    ((-434.069, 55.536, 755.405), (0.12145, -0.952281, -0.279509, -0.016884), (1, -1, -1, 0)),
+    ((296.541, 603.139, 1016.56), (0.525297, -0.694388, 0.491694, 0.011161), (0, -1, -1, 0)),
+    ((75.493, 157.421, 709.636), (0.002223, -0.525019, -0.61898, 0.584135), (-2, -1, -1, 4)),
+]
 # fmt: on
 
 
@@ -36,7 +57,17 @@ def test_one_posture_has_the_confdata_that_a_controller_stored(row):
     place, turn, configuration = row
     own = Kinematics.of(load_config("irb120").groups[0])
     world = tuple(v / 1000 for v in place), frames.normalise(turn)
-    found = own.solutions(frames.compose(frames.invert(BASE), world), (0.0,) * 6)
+    found = own.solutions(frames.within(BASE, world), (0.0,) * 6)
     assert len(found) > 1
     assert [own.configuration(p) for p in found].count(configuration) == 1
+    assert own.configuration(own.fitting(found, configuration, "turn")) == configuration
+
+
+@pytest.mark.parametrize("row", STANDING)
+def test_a_wrist_with_an_offset_has_the_confdata_that_a_controller_stored(row):
+    place, turn, configuration = row
+    own = Kinematics.of(load_config("crb15000").groups[0])
+    pose = tuple(v / 1000 for v in place), frames.normalise(turn)
+    found = own.solutions(pose, (0.0,) * 6)
+    assert len(found) > 1
     assert own.configuration(own.fitting(found, configuration, "turn")) == configuration

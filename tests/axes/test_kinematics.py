@@ -105,7 +105,7 @@ def wrapped(angles):
 @pytest.mark.parametrize("group", WRIST_ARMS)
 def test_an_independent_package_finds_the_same_postures(group):
     own = Kinematics.of(group)
-    arm = own._arm[0]
+    arm = own._arm.arm
     robot = opw_robot(arm)
     for posture in postures(group, 25):
         angles = own._robot_angles(own.map.to_urdf(posture))
