@@ -138,11 +138,14 @@ def _dimensions(
             "take the model of your variant (`rapidgen robots`), or leave `model:` out and keep "
             "the URDF's dimensions; an `offset` moves an axis' zero",
         )
-    elif difference.end > _SAME_END:
+    elif difference.end > _SAME_END or difference.facing > SAME_TURN:
+        off = [f"{difference.end * 1000:.0f} mm"] if difference.end > _SAME_END else []
+        turned = math.degrees(difference.facing)
+        off += [f"turned by {turned:.0f} deg"] if difference.facing > SAME_TURN else []
         report.add(
             "RG055",
             Severity.WARNING,
-            f"the axes are those of {variant.name}, the end is {difference.end * 1000:.0f} mm "
+            f"the axes are those of {variant.name}, the end is {' and '.join(off)} "
             "from its flange",
             (*path, "model"),
             "",
