@@ -145,8 +145,7 @@ def _dimensions(
         report.add(
             "RG055",
             Severity.WARNING,
-            f"the axes are those of {variant.name}, the end is {' and '.join(off)} "
-            "from its flange",
+            f"the axes are those of {variant.name}, the end is {' and '.join(off)} from its flange",
             (*path, "model"),
             "",
             "poses are those of the chain's end: a `tip:` at the flange (tool0) has ABB's",
