@@ -10,6 +10,7 @@ import re
 from collections.abc import Iterator
 from typing import TypeAlias
 
+from rapidgen.config import variant_model
 from rapidgen.config.draft import DraftFindings, GroupDraft, JointDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.geometry import Difference, Skeleton, compare, skeleton
@@ -42,7 +43,8 @@ def contradictions(
         return
     _lengths(draft, path, report)
     arm = _arm(draft)
-    variant = of_model(draft.model, draft.name) if draft.model else None
+    model = draft.model
+    variant = (of_model(model, draft.name) or variant_model.named(model)) if model else None
     difference, is_named = None, True
     if variant and arm:
         difference = compare(arm, variant.skeleton)
