@@ -13,7 +13,7 @@ from rapidgen.diagnostics import Diagnostic, refusal, render
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from rapidgen.cli.bootable import Bootable
+    from rapidgen.controller.booting import Bootable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.faces.control_socket import ControlSocket
 
@@ -22,10 +22,13 @@ PATIENCE = 10.0
 
 
 def sim(
-    target: Annotated[
-        str,
-        typer.Argument(help="Configuration, shipped name, generated folder or ABB backup."),
-    ],
+    targets: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="TARGET...",
+            help="Configuration, shipped name, generated folder, ABB backup, or RAPID files.",
+        ),
+    ] = None,
     host: Annotated[
         str, typer.Option(help="Address of this machine to serve on; loopback stays private.")
     ] = "127.0.0.1",
@@ -42,9 +45,11 @@ def sim(
     faults: Annotated[
         Path | None, typer.Option(help="What is to go wrong: `rapidgen explain RG421`.")
     ] = None,
-    robot: Annotated[
-        str, typer.Option(help="Mechanics of a backup: a shipped name or a configuration.")
-    ] = "",
+    task: options.Tasks = None,
+    robot: options.RobotModel = "",
+    entry: options.Entry = "",
+    cell: options.Cell = "",
+    start: options.Start = "",
     ftp: Annotated[
         int | None,
         typer.Option(help="Serve HOME over FTP; 0: any free port.", min=0, max=65_535),
@@ -67,7 +72,7 @@ def sim(
     each group, of the control socket, and of the file servers with their login. What the
     operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
-    from rapidgen.cli.bootable import load_target, refuse_unloadable
+    from rapidgen.cli.bootable import chosen
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.faults import read_plan
     from rapidgen.faces.control_commands import commands, subscribe
@@ -76,18 +81,24 @@ def sim(
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
-    chosen = load_target(target, robot, overrides or (), backup)
-    _tell(chosen.notes)
+    found = chosen(
+        targets or (),
+        tasks=task,
+        robot=robot,
+        entry=entry,
+        cell=cell,
+        start=start,
+        backup=backup,
+        overrides=overrides,
+        check=check,
+    )
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
-    if check:
-        refuse_unloadable(chosen.system)
-    if ports is None and chosen.driver:
-        _check_ports(chosen, host, port_offset)
-    with VirtualController(
-        chosen.system,
-        chosen.groups,
+    if ports is None and found.driver:
+        _check_ports(found, host, port_offset)
+    with VirtualController.boot(
+        found,
         clock="real",
         speed=speed,
         host=host,
@@ -107,7 +118,7 @@ def sim(
         )
         try:
             with _files(controller, host, ftp, sftp) as files:
-                return _serve(controller, chosen, control, host, speed, files)
+                return _serve(controller, found, control, host, speed, files)
         finally:
             control.close()
 

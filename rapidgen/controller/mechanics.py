@@ -1,11 +1,12 @@
 """Which robot model moves which task, for a system that does not say it by itself."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from rapidgen.config import load_config, shipped_names
 from rapidgen.config.catalogue import model_description
+from rapidgen.config.cell import CellRobotKeys
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.diagnostics import Diagnostic, Severity, error, refusal
 from rapidgen.system.model import System
@@ -53,32 +54,42 @@ def groups_for(system: System, config: RobotConfig) -> tuple[GroupConfig, ...]:
 
 
 def mechanics(
-    system: System, robot: str = ""
+    system: System, robot: str = "", own: Mapping[str, CellRobotKeys] | None = None
 ) -> tuple[tuple[GroupConfig, ...], tuple[Diagnostic, ...]]:
-    """A robot for each motion task: the one that is named, else of the type that a backup tells.
+    """A robot for each motion task: the one that is named for it (`own`, by task) or for all
+    (`robot`), else of the type that a backup tells.
 
     Notes say where another robot stands in. Raises DiagnosticError RG432 for a type that no
     shipped model is of.
     """
-    if robot:
-        return groups_for(system, load_config(robot)), ()
+    given = {task.casefold(): keys for task, keys in (own or {}).items()}
     types = {unit.casefold(): name for unit, name in system.robot_types}
-    if not types:
-        note = _stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}")
-        return groups_for(system, load_config(DEFAULT_ROBOT)), (note,)
     units = _units(system)
     groups: list[GroupConfig] = []
     notes: list[Diagnostic] = []
     for i, task in enumerate(motion_tasks(system)):
-        unit = units.get(task) or list(types)[min(i, len(types) - 1)]
-        name = types.get(unit.casefold(), "")
-        model = model_of(name)
+        keys = given.get(task.casefold(), CellRobotKeys())
+        model = keys.model or robot
+        if not model and types:
+            unit = units.get(task) or list(types)[min(i, len(types) - 1)]
+            name = types.get(unit.casefold(), "")
+            model = model_of(name)
+            if not model:
+                raise refusal("RG432", None, f"no shipped model is a {name or unit}", _MEND)
+            notes += _other_variant(name, model)
         if not model:
-            raise refusal("RG432", None, f"no shipped model is a {name or unit}", _MEND)
-        notes += _other_variant(name, model)
-        own = next(g for g in groups_for(system, load_config(model)) if g.task == task)
-        taken = any(group.name == own.name for group in groups)
-        groups.append(replace(own, name=f"{own.name}_{i + 1}") if taken else own)
+            model = DEFAULT_ROBOT
+            notes.append(_stands_in(f"nothing tells the mechanics: moving an {DEFAULT_ROBOT}"))
+        group = next(g for g in groups_for(system, load_config(model)) if g.task == task)
+        taken = any(other.name == group.name for other in groups)
+        groups.append(
+            replace(
+                group,
+                name=f"{group.name}_{i + 1}" if taken else group.name,
+                mechanical_unit=keys.mechanical_unit or group.mechanical_unit,
+                external_units=tuple(keys.external_units) or group.external_units,
+            )
+        )
     return tuple(groups), tuple(dict.fromkeys(notes))
 
 

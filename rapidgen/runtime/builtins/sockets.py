@@ -152,7 +152,12 @@ def socket_accept(
         return endpoint is not None
 
     try:
-        there = task.wait_for(try_it, on=(listener.changed,), timeout=_seconds(time))
+        there = task.wait_for(
+            try_it,
+            on=(listener.changed,),
+            timeout=_seconds(time),
+            why=lambda: f"SocketAccept waits for a client on port {listener.local[1]}",
+        )
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if not there:
@@ -189,6 +194,7 @@ def socket_connect(
             lambda: endpoint.connected or network.send(endpoint, b"") > 0,
             on=(endpoint.changed,),
             timeout=_seconds(time),
+            why=lambda: f"SocketConnect waits for {address}:{port:g}",
         )
     except NetworkFault as fault:
         if fault.reason is NetworkReason.REFUSED:
@@ -248,7 +254,12 @@ def socket_send(task: Task, socket: SocketDevice, *content: Value) -> None:
         if not task.controller.dialect.send_attends:
             interrupts.disabled = True
         while left:
-            if not task.wait_for(some_go, on=(endpoint.changed,), timeout=DEFAULT_TIME):
+            if not task.wait_for(
+                some_go,
+                on=(endpoint.changed,),
+                timeout=DEFAULT_TIME,
+                why=lambda: f"SocketSend waits for {_peer(endpoint)} to read",
+            ):
                 raise RapidError("ERR_SOCK_TIMEOUT", "the peer does not read")
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
@@ -292,7 +303,12 @@ def _wait_for_bytes(
         return result is not None
 
     try:
-        there = task.wait_for(try_it, on=(endpoint.changed,), timeout=_seconds(given["Time"]))
+        there = task.wait_for(
+            try_it,
+            on=(endpoint.changed,),
+            timeout=_seconds(given["Time"]),
+            why=lambda: f"waits for bytes from {_peer(endpoint)}",
+        )
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
     if not there or result is None:
@@ -302,6 +318,10 @@ def _wait_for_bytes(
     if not result and not socket.udp:
         raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
     return result
+
+
+def _peer(endpoint: Endpoint) -> str:
+    return "{}:{}".format(*endpoint.peer) if endpoint.peer else f"port {endpoint.local[1]}"
 
 
 def _limit(

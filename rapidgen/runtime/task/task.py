@@ -67,7 +67,8 @@ class Task(Process):
         self.intno = 0
         self.ret: Value = None
         """Value of RETURN in a handler."""
-        self.waiting_for: Callable[[], bool] | None = None
+        self.waits_for: Callable[[], str] | None = None
+        """What it waits for, in words; None: it does not wait, or for time alone."""
         self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
         """What SetDataSearch has found and GetNextSym has not given yet."""
         self._order: BaseException | None = None
@@ -264,11 +265,13 @@ class Task(Process):
         *,
         on: Iterable[WaitSet] = (),
         timeout: float | None = None,
+        why: Callable[[], str] | None = None,
     ) -> bool:
         """Wait until `predicate()`, looked at now and whenever a member of `on` changes.
 
         False when `timeout` seconds passed first. Traps are served meanwhile. After a program
-        stop the time counts from its beginning again [S4 overview 5-23].
+        stop the time counts from its beginning again [S4 overview 5-23]. `why` says in words
+        what for, when somebody asks.
         """
         if predicate():
             return True
@@ -286,7 +289,9 @@ class Task(Process):
         for wait_set in watched:
             wait_set.add(self.wake)
         holds = self._holds
-        self.waiting_for = predicate
+        before = self.waits_for
+        if why is not None:
+            self.waits_for = why
         try:
             while True:
                 self.block()
@@ -300,7 +305,7 @@ class Task(Process):
                 if expired:
                     return False
         finally:
-            self.waiting_for = None
+            self.waits_for = before
             if timer is not None:
                 timer.cancel()
             for wait_set in watched:
