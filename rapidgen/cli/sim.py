@@ -17,9 +17,6 @@ if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.faces.control_socket import ControlSocket
 
-PATIENCE = 10.0
-"""Seconds that a driver's servers may take to come up."""
-
 
 def sim(
     targets: Annotated[
@@ -135,6 +132,8 @@ def _serve(
     import json
     import signal
 
+    from rapidgen.cli.readiness import PATIENCE, Readiness
+
     ended = False
 
     def end(*_: object) -> None:
@@ -154,12 +153,13 @@ def _serve(
     scheduler = controller.scheduler
     scheduler.rebase()
     try:
+        readiness = Readiness(controller, target)
         patience = scheduler.now + round(PATIENCE * speed * 1e9)
-        scheduler.advance(patience, lambda: ended or _is_up(controller, target))
+        scheduler.advance(patience, lambda: ended or readiness.decided)
         if ended:
             return 0
-        if not _is_up(controller, target):
-            raise _not_up(controller, target)
+        if not readiness.up:
+            raise readiness.refusal()
         found = {
             "name": target.name,
             "host": host,
@@ -168,6 +168,9 @@ def _serve(
             "control": control.address[1],
             **files,
         }
+        if not target.driver:
+            for place in controller.where():
+                typer.echo(place, err=True)
         typer.echo(f"ready {json.dumps(found)}")
         scheduler.advance(stop=lambda: ended)
     finally:
@@ -214,22 +217,6 @@ def _start_cold(controller: "VirtualController") -> None:
 # -- servers ------------------------------------------------------------------------------------
 
 
-def _wanted(target: "Bootable") -> list[int]:
-    """Ports that a driver must listen on before it may be called ready."""
-    if not target.driver:
-        return []
-    ports = [group.ports for group in target.groups]
-    return [n for p in ports for n in (p.motion, p.control, p.state) if n]
-
-
-def _is_up(controller: "VirtualController", target: "Bootable") -> bool:
-    wanted = _wanted(target)
-    if wanted:
-        return all(port in controller.network.listeners for port in wanted)
-    # Nobody knows which servers a stranger's program has: every task has come to a wait.
-    return not controller.scheduler.ready and controller.now > 0.2
-
-
 def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dict[str, int]]:
     listeners = controller.network.listeners
     if not target.driver:
@@ -248,19 +235,6 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
     }
 
 
-def _not_up(controller: "VirtualController", target: "Bootable") -> Exception:
-    missing = [p for p in _wanted(target) if p not in controller.network.listeners]
-    states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
-    return refusal(
-        "RG430",
-        None,
-        f"nothing listens on port {', '.join(map(str, missing)) or '-'} after {PATIENCE:g} s",
-        "the event log above tells why the tasks do not get there",
-        notes=(*states, *controller.where()),
-        exit_code=1,
-    )
-
-
 def _check_host(host: str) -> None:
     import ipaddress
 
@@ -274,7 +248,9 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 
-    for port in _wanted(target):
+    from rapidgen.cli.readiness import wanted_ports
+
+    for port in wanted_ports(target):
         if not 0 < port + offset < 65_536:
             raise typer.BadParameter(f"--port-offset moves port {port} to {port + offset}")
         with socket.socket() as probe:

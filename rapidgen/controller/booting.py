@@ -77,9 +77,9 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
     _only_of_folders(" ".join(map(str, targets)), wishes)
     if first is not None and first.is_dir() and is_backup(first):
         system = _entered(read_backup(first, notes=notes), wishes.entry)
-    else:
-        system = _loose(targets, wishes)
-    return _foreign(system, tuple(notes), wishes)
+        return _foreign(system, notes, wishes)
+    # Loose files have no mechanics that could be told.
+    return _foreign(_loose(targets, wishes), None, wishes)
 
 
 def is_configuration(target: Path) -> bool:
@@ -135,13 +135,12 @@ def _driver(
     return _surrounded(found, _described(wishes), wishes)
 
 
-def _foreign(system: System, notes: tuple[Diagnostic, ...], wishes: Wishes) -> Bootable:
+def _foreign(system: System, notes: list[Diagnostic] | None, wishes: Wishes) -> Bootable:
     cell = _described(wishes)
     system = _moving(system, cell)
-    groups, told = mechanics(system, wishes.robot, cell.robots)
-    if not system.robot_types:
-        told = ()  # loose files have no mechanics that could be told
-    return _surrounded(Bootable(system.name, system, groups, False, (*notes, *told)), cell, wishes)
+    groups, which = mechanics(system, wishes.robot, cell.robots)
+    told = () if notes is None else (*notes, *which)
+    return _surrounded(Bootable(system.name, system, groups, False, told), cell, wishes)
 
 
 def _described(wishes: Wishes) -> CellDescription:

@@ -21,7 +21,6 @@ from rapidgen.rapid.binding import (
     RoutineSymbol,
     Scope,
     TaskScope,
-    constant,
     installed_objects,
     match,
 )
@@ -35,6 +34,7 @@ _PREFIX = re.compile(r"(?i:[dga][io])(?![a-z]{3})")
 """diStart, DO1, gi_part; not `difference`."""
 _LOAD = Load(0.001, (0.0, 0.0, 0.000001))
 """That of tool0 [3HAC16581-1 tooldata]: a tool without any is refused by moves."""
+_DIONUM = frozenset(("high", "low", "edge"))
 _DATA = frozenset({"tooldata", "wobjdata", "loaddata"})
 
 
@@ -45,6 +45,8 @@ class Named:
     name: str
     type: str
     span: Span
+    sure: int = 0
+    """0: nothing tells; 1: it is read as a number; 2: it is the argument of a parameter."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,11 +73,10 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
         ]
         for scope in scopes:
             for one in _undeclared(scope):
-                before = found.get(one.name.casefold())
-                if before is None:
-                    found[one.name.casefold()] = one
-                elif not before.type and one.type:
-                    found[one.name.casefold()] = replace(before, type=one.type)
+                before = found.setdefault(one.name.casefold(), one)
+                if one.sure > before.sure:
+                    surer = replace(before, type=one.type, sure=one.sure)
+                    found[one.name.casefold()] = surer
     made = {one.name: one.type for one in found.values()}
     cell = CellDescription(
         signals={
@@ -105,7 +106,9 @@ def _undeclared(module: ModuleScope) -> Iterator[Named]:
         node, scope = stack.pop()
         for name, kind in _uses(node, scope):
             if scope.find(name.name) is None:
-                yield Named(name.name, kind, module.tree.source.span(name.first, name.first))
+                at = module.tree.source.span(name.first, name.first)
+                read_as = _read_as(name.name, node)
+                yield Named(name.name, kind or read_as, at, 2 if kind else bool(read_as))
         inside = scope
         if isinstance(node, n.RoutineDeclaration):
             inside = module.routine(node)
@@ -120,14 +123,21 @@ def _uses(node: n.Node, scope: Scope) -> Iterator[tuple[n.Name, str]]:
         routine = called(scope.find(node.name))
         if isinstance(routine, RoutineSymbol):
             yield from _arguments(node.arguments, routine, scope)
-    elif isinstance(node, n.Binary):
-        for side, other in ((node.left, node.right), (node.right, node.left)):
-            if isinstance(side, n.Name):
-                yield side, _read_as(side.name, node.operator, constant(other, scope, "num"))
-    elif isinstance(node, n.Assignment | n.Test):
-        read = node.value if isinstance(node, n.Assignment) else node.subject
+        return
+    for read in _read(node):
         if isinstance(read, n.Name):
-            yield read, _read_as(read.name, "", None)
+            yield read, ""
+
+
+def _read(node: n.Node) -> tuple[n.Expression, ...]:
+    match node:
+        case n.Binary():
+            return node.left, node.right
+        case n.Assignment():
+            return (node.value,)
+        case n.Test():
+            return (node.subject,)
+    return ()
 
 
 def _arguments(
@@ -138,12 +148,19 @@ def _arguments(
         value = pair.argument.value
         if isinstance(value, n.Name) and pair.parameter >= 0:
             kind = (routine.module or scope.module).base(parameters[pair.parameter].type) or ""
-            yield value, _read_as(value.name, "", None) if kind in ("", "anytype", "num") else kind
+            # A signal stands for its value where a number is wanted.
+            yield value, "" if kind in ("anytype", "num", "dnum") else kind
 
 
-def _read_as(name: str, operator: str, other: object) -> str:
-    """What a name may be that is read as a number."""
+def _read_as(name: str, node: n.Node) -> str:
+    """What a name may be that a node reads as a number."""
     prefix = _PREFIX.match(name)
     if prefix is not None:
         return f"signal{prefix[0].lower()}"
-    return "signaldi" if operator in ("=", "<>") and other in (0, 1) else ""
+    if isinstance(node, n.Binary) and node.operator in ("=", "<>"):
+        for side in (node.left, node.right):
+            if isinstance(side, n.NumberLiteral) and side.value in (0, 1):
+                return "signaldi"
+            if isinstance(side, n.Name) and side.name.casefold() in _DIONUM:
+                return "signaldi"
+    return ""

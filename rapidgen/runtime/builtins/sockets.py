@@ -11,6 +11,7 @@ from collections.abc import Callable
 from rapidgen.machine.network.interface import (
     BUFFER,
     Endpoint,
+    Network,
     NetworkFault,
     NetworkReason,
 )
@@ -156,7 +157,7 @@ def socket_accept(
             try_it,
             on=(listener.changed,),
             timeout=_seconds(time),
-            why=lambda: f"SocketAccept waits for a client on port {listener.local[1]}",
+            why=lambda: f"SocketAccept waits for a client on port {_asked(network, listener)}",
         )
     except NetworkFault as fault:
         raise _lost(task, socket, fault) from fault
@@ -318,6 +319,12 @@ def _wait_for_bytes(
     if not result and not socket.udp:
         raise _lost(task, socket, NetworkFault(NetworkReason.CLOSED, "the peer has closed"))
     return result
+
+
+def _asked(network: Network, listener: Endpoint) -> int:
+    """The port that a program asked for, wherever the system put it."""
+    ports = (port for port, at in network.listeners.items() if at == listener.local)
+    return next(ports, listener.local[1])
 
 
 def _peer(endpoint: Endpoint) -> str:
