@@ -104,15 +104,22 @@ class Kinematics:
         solved = arm[0].solve(self._from_base(pose, values), arm[0].branch(angles), angles[3])
         return None if solved is None else self._as_posture(solved, angles, values)
 
-    def reaches(self, pose: Pose, near: Posture) -> bool:
-        """Whether any posture reaches a pose, ranges apart."""
+    def beyond(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+        """Postures that reach a pose, ranges apart; external axes as in `near`."""
         if self._four is not None:
-            return any(self._of_four(pose, near, branch) is not None for branch in FOUR_BRANCHES)
-        if self._arm is None:
-            return any(True for postures in self.arm.rounds(pose, near) for _ in postures)
-        values = self.map.to_urdf(near)
-        based = self._from_base(pose, values)
-        return any(self._arm[0].solve(based, branch, 0.0) is not None for branch in BRANCHES)
+            fours = (self._of_four(pose, near, branch) for branch in FOUR_BRANCHES)
+            yield from (four for four in fours if four is not None)
+        elif self._arm is None:
+            for postures in self.arm.rounds(pose, near):
+                yield from postures
+        else:
+            values = self.map.to_urdf(near)
+            angles = self._robot_angles(values)
+            based = self._from_base(pose, values)
+            for branch in BRANCHES:
+                solved = self._arm[0].solve(based, branch, angles[3])
+                if solved is not None:
+                    yield self._as_posture(solved, angles, values)
 
     def solutions(self, pose: Pose, near: Posture) -> list[Posture]:
         """All postures within the ranges that reach a pose, external axes as in `near`.
@@ -122,12 +129,10 @@ class Kinematics:
         one if there is any.
         """
         found: list[Posture] = []
-        if self._four is not None:
-            for way in FOUR_BRANCHES:
-                four = self._of_four(pose, near, way)
-                if four is not None:
-                    found += [p for p in self._turned(four) if not _known(p, found)]
-        elif self._arm is None:
+        if self.is_closed_form:
+            for posture in self.beyond(pose, near):
+                found += [p for p in self._turned(posture) if not _known(p, found)]
+        else:
             for number, postures in enumerate(self.arm.rounds(pose, near)):
                 for posture in postures:
                     found += [p for p in self._turned(posture) if not _known(p, found)]
@@ -135,16 +140,6 @@ class Kinematics:
                         break
                 if found and number >= 1:
                     break
-        else:
-            arm = self._arm[0]
-            values = self.map.to_urdf(near)
-            angles = self._robot_angles(values)
-            based = self._from_base(pose, values)
-            for branch in BRANCHES:
-                solved = arm.solve(based, branch, angles[3])
-                if solved is not None:
-                    posture = self._as_posture(solved, angles, values)
-                    found += [p for p in self._turned(posture) if not _known(p, found)]
         found.sort(key=lambda p: sum(abs(a - b) for a, b in zip(p, near, strict=True)))
         return found
 

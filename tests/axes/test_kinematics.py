@@ -182,7 +182,7 @@ def test_out_of_reach_is_nothing():
     far = ((2.0, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
     assert own.follow(far, (0.0,) * 6) is None
     assert own.solutions(far, (0.0,) * 6) == []
-    assert not own.reaches(far, (0.0,) * 6)
+    assert not any(own.beyond(far, (0.0,) * 6))
 
 
 def test_axis_6_appears_with_every_turn_of_its_range():

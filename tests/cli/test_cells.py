@@ -55,3 +55,18 @@ def test_the_schema_of_a_cell(capsys):
     schema = json.loads(capsys.readouterr().out)
     assert schema["title"] == "rapidgen cell"
     assert set(schema["properties"]) >= {"robots", "signals", "tools", "devices"}
+
+
+def test_what_is_out_of_reach_is_told_with_place_axis_and_robot(capsys, tmp_path):
+    path = tmp_path / "reach.mod"
+    path.write_text(
+        "MODULE reach\n"
+        " CONST robtarget far:=[[2000,0,300],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        " CONST robtarget back:=[[-300,0,200],[0,0,1,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        " PROC main()\n  MoveJ far, v100, fine, tool0;\n ENDPROC\n"
+        " PROC behind()\n  MoveJ back, v100, fine, tool0;\n ENDPROC\nENDMODULE\n"
+    )
+    code, _, err = run(capsys, path)
+    assert (code, "irb120: the flange cannot be at [2000.0, 0.0, 300.0] mm" in err) == (1, True)
+    code, _, err = run(capsys, path, "--entry", "behind")
+    assert (code, "rax_1 would be at 180.0 deg, its range is -165 to 165" in err) == (1, True)
