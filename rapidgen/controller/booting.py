@@ -162,6 +162,7 @@ def _surrounded(found: Bootable, cell: CellDescription, wishes: Wishes) -> Boota
             dict(_starts(found.groups, cell, wishes.start, usual=not found.driver)),
             tuple(reaction for rows in cell.devices.values() for reaction in rows),
             frozenset(inputs if guessed is not None else ()),
+            guessed.polled if guessed is not None else (),
         ),
         guessed=guessed,
     )

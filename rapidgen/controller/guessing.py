@@ -14,6 +14,7 @@ from typing import Literal, cast
 
 from rapidgen.config.cell import CellDescription, CellSignalKeys
 from rapidgen.config.model import Load, Tool, WorkObject
+from rapidgen.controller.polling import Polled, polled
 from rapidgen.diagnostics import Span
 from rapidgen.rapid import Dialect, parse
 from rapidgen.rapid.binding import (
@@ -56,11 +57,14 @@ class Guess:
     cell: CellDescription
     named: tuple[Named, ...]
     unknown: tuple[Named, ...]
+    polled: tuple[Polled, ...] = ()
+    """Comparisons of guessed inputs in loops."""
 
 
 def guess(system: System, units: Iterable[str] = ()) -> Guess:
     """The cell that the programs of `system` seem to stand in. `units` are its mechanical units."""
     found: dict[str, Named] = {}
+    looked_at: list[Polled] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
     known += [(f"{task.name}Id", "taskid") for task in system.tasks]
     known += [(unit, "mecunit") for unit in (*units, "ROB_ID")]
@@ -72,6 +76,7 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
             for f in spec.modules
         ]
         for scope in scopes:
+            looked_at += polled(scope)
             for one in _undeclared(scope):
                 before = found.setdefault(one.name.casefold(), one)
                 if one.sure > before.sure:
@@ -90,7 +95,9 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
     )
     named = [one for one in found.values() if _can_be_made(one.type)]
     unknown = [one for one in found.values() if not _can_be_made(one.type)]
-    return Guess(cell, tuple(named), tuple(unknown))
+    inputs = {name.casefold() for name, keys in cell.signals.items() if keys.kind[1] == "I"}
+    rows = dict.fromkeys(row for row in looked_at if row.signal in inputs)
+    return Guess(cell, tuple(named), tuple(unknown), tuple(rows))
 
 
 def _can_be_made(kind: str) -> bool:

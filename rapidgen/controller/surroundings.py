@@ -6,11 +6,13 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol
 
 from rapidgen.config.cell import CellDescription, ReactionKeys
+from rapidgen.controller.polling import Buttons, Polled
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.generate.context import load_literal, tool_literal, work_object_literal
 from rapidgen.machine.io import Awaited, IOSystem
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
+from rapidgen.runtime.task.task import Task
 from rapidgen.system.model import ModuleFile, SignalSpec, System
 
 _PATIENCE = 0.5
@@ -28,6 +30,8 @@ class Surroundings:
     reactions: Sequence[ReactionKeys] = ()
     guessed: frozenset[str] = frozenset()
     """Inputs that nobody drives, lower case: they become what somebody waits for."""
+    polled: tuple[Polled, ...] = ()
+    """Where programs look for them in loops."""
 
 
 class Booted(Protocol):
@@ -36,6 +40,7 @@ class Booted(Protocol):
     io: IOSystem
     motion: MotionSystem
     scheduler: Scheduler
+    rapid_tasks: dict[str, Task]
 
 
 def furnish(system: System, cell: CellDescription) -> System:
@@ -119,6 +124,8 @@ def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
 
     if around.guessed:
         controller.io.on_awaited = answer
+    if around.polled:
+        Buttons(controller, around.polled, answered)
     return answered
 
 

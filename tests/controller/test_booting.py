@@ -161,3 +161,29 @@ def test_a_robot_of_a_cell_may_be_a_configuration_beside_it(program, cell, tmp_p
     cell.write_text("robots: {T_ROB1: {model: mine.yaml, mechanical_unit: ROB_7}}")
     (group,) = load_target([program], Wishes(cell=cell)).groups
     assert (group.model, group.mechanical_unit) == ("irb1600", "ROB_7")
+
+
+def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
+    path = tmp_path / "polls.mod"
+    path.write_text(
+        "MODULE polls\n VAR num done;\n PROC main()\n  WHILE done < 3 DO\n"
+        "   IF DI_1 = 1 Incr done;\n   IF DInput(start) = 1 THEN\n    done := done + 10;\n"
+        "   ENDIF\n   TEST giPart\n   CASE 4:\n    done := done + 100;\n   ENDTEST\n"
+        "   WaitTime 0.3;\n  ENDWHILE\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "finished"
+        assert controller.answered[:2] == [("DI_1", 1), ("start", 1)]
+        assert controller.signals["DI_1"] == 0, "a button is let go"
+
+
+def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):
+    path = tmp_path / "dead.mod"
+    path.write_text(
+        "MODULE dead\n PERS bool never := FALSE;\n VAR bool got;\n PROC main()\n"
+        "  WHILE di1 = 0 DO\n   never := TRUE;\n   WaitTestAndSet never;\n  ENDWHILE\n"
+        " ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="once") as controller:
+        assert controller.run(max_time=20) == "deadlock"
+        assert "WaitTestAndSet waits for its flag" in controller.where()[0]

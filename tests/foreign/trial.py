@@ -25,10 +25,9 @@ from rapidgen.diagnostics import DiagnosticError, Severity
 from rapidgen.rapid import check
 from tests.foreign.programs import Program, programs
 
-HERE = Path(__file__).parent
 ROBOTS = (
-    *("irb120", "irb1200", "irb1600", "irb2400", "irb4600", "irb6640", "irb660", "irb14000"),
-    str(HERE / "irb140.yaml"),
+    *("irb120", "irb1200", "IRB 140-6/0.81", "irb1600", "irb2400", "IRB 2600-12/1.65", "irb4600"),
+    *("irb6640", "irb6700", "irb660", "irb14000", "crb15000", "irb910sc"),
 )
 """Tried in this order while a position cannot be reached."""
 _MISFIT = re.compile("REACH|ROBLIMIT|not compatible|singularity")

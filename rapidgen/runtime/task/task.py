@@ -104,7 +104,7 @@ class Task(Process):
         """Start from where the task stopped, or from main."""
         self.stepper.forget()
         if self.leaving:
-            self.run.start_asked = True
+            self.run.start_asked = self._asked_to_start
         elif self.state == "stopped":
             self.events.due.append("RESTART")
             self.enter("running")
@@ -124,12 +124,16 @@ class Task(Process):
             self.enter("running")
             self._run()
 
+    def _asked_to_start(self) -> None:
+        self.events.due.append("START")
+        self.enter("running")
+
     def stop(self, event: StopEvent = "STOP") -> None:
         """Stop before the next statement or in the wait; `start()` goes on there.
 
         The routines of `event` run when the task stands.
         """
-        self.run.start_asked = False
+        self.run.start_asked = None
         if self.state == "running":
             self.enter("stopped")
             if event:
@@ -143,12 +147,24 @@ class Task(Process):
             stepper.begin(over)
             self._run()
             return
-        if self.state not in ("stopped", "error") or self.leaving or self.events.while_stopped:
-            raise CannotStep(f"the task is {self.state}")
+        if self.state == "running":
+            raise CannotStep("the program runs: stop it first")
+        if self.leaving and not back:
+            self.run.start_asked = lambda: stepper.begin(over)
+            return
+        if self.state not in ("stopped", "error") or self.leaving:
+            raise CannotStep(f"the task is {'at main' if self.leaving else self.state}")
+        if self.events.while_stopped:
+            raise CannotStep("the routines of STOP still run: let time pass")
         if self.state == "error" and self.pointer.place is None:
             raise CannotStep("the program pointer is lost: PP to main first")
         if stepper.at_point >= 0 and not back:
             stepper.begin(over, stepper.at_point)
+            self.release()
+            return
+        if self.alive and self.pointer.place is None and not self.pointer.begun and not back:
+            # Stopped before its first statement.
+            stepper.begin(over)
             self.release()
             return
         self.pointer.place = self.pointer.stack()
@@ -205,7 +221,7 @@ class Task(Process):
         run, events = self.run, self.events
         run.routine = routine
         run.fresh = True
-        run.start_asked = False
+        run.start_asked = None
         events.due = [e for e in events.due if e == "POWER_ON"]
         if routine is None:
             events.due.append("RESET")
