@@ -64,7 +64,16 @@ def run(
         typer.Option("--profile", metavar="[=F.json]", help="Time by line, on stderr or as JSON."),
     ] = "",
     coverage: Annotated[
-        Path | None, typer.Option("--coverage", metavar="F.lcov", help="Lines and branches.")
+        list[Path] | None,
+        typer.Option(
+            "--coverage",
+            metavar="F.lcov|F.html",
+            help="Lines and branches, or the source with hits; may be repeated.",
+        ),
+    ] = None,
+    plot: Annotated[
+        Path | None,
+        typer.Option("--plot", metavar="F", help="F.png and F.html of what the robots did."),
     ] = None,
     backup: options.Backup = None,
     check: options.LoadCheck = True,
@@ -75,15 +84,14 @@ def run(
     line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
     stopped with an error, on a deadlock, and at the limits of time and statements.
     """
-    from rapidgen._writing import write_whole
     from rapidgen.cli.bootable import answers_told, chosen
+    from rapidgen.cli.observed import Observed, Wanted
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.controller.tracing import Coverage, Profile, Trace
     from rapidgen.machine.operator import read_answers
 
     _limits(max_time, max_statements)
-    for target in filter(None, (coverage, Path(profile) if profile not in ("", "-") else None)):
-        _writable(target)
+    wanted = Wanted(trace, profile, tuple(coverage or ()), plot)
+    wanted.refuse_unwritable()
     _no_configuration(files)
     found = chosen(
         list(map(str, files)),
@@ -95,14 +103,13 @@ def run(
         backup=backup,
         check=check,
     )
-    tracing = trace or bool(profile) or coverage is not None
     with VirtualController.boot(
         found,
         seed=seed,
         cycle=cycle,
         schedule="round-robin" if schedule == "round-robin" else "random",
         switch_at_pers=schedule == "pers",
-        tracing=tracing,
+        tracing=wanted.tracing,
         dialect=_dialect(dialect),
         answers=read_answers(answers) if answers is not None else None,
         autostart=False,
@@ -110,17 +117,11 @@ def run(
         controller.operator.subscribe(_print)
         warnings = [d for d in controller.diagnostics if d.severity is not Severity.ERROR]
         sys.stderr.write(render(warnings))
-        if trace:
-            Trace(controller, sys.stderr)
-        profiled = Profile(controller) if profile else None
-        covered = Coverage(controller) if coverage is not None else None
+        observed = Observed(controller, wanted)
         controller.start_program()
         wrong = _run(controller, max_time, max_statements)
         sys.stderr.write(answers_told(controller.answered))
-        if profiled is not None:
-            _write_profile(profiled, profile)
-        if covered is not None and coverage is not None:
-            write_whole(coverage, covered.lcov().encode())
+        observed.write()
     if wrong:
         raise DiagnosticError(wrong, exit_code=1)
 
@@ -148,19 +149,6 @@ def _no_configuration(files: list[Path]) -> None:
                 f"{file} is a configuration, and run takes RAPID",
                 f"`rapidgen sim {file}` boots it; or build it and run the folder",
             )
-
-
-def _writable(path: Path) -> None:
-    """Refuse, before anything runs, a file that cannot be written behind it."""
-    from rapidgen._writing import check_writable
-
-    try:
-        check_writable(path)
-    except OSError as fault:
-        message = f"cannot write {path}: {fault.strerror}"
-        raise refusal(
-            "RG901", None, message, "name a file in a folder that exists and may be written"
-        ) from fault
 
 
 def _dialect(text: str) -> "Switches":
@@ -220,22 +208,3 @@ def _fault(task: str, fault: "FatalError") -> Diagnostic:
         fault.title,
         notes=tuple(notes),
     )
-
-
-def _write_profile(profile: object, target: str) -> None:
-    import json
-
-    from rapidgen._writing import write_whole
-    from rapidgen.controller.tracing import Profile
-
-    assert isinstance(profile, Profile)
-    rows = profile.as_data()
-    if target != "-":
-        write_whole(Path(target), (json.dumps(rows, indent=1) + "\n").encode())
-        return
-    sys.stderr.write(f"{'seconds':>12} {'passes':>9}  line\n")
-    for row in rows[:40]:
-        sys.stderr.write(
-            f"{row['seconds']:12.6f} {row['passes']:9}  "
-            f"{row['task']} {row['module']}/{row['routine']}:{row['line']}\n"
-        )
