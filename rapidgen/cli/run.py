@@ -46,6 +46,9 @@ def run(
     max_statements: Annotated[
         int, typer.Option("--max-statements", help="Statements at most, in all tasks.")
     ] = 1_000_000_000,
+    max_memory: Annotated[
+        int, typer.Option("--max-memory", metavar="MB", help="Memory at most.")
+    ] = 2048,
     seed: Annotated[int, typer.Option("--seed", help="Seed of everything that is drawn.")] = 0,
     schedule: Annotated[
         Literal["round-robin", "random", "pers"],
@@ -82,9 +85,10 @@ def run(
 
     What a controller would not load is refused: all its errors are told, nothing runs. Prints one
     line for each TPWrite. Ends when main of every task has returned; exit code 1 when a task
-    stopped with an error, on a deadlock, and at the limits of time and statements.
+    stopped with an error, on a deadlock, and at the limits of time, statements and memory.
     """
     from rapidgen.cli.bootable import answers_told, chosen
+    from rapidgen.cli.memory import at_most
     from rapidgen.cli.observed import Observed, Wanted
     from rapidgen.controller.controller import VirtualController
     from rapidgen.machine.operator import read_answers
@@ -103,17 +107,20 @@ def run(
         backup=backup,
         check=check,
     )
-    with VirtualController.boot(
-        found,
-        seed=seed,
-        cycle=cycle,
-        schedule="round-robin" if schedule == "round-robin" else "random",
-        switch_at_pers=schedule == "pers",
-        tracing=wanted.tracing,
-        dialect=_dialect(dialect),
-        answers=read_answers(answers) if answers is not None else None,
-        autostart=False,
-    ) as controller:
+    with (
+        at_most(max_memory),
+        VirtualController.boot(
+            found,
+            seed=seed,
+            cycle=cycle,
+            schedule="round-robin" if schedule == "round-robin" else "random",
+            switch_at_pers=schedule == "pers",
+            tracing=wanted.tracing,
+            dialect=_dialect(dialect),
+            answers=read_answers(answers) if answers is not None else None,
+            autostart=False,
+        ) as controller,
+    ):
         controller.operator.subscribe(_print)
         warnings = [d for d in controller.diagnostics if d.severity is not Severity.ERROR]
         sys.stderr.write(render(warnings))

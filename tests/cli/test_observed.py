@@ -1,6 +1,8 @@
 """What `run` shows of a run: trace, coverage with the source, a plot, and what tasks wait for."""
 
 import re
+import subprocess
+import sys
 
 import pytest
 
@@ -86,3 +88,33 @@ def test_what_a_task_waits_for_is_told(capsys, tmp_path, statement, told):
     err = capsys.readouterr().err
     assert told in err
     assert "waits.mod:10 (main)" in err
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "MODULE big\n VAR num a{100000,100000};\n PROC main()\n ENDPROC\nENDMODULE\n",
+        "MODULE big\n PROC main()\n  VAR num a{100000,100000};\n  a{1,1}:=1;\n ENDPROC\nENDMODULE",
+    ],
+)
+def test_an_array_that_no_memory_holds_is_refused(capsys, tmp_path, text):
+    path = tmp_path / "big.mod"
+    path.write_text(text)
+    assert main(["run", str(path)]) != 0
+    assert "a would have 10,000,000,000 elements, there is room for 4,000,000" in (
+        capsys.readouterr().err
+    )
+
+
+def test_a_program_that_takes_too_much_memory_is_stopped(tmp_path):
+    path = tmp_path / "grows.mod"
+    path.write_text(
+        "MODULE grows\n PROC main()\n  deeper 1;\n ENDPROC\n PROC deeper(num n)\n"
+        "  VAR string a{100000};\n  a{1} := ValToStr(n);\n  deeper n + 1;\n ENDPROC\nENDMODULE\n"
+    )
+    words = [sys.executable, "-m", "rapidgen.cli", "run", str(path), "--max-memory", "300"]
+    done = subprocess.run(words, capture_output=True, text=True, timeout=120)
+    assert done.returncode == 1
+    assert "RG406" in done.stderr
+    assert "more than 300 MB" in done.stderr
+    assert "Traceback" not in done.stderr
