@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Vector, error
+from rapidgen.axes.numeric import solved
 
 if TYPE_CHECKING:
     from rapidgen.axes.numeric import Search
@@ -79,7 +80,7 @@ class ArmAngle:
                 columns.append([(a - b) / _STEP for a, b in zip(here, off(moved), strict=True)])
             jacobian = np.array(columns).T
             normal = jacobian.T @ jacobian + 1e-8 * size * np.eye(len(values))
-            step = np.linalg.solve(normal, jacobian.T @ np.array(here))
+            step = solved(normal, jacobian.T @ np.array(here))
             share = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))
             for n, change in enumerate(step):
                 values[n] += share * float(change)

@@ -27,7 +27,7 @@ from rapidgen.rapid.binding import (
 )
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.syntax import nodes as n
-from rapidgen.rapid.syntax.walk import children
+from rapidgen.rapid.syntax.walk import children, walk
 from rapidgen.system.model import System
 
 Kind = Literal["DI", "DO", "GI", "GO", "AI", "AO"]
@@ -64,6 +64,7 @@ class Guess:
 def guess(system: System, units: Iterable[str] = ()) -> Guess:
     """The cell that the programs of `system` seem to stand in. `units` are its mechanical units."""
     found: dict[str, Named] = {}
+    assigned: set[str] = set()
     looked_at: list[Polled] = []
     known = [(signal.name, f"signal{signal.type.lower()}") for signal in system.signals]
     known += [(f"{task.name}Id", "taskid") for task in system.tasks]
@@ -77,11 +78,16 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
         ]
         for scope in scopes:
             looked_at += polled(scope)
+            assigned |= _assigned(scope)
             for one in _undeclared(scope):
                 before = found.setdefault(one.name.casefold(), one)
                 if one.sure > before.sure:
                     surer = replace(before, type=one.type, sure=one.sure)
                     found[one.name.casefold()] = surer
+    for key in assigned & found.keys():
+        # No signal is assigned: it is a datum of some type.
+        if found[key].type.startswith("signal"):
+            found[key] = replace(found[key], type="")
     made = {one.name: one.type for one in found.values()}
     cell = CellDescription(
         signals={
@@ -102,6 +108,15 @@ def guess(system: System, units: Iterable[str] = ()) -> Guess:
 
 def _can_be_made(kind: str) -> bool:
     return kind.startswith("signal") or kind in _DATA
+
+
+def _assigned(module: ModuleScope) -> set[str]:
+    return {
+        node.target.name.casefold()
+        for routine in module.tree.routines
+        for node in walk(routine)
+        if isinstance(node, n.Assignment) and isinstance(node.target, n.Name)
+    }
 
 
 def _undeclared(module: ModuleScope) -> Iterator[Named]:
