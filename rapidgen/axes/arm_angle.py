@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose, Vector, error
-from rapidgen.axes.numeric import solved
 
 if TYPE_CHECKING:
     from rapidgen.axes.numeric import Search
@@ -58,6 +57,8 @@ class ArmAngle:
         self, search: "Search", pose: Pose, angle: float, start: Sequence[float]
     ) -> tuple[float, ...] | None:
         import numpy as np  # only where an arm has seven axes
+
+        from rapidgen.axes.numeric import solved
 
         def off(values: Sequence[float]) -> list[float]:
             flange, axes = search.lines(values)

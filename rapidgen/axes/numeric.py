@@ -38,9 +38,9 @@ def solved(normal: Floats, right: Floats) -> Floats:
     """The step of damped Newton; where the damping is too little for a singular arm, the shortest
     one."""
     try:
-        return np.linalg.solve(normal, right)
+        return np.asarray(np.linalg.solve(normal, right), dtype=np.float64)
     except np.linalg.LinAlgError:
-        return np.linalg.pinv(normal) @ right
+        return np.asarray(np.linalg.pinv(normal) @ right, dtype=np.float64)
 
 
 @dataclass(frozen=True)

@@ -282,6 +282,14 @@ class VirtualController:
         """Values of the signals by name."""
         return Signals(self.io)
 
+    def positions(self, group: str = "") -> dict[str, float]:
+        """Where a robot stands, by joint of its configuration: controller axes, rad and m.
+
+        Of the first group, or of a named one (KeyError: there is none).
+        """
+        found = self.motion.group(group or next(iter(self.motion.groups)))
+        return dict(zip(found.map.names, found.positions(), strict=True))
+
     def record(self) -> dict[str, Recorder]:
         """Record the motion of every group from now on: `["rob1"].recording()` gives arrays."""
         return self.motion.record()
