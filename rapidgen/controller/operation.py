@@ -57,6 +57,7 @@ class Operation:
     def power_up(self) -> None:
         """After switching on: outputs at their defaults, POWER_ON routines are due."""
         self._host.io.power_up()
+        self._host.motion.zones.drop_all()
         for task in self._host.rapid_tasks.values():
             task.power_up()
         self._host.log.info(10_011, "Motors ON state")
@@ -132,6 +133,7 @@ class Operation:
         self.e_stop = False
         self.motors_on = False
         host.io.power_up()
+        host.motion.zones.drop_all()
         for task in host.rapid_tasks.values():
             task.power_up()
             if task.spec.type != "NORMAL":

@@ -12,11 +12,6 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
         EGMStreamStart EGMStreamStop EGMWaitCond""",
     ),
-    (
-        "world zones are not simulated",
-        """WZBoxDef WZCylDef WZSphDef WZHomeJointDef WZLimJointDef WZDOSet WZLimSup WZEnable
-        WZDisable WZFree""",
-    ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
         "there are no I/O units: every signal is a virtual one",
