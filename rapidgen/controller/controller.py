@@ -28,6 +28,7 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
@@ -150,6 +151,8 @@ class VirtualController:
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
         self.meetings = Meetings()
+        self.hands = Hands(self.scheduler, self.io)
+        """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,

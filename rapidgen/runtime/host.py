@@ -13,6 +13,7 @@ from rapidgen.machine.network.interface import Network
 from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.operator import Operator
 from rapidgen.machine.scheduler import Scheduler
+from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.group import Waiter
@@ -76,6 +77,8 @@ class Host(Protocol):
     booked: set[int]
     """Error numbers that BookErrNo gave."""
     meetings: Meetings
+    hands: Hands
+    """The hands of a YuMi."""
 
     # What runs.
     statements: Statements

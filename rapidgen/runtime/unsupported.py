@@ -41,13 +41,6 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         """FCCalib FCAct FCDeact FCRefStart FCRefStop FCPress1LStart FCPressL FCPressC FCPressEnd
         FCLoadID""",
     ),
-    (
-        "the gripper's own controller is not simulated",
-        """Hand_Initialize Hand_GripInward Hand_GripOutward Hand_MoveTo Hand_SetHoldForce
-        Hand_SetMaxSpeed Hand_Stop Hand_JogInward Hand_JogOutward Hand_DoCalibrate
-        Hand_GetActualPos Hand_GetActualSpeed g_Init g_GripIn g_GripOut g_MoveTo g_SetMaxSpd
-        g_SetForce g_Stop g_JogIn g_JogOut g_Calibrate""",
-    ),
     ("linked motors are not simulated", "Linked_m_exe"),
     (
         "the controller's path recorder is not simulated",
