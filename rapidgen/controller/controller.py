@@ -17,6 +17,7 @@ from rapidgen.controller.operation import OperatingMode, Operation
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
+from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -151,6 +152,8 @@ class VirtualController:
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
         self.meetings = Meetings()
+        self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
+        """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
         self.hands = Hands(self.scheduler, self.io)
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.configuration = SystemParameters(system, tuple(robots))

@@ -183,8 +183,7 @@ class Operation:
         """
         for task in self._normal():
             task.stop(event)
-        for group in self._groups:
-            group.stop("program", quick=quick)
+        self._stop_motion(quick=quick)
         self._host.log.info(10_125, "Program stopped")
         self.changed.notify()
 
@@ -194,6 +193,8 @@ class Operation:
             task.pp_to_main()
         for group in self._groups:
             group.reset()
+        for arc in self._host.arcs.values():
+            arc.reset()
         self._host.log.info(10_002, "Program pointer has been reset")
 
     def drop_paths(self) -> None:
@@ -213,6 +214,8 @@ class Operation:
 
     def step_moves(self) -> None:
         """The robots may move."""
+        for arc in self._host.arcs.values():
+            arc.go_on()
         for group in self._groups:
             group.start("program")
 
@@ -275,9 +278,11 @@ class Operation:
             if other is not task:
                 other.stop()
 
-    def _stop_motion(self) -> None:
+    def _stop_motion(self, *, quick: bool = False) -> None:
+        for arc in self._host.arcs.values():
+            arc.hold()
         for group in self._groups:
-            group.stop("program")
+            group.stop("program", quick=quick)
 
 
 ACTIONS: Mapping[str, Callable[[Operation], object]] = {

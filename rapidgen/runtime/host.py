@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from types import FrameType
 from typing import Literal, Protocol, TypeAlias
 
+from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -77,6 +78,8 @@ class Host(Protocol):
     booked: set[int]
     """Error numbers that BookErrNo gave."""
     meetings: Meetings
+    arcs: dict[str, ArcEquipment]
+    """What tasks weld with."""
     hands: Hands
     """The hands of a YuMi."""
 

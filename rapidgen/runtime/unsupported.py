@@ -68,8 +68,8 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         CamNumberOfResults""",
     ),
     (
-        "welding is not simulated",
-        "ArcL ArcC ArcLStart ArcLEnd ArcCStart ArcCEnd SpotL SpotJ",
+        "spot welding is not simulated",
+        "SpotL SpotJ",
     ),
     (
         "independent axes are not simulated",
