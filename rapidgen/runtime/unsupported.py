@@ -21,7 +21,6 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "conditions that the controller evaluates by itself are not simulated",
         "GetMaxNumberOfCyclicBool SetupCyclicBool RemoveCyclicBool RemoveAllCyclicBool",
     ),
-    ("nobody can lead a simulated robot by hand", "SetLeadThrough IsLeadThrough"),
     (
         "path correction is not simulated",
         "CorrCon CorrDiscon CorrClear CorrWrite CorrRead",
@@ -35,13 +34,16 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         """SenDevice WriteVar ReadVar WriteBlock ReadBlock SiConnect SiClose SiGetCyclic
         SiSetCyclic IVarValue""",
     ),
-    ("contact is not simulated", "ContactL"),
     (
         "force control (option 661-2) is not simulated",
         """FCCalib FCAct FCDeact FCRefStart FCRefStop FCPress1LStart FCPressL FCPressC FCPressEnd
         FCLoadID""",
     ),
     ("linked motors are not simulated", "Linked_m_exe"),
+    (
+        "BullsEye measures a real tool with its beam: there is neither",
+        "BESetupToolJ BECheckTcp BEUpdateTcp BERefPointer BETcpExtend BEDebugState",
+    ),
     (
         "the controller's path recorder is not simulated",
         """PathRecStart PathRecStop PathRecMoveBwd PathRecMoveFwd PathRecValidBwd PathRecValidFwd
@@ -54,7 +56,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ("motor angles need gear ratios, which are in no public source", "ReadMotor"),
     (
         "its arguments are in no public source",
-        "TriggLIOs TriggJIOs",
+        "TriggLIOs TriggJIOs SSearchL",
     ),
     (
         "how the controller fits axes and tools to measured points is in no public source",
