@@ -263,6 +263,10 @@ class WorldZones:
         self._zones[number] = _Entry(group, watch, stationary)
         return number
 
+    def is_stationary(self, number: int) -> bool:
+        """Whether a zone stays as it is until the next warm start."""
+        return number in self._zones and self._zones[number].stationary
+
     def enable(self, number: int, on: bool) -> None:
         """Watch again, or for the time being not. KeyError: there is no such zone."""
         entry = self._zones[number]

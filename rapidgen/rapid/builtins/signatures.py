@@ -58,7 +58,8 @@ _HEADER: Final = re.compile(
 )
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
 _DECLARATION: Final = re.compile(
-    r"^(?:RECORD\b.*?^ENDRECORD$|(?:ALIAS|CONST|PERS|VAR)\b[^;]*;)", re.MULTILINE | re.DOTALL
+    r"^(?:RECORD\b.*?^ENDRECORD$|(?:ALIAS|CONST|PERS|VAR)\b[^;]*;|!\w+value [^\n]*$)",
+    re.MULTILINE | re.DOTALL,
 )
 _NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
 _MARKS: Final = frozenset(
@@ -231,16 +232,16 @@ def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | Data
 
 @cache
 def _types() -> _Types:
+    text = _read("types") + _declared()
     classes: dict[str, TypeClass] = {}
     names: dict[str, str] = {}
     aliases: dict[str, str] = {}
     records: dict[str, PredefinedRecord] = {}
-    listing = _read("types") + "".join(_read(name) for name in _themes())
-    for kind, listed in _CLASSES.findall(listing):
+    for kind, listed in _CLASSES.findall(text):
         for name in listed.split():
             classes[name] = kind
             names[name] = name
-    for declaration in _declarations(_read("types") + _declared()):
+    for declaration in _declarations(text):
         key = declaration.name.lower()
         names[key] = declaration.name
         classes[key] = "value"

@@ -177,11 +177,10 @@ def _define(
     *,
     ahead: bool,
 ) -> None:
-    wanted = "wzstationary" if stationary else "wztemporary"
     if not temporary and not stationary:
         raise _refused("\\Temp or \\Stat has to be given")
-    if datum.type.name != wanted:
-        raise _refused(f"a zone of this kind is kept in a {wanted}, not in a {datum.type.name}")
+    if datum.type.name != "wztemporary":
+        raise _refused(f"a zone is kept in a wztemporary or wzstationary: {datum.type.name}")
     if stationary and task.events.running != "POWER_ON":
         raise _refused("a stationary zone is defined in an event routine of POWER ON")
     zone, zones, group = shape.zone, task.controller.motion.zones, group_of(task)
@@ -245,9 +244,17 @@ def supervise(
     _define(task, temporary, stationary, datum, shape, act, ahead=True)
 
 
+def _temporary(task: Task, datum: Ref) -> int:
+    """The number of a zone that may be changed. FatalError: it is a stationary one."""
+    number = int(datum.get().wz)
+    if task.controller.motion.zones.is_stationary(number):
+        raise _refused(f"zone {number} is stationary: it stays until the next warm start")
+    return number
+
+
 def _switch(on: bool) -> Callable[[Task, Ref], None]:
     def switch(task: Task, datum: Ref) -> None:
-        number = int(datum.get().wz)
+        number = _temporary(task, datum)
         if number not in task.controller.motion.zones:
             raise _refused("the zone is not defined")
         task.controller.motion.zones.enable(number, on)
@@ -258,8 +265,8 @@ def _switch(on: bool) -> Callable[[Task, Ref], None]:
 @builtin("WZFree")
 def free(task: Task, datum: Ref) -> None:
     """Forgets a zone; of a datum without one nothing happens. Its output stays as it is."""
+    task.controller.motion.zones.drop(_temporary(task, datum))
     changed = datum.get().copy()
-    task.controller.motion.zones.drop(int(changed.wz))
     changed.wz = 0
     datum.set(changed)
 
