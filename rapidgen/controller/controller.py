@@ -154,7 +154,7 @@ class VirtualController:
         self.meetings = Meetings()
         self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
         """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
-        self.hands = Hands(self.scheduler, self.io)
+        self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
         """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(

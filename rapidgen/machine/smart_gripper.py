@@ -33,7 +33,7 @@ class Command(IntEnum):
     AGILE_OUTWARD = 16
 
 
-class State(IntEnum):
+class HandState(IntEnum):
     """What hand_SysState tells."""
 
     READY = 0
@@ -56,16 +56,16 @@ class State(IntEnum):
 PHYSICAL_LIMIT: Final = 25.0
 """mm"""
 _MOVING: Final = {
-    Command.JOG_OPEN: (State.JOG_OPEN, None),
-    Command.JOG_CLOSE: (State.JOG_CLOSE, None),
-    Command.TO_MAX: (State.TO_MAX, State.COMPLETED),
-    Command.TO_MIN: (State.TO_MIN, State.COMPLETED),
-    Command.GRIP_INWARD: (State.GRIP_INWARD, State.COMPLETED),
-    Command.GRIP_OUTWARD: (State.GRIP_OUTWARD, State.COMPLETED),
-    Command.FORCE_INWARD: (State.FORCE_INWARD, State.KEEP_OBJECT),
-    Command.FORCE_OUTWARD: (State.FORCE_OUTWARD, State.KEEP_OBJECT),
-    Command.AGILE_INWARD: (State.AGILE_INWARD, State.KEEP_OBJECT),
-    Command.AGILE_OUTWARD: (State.AGILE_OUTWARD, State.KEEP_OBJECT),
+    Command.JOG_OPEN: (HandState.JOG_OPEN, None),
+    Command.JOG_CLOSE: (HandState.JOG_CLOSE, None),
+    Command.TO_MAX: (HandState.TO_MAX, HandState.COMPLETED),
+    Command.TO_MIN: (HandState.TO_MIN, HandState.COMPLETED),
+    Command.GRIP_INWARD: (HandState.GRIP_INWARD, HandState.COMPLETED),
+    Command.GRIP_OUTWARD: (HandState.GRIP_OUTWARD, HandState.COMPLETED),
+    Command.FORCE_INWARD: (HandState.FORCE_INWARD, HandState.KEEP_OBJECT),
+    Command.FORCE_OUTWARD: (HandState.FORCE_OUTWARD, HandState.KEEP_OBJECT),
+    Command.AGILE_INWARD: (HandState.AGILE_INWARD, HandState.KEEP_OBJECT),
+    Command.AGILE_OUTWARD: (HandState.AGILE_OUTWARD, HandState.KEEP_OBJECT),
 }
 """What a command makes of the state while the fingers move, and when they stand."""
 _EXACT: Final = (Command.TO_MAX, Command.TO_MIN)
@@ -85,14 +85,16 @@ _REGISTERS: Final = {
 class SmartGripper:
     """One hand, `L` or `R`. Lengths are mm, speeds mm/s, forces N."""
 
-    def __init__(self, scheduler: Scheduler, io: IOSystem, side: str) -> None:
+    def __init__(
+        self, scheduler: Scheduler, io: IOSystem, side: str, *, calibrated: bool = False
+    ) -> None:
         self._scheduler = scheduler
         self._io = io
         self.side = side
         self.max_position, self.min_position = 20.0, 2.0
         self.max_speed, self.hold_force = 20.0, 15.0
-        self.state = State.READY
-        self.calibrated = False
+        self.state = HandState.READY
+        self.calibrated = calibrated
         self.part: float | None = None
         """Width of what lies between the fingers: inward they come no further."""
         self.ring: float | None = None
@@ -101,7 +103,7 @@ class SmartGripper:
         """Whether a part closes the suction cup."""
         self.vacuum, self.blow = [False, False], [False, False]
         self.changed = WaitSet()
-        """State, or anything else of it, has changed."""
+        """Its state, or anything else of it, has changed."""
         self._from = self._to = self._zero = 0.0
         self._began = 0
         self._speed = 0.0
@@ -124,7 +126,7 @@ class SmartGripper:
     @property
     def force(self) -> float:
         """What the fingers hold with."""
-        return self.hold_force if self.state is State.KEEP_OBJECT else 0.0
+        return self.hold_force if self.state is HandState.KEEP_OBJECT else 0.0
 
     def pressure(self, cup: int) -> float:
         """kPa at a cup, 0 or 1."""
@@ -157,9 +159,9 @@ class SmartGripper:
             self._move(order)
         elif order is Command.CALIBRATE:
             self._zero, self.calibrated = self._to, True
-            self.state = State.COMPLETED
+            self.state = HandState.COMPLETED
         else:
-            self.state = State.READY if order is Command.READY else State.ERROR
+            self.state = HandState.READY if order is Command.READY else HandState.ERROR
         self._report()
 
     def _stand(self) -> None:
@@ -197,7 +199,7 @@ class SmartGripper:
         self._stand()
         after = _MOVING[order][1]
         if missed:
-            self.state = State.ERROR
+            self.state = HandState.ERROR
         elif after is not None:
             self.state = after
         self._report()
@@ -266,8 +268,10 @@ class SmartGripper:
 class Hands:
     """Both hands of a YuMi, and what programs have said of them."""
 
-    def __init__(self, scheduler: Scheduler, io: IOSystem) -> None:
-        self.hands = {side: SmartGripper(scheduler, io, side) for side in "LR"}
+    def __init__(self, scheduler: Scheduler, io: IOSystem, *, calibrated: bool = False) -> None:
+        self.hands = {
+            side: SmartGripper(scheduler, io, side, calibrated=calibrated) for side in "LR"
+        }
         self.limits = dict.fromkeys("LR", PHYSICAL_LIMIT)
         """mm that positions may ask for, by side."""
         self.chosen: dict[str, str] = {}

@@ -64,7 +64,7 @@ class Cylinder:
 
 
 @dataclass(frozen=True, slots=True)
-class Sphere:
+class Ball:
     """Around a point."""
 
     centre: Vector
@@ -91,7 +91,7 @@ class JointSpace:
 
 
 @dataclass(frozen=True, slots=True)
-class Zone:
+class WorldZone:
     """A shape, or (`outside`) all that is not in it."""
 
     shape: Shape
@@ -110,7 +110,7 @@ class ZoneWatch:
         self,
         scheduler: Scheduler,
         group: MotionGroup,
-        zone: Zone,
+        zone: WorldZone,
         act: Callable[[bool], None],
         *,
         ahead: bool,
@@ -247,7 +247,7 @@ class WorldZones:
     def add(
         self,
         group: MotionGroup,
-        zone: Zone,
+        zone: WorldZone,
         act: Callable[[bool], None],
         *,
         ahead: bool,

@@ -5,7 +5,7 @@ import pytest
 from rapidgen.machine.io import IOSystem
 from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
-from rapidgen.machine.smart_gripper import AMBIENT, SUCKED, Command, Hands, State
+from rapidgen.machine.smart_gripper import AMBIENT, SUCKED, Command, Hands, HandState
 from rapidgen.system.model import SignalSpec, System
 
 OUTPUTS = {"CmdGripper": 5, "MaxPosition": 8, "MinPosition": 8, "MaxSpeed": 8, "HoldForce": 8}
@@ -44,7 +44,7 @@ def opened():
     cell.hand.max_position, cell.hand.max_speed = 20.0, 10.0
     cell.hand.command(Command.TO_MAX)
     cell.wait(2)
-    assert (cell.hand.position, cell.hand.state) == (20.0, State.COMPLETED)
+    assert (cell.hand.position, cell.hand.state) == (20.0, HandState.COMPLETED)
     return cell
 
 
@@ -53,10 +53,10 @@ def test_fingers_stop_at_a_part_and_hold_it(opened):
     hand.part = 12.0
     hand.command(Command.AGILE_INWARD)
     opened.wait(0.5)
-    assert (hand.position, hand.speed, hand.state) == (15.0, 10.0, State.AGILE_INWARD)
+    assert (hand.position, hand.speed, hand.state) == (15.0, 10.0, HandState.AGILE_INWARD)
     assert hand.force == 0.0
     opened.wait(0.4)
-    assert (hand.position, hand.speed, hand.state) == (12.0, 0.0, State.KEEP_OBJECT)
+    assert (hand.position, hand.speed, hand.state) == (12.0, 0.0, HandState.KEEP_OBJECT)
     assert hand.force == hand.hold_force
 
 
@@ -64,16 +64,16 @@ def test_fingers_stop_inside_of_a_ring(opened):
     opened.hand.ring = 22.0
     opened.hand.command(Command.FORCE_OUTWARD)
     opened.wait(1)
-    assert (opened.hand.position, opened.hand.state) == (22.0, State.KEEP_OBJECT)
+    assert (opened.hand.position, opened.hand.state) == (22.0, HandState.KEEP_OBJECT)
 
 
 def test_a_move_that_a_part_stops_is_an_error(opened):
     opened.hand.part = 12.0
     opened.hand.command(Command.TO_MIN)
     opened.wait(1)
-    assert (opened.hand.position, opened.hand.state) == (12.0, State.ERROR)
+    assert (opened.hand.position, opened.hand.state) == (12.0, HandState.ERROR)
     opened.hand.command(Command.READY)
-    assert opened.hand.state is State.READY
+    assert opened.hand.state is HandState.READY
 
 
 def test_a_new_command_takes_the_fingers_where_they_are(opened):
@@ -81,7 +81,7 @@ def test_a_new_command_takes_the_fingers_where_they_are(opened):
     opened.wait(0.5)
     opened.hand.command(Command.READY)
     opened.wait(3)
-    assert (opened.hand.position, opened.hand.state) == (15.0, State.READY)
+    assert (opened.hand.position, opened.hand.state) == (15.0, HandState.READY)
     opened.hand.command(Command.CALIBRATE)
     assert opened.hand.position == 0.0
 
@@ -98,16 +98,16 @@ def test_a_driver_in_rapid_moves_it_by_signals():
     """What HandDriver.sys does for Hand_MoveTo 15."""
     cell = Cell(*SIGNALS)
     cell.set("CmdGripper", Command.CALIBRATE)
-    assert (cell.get("StatusCalibrated"), cell.get("SysState")) == (1, State.COMPLETED)
+    assert (cell.get("StatusCalibrated"), cell.get("SysState")) == (1, HandState.COMPLETED)
     cell.set("MaxSpeed", 100)
     cell.set("CmdGripper", Command.READY)
     cell.set("MaxPosition", 150)
     cell.set("CmdGripper", Command.TO_MAX)
     cell.wait(1)
-    assert cell.get("SysState") == State.TO_MAX
+    assert cell.get("SysState") == HandState.TO_MAX
     assert (cell.get("ActualPosition"), cell.get("ActualSpeed")) == (100, 100)
     cell.wait(1)
-    assert cell.get("SysState") == State.COMPLETED
+    assert cell.get("SysState") == HandState.COMPLETED
     assert (cell.get("ActualPosition"), cell.get("ActualSpeed")) == (150, 0)
     cell.set("CmdVacuum1", 1)
     assert cell.get("StatusVacuum1") == 1

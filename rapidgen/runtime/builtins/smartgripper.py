@@ -7,7 +7,7 @@ else the first task the right and the second the left one.
 
 from collections.abc import Callable
 
-from rapidgen.machine.smart_gripper import PHYSICAL_LIMIT, Command, SmartGripper, State
+from rapidgen.machine.smart_gripper import PHYSICAL_LIMIT, Command, HandState, SmartGripper
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.errors import FatalError, RapidError
 from rapidgen.runtime.motion_faults import NOT_ALLOWED
@@ -78,7 +78,7 @@ def _calibrate(task: Task, jog: bool | None, grip: bool | None = None) -> None:
         task.sleep(_JOG_BEGINS)
     _send(task, Command.READY)
     _send(task, Command.CALIBRATE)
-    _wait_for(task, State.COMPLETED)
+    _wait_for(task, HandState.COMPLETED)
     _send(task, Command.READY)
 
 
@@ -100,7 +100,7 @@ def _wait_for(task: Task, state: float, seconds: float | None = None) -> None:
     """ERR_HAND_WRONGSTATE: an error, or not within 5 s."""
     hand = _hand(task)
     task.wait_for(
-        lambda: hand.state in (state, State.ERROR),
+        lambda: hand.state in (state, HandState.ERROR),
         on=(hand.changed,),
         timeout=_WAIT if seconds is None else seconds,
     )
@@ -155,10 +155,10 @@ def _completed(task: Task, precise: bool | None, place: float | None = None) -> 
     """ERR_HAND_FAILEDMOVEPOS: not there, and not within 1 mm."""
     hand = _hand(task)
     try:
-        _wait_for(task, State.COMPLETED)
+        _wait_for(task, HandState.COMPLETED)
     except RapidError as error:
         near = place is not None and abs(hand.position - place) <= _PRECISION
-        if hand.state is not State.ERROR or precise or not near:
+        if hand.state is not HandState.ERROR or precise or not near:
             raise RapidError("ERR_HAND_FAILEDMOVEPOS", f"{hand.position:.1f} mm") from error
 
 
@@ -182,7 +182,7 @@ def grip(task: Task, name: str, given: Arguments) -> None:
     hand.order(Command.AGILE_INWARD if inward else Command.AGILE_OUTWARD)
     if given["NoWait"]:
         return
-    _wait_for(task, State.KEEP_OBJECT)
+    _wait_for(task, HandState.KEEP_OBJECT)
     if None not in (place, allowance) and abs(hand.position - place) > allowance:
         raise RapidError("ERR_HAND_FAILEDGRIPPOS", f"{hand.position:.1f} mm")
 

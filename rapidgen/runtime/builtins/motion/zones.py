@@ -9,7 +9,7 @@ from math import inf
 
 from rapidgen.axes.mapping import ABSENT
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.zones import Box, Cylinder, JointSpace, Shape, Sphere, Zone
+from rapidgen.motion.zones import Ball, Box, Cylinder, JointSpace, Shape, WorldZone
 from rapidgen.runtime.builtins.io import dionum
 from rapidgen.runtime.builtins.motion.access import geometry_of, group_of
 from rapidgen.runtime.errors import FatalError
@@ -29,7 +29,7 @@ class ShapeData:
     __slots__ = ("zone",)
 
     def __init__(self) -> None:
-        self.zone: Zone | None = None
+        self.zone: WorldZone | None = None
 
 
 register_type("shapedata", ShapeData)
@@ -49,7 +49,7 @@ def _metres(data: Value) -> tuple[float, float, float]:
 def _put(shape: ShapeData, inside: bool | None, outside: bool | None, found: Shape) -> None:
     if not inside and not outside:
         raise _refused("\\Inside or \\Outside has to be given")
-    shape.zone = Zone(found, outside=bool(outside))
+    shape.zone = WorldZone(found, outside=bool(outside))
 
 
 @builtin("WZBoxDef")
@@ -97,7 +97,7 @@ def sphere(
     """A sphere."""
     if radius < _LEAST_RADIUS:
         raise _refused(f"a sphere of radius {radius:g} mm is too small")
-    _put(shape, inside, outside, Sphere(_metres(centre), radius / 1000))
+    _put(shape, inside, outside, Ball(_metres(centre), radius / 1000))
 
 
 def _unused(value: float) -> bool:
@@ -181,7 +181,8 @@ def _define(
         raise _refused("\\Temp or \\Stat has to be given")
     if datum.type.name != "wztemporary":
         raise _refused(f"a zone is kept in a wztemporary or wzstationary: {datum.type.name}")
-    if stationary and task.events.running != "POWER_ON":
+    anywhere = task.controller.dialect.stationary_zones == "anywhere"
+    if stationary and not anywhere and task.events.running != "POWER_ON":
         raise _refused("a stationary zone is defined in an event routine of POWER ON")
     zone, zones, group = shape.zone, task.controller.motion.zones, group_of(task)
     number = int(datum.get().wz)
