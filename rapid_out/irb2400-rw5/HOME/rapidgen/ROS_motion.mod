@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "e09af2ab96b3";
+    CONST string ROS_BUILD_MOTION := "5558e859d148";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -57,17 +57,13 @@ MODULE ROS_motion
     LOCAL VAR num closed := 0;
     ! Why a move failed.
     LOCAL VAR num fault := 0;
-    LOCAL VAR clock since_busy;
 
     PROC main()
         ROS_run;
     ENDPROC
 
-    ! Serve the ring: for ever, or until the signal or the datum is TRUE. Then no new
-    ! trajectory is taken, the one under way comes to its end, and the robot stands.
-    PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
-        VAR bool left := FALSE;
-
+    ! Serve the ring, for ever.
+    PROC ROS_run()
         ROS_start_task ROS_shown_motion, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service := ROS_OUTSIDE;
         in_move := FALSE;
@@ -83,43 +79,11 @@ MODULE ROS_motion
         IPers ROS_speed_asked, speed_bell;
         percent := 0;
         set_speed;
-        WHILE NOT left DO
-            IF is_wanted(\UntilDI?UntilDI \Until?Until) THEN
-                left := is_over();
-            ELSE
-                ROS_service := ROS_SERVING;
-            ENDIF
-            IF NOT left serve_ring;
+        WHILE TRUE DO
+            ROS_service := ROS_SERVING;
+            serve_ring;
         ENDWHILE
-        ROS_service := ROS_OUTSIDE;
-        IDelete bell;
-        IDelete speed_bell;
-        ROS_speed_of := -1;
-        set_speed;
     ENDPROC
-
-    ! TRUE when ROS_run is to return.
-    LOCAL FUNC bool is_wanted(\VAR signaldi UntilDI | PERS bool Until)
-        IF Present(UntilDI) RETURN DInput(UntilDI) = 1;
-        IF Present(Until) RETURN Until;
-        RETURN FALSE;
-    ERROR
-        ! The signal's unit is not there.
-        SkipWarn;
-        RETURN FALSE;
-    ENDFUNC
-
-    ! TRUE when nothing has been under way for half a second in which none could begin, and
-    ! nothing stops the robot.
-    LOCAL FUNC bool is_over()
-        IF ROS_service <> ROS_LEAVING OR ROS_active() OR ROS_abort <> ROS_abort_done OR IsStopMoveAct() THEN
-            ROS_service := ROS_LEAVING;
-            ClkReset since_busy;
-            ClkStart since_busy;
-            RETURN FALSE;
-        ENDIF
-        RETURN ClkRead(since_busy) > 0.5;
-    ENDFUNC
 
     LOCAL PROC serve_ring()
         ! Read before the head of the ring: no point comes after this.
@@ -137,7 +101,8 @@ MODULE ROS_motion
         ENDIF
     ENDPROC
 
-    ! Do what the supervisor asks for. Only main does: it is in no move then.
+    ! Drop the path, and answer the supervisor who may have asked for it. Only main does: it is in no
+    ! move then.
     LOCAL PROC answer(num reason)
         VAR num asked;
 
@@ -150,7 +115,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         ROS_drop_points reason;
-        ROS_start_robot;
+        ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
             RETURN;
@@ -190,8 +155,8 @@ MODULE ROS_motion
         VAR num arrived;
         VAR num passed;
         VAR bool first;
-        VAR bool waited;
         VAR bool stops;
+        VAR bool waited;
 
         before := point.target;
         point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
@@ -213,7 +178,8 @@ MODULE ROS_motion
         ROS_starved := -1;
         ROS_tail := next;
         ROS_planned := arrived;
-        stops := first OR stops_before(next);
+        ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
+        stops := first OR next = ROS_head OR ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
         IF first left_at := 0;
         IF stops OR point.dwell THEN
             take_time 0;
@@ -308,12 +274,6 @@ MODULE ROS_motion
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         IF after.duration <= 0 RETURN 0;
         RETURN after.least / after.duration;
-    ENDFUNC
-
-    ! TRUE if the robot has to stop at a point: its successor is not here yet, or is a dwell.
-    LOCAL FUNC bool stops_before(num next)
-        IF next = ROS_head RETURN TRUE;
-        RETURN ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
     ENDFUNC
 
     ! The zone in which the axes change their speeds from those of the way to the point to those
@@ -413,17 +373,10 @@ MODULE ROS_motion
 
     ! This task itself ends the trajectory.
     LOCAL PROC give_up()
-        ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
+        IF ROS_active() ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
             \RL2:="At point " + ValToStr(ROS_planned - 1) + ".";
         ROS_stop_robot;
-        clear_path;
-        IF NOT ROS_cleared THEN
-            WaitTime 0.1;
-            RETURN;
-        ENDIF
-        ROS_drop_points fault;
-        ROS_start_robot;
-        fault := ROS_REASON_NONE;
+        answer fault;
     ENDPROC
 
     ! ROS_cleared: the robot stands, and nothing is left of its path.

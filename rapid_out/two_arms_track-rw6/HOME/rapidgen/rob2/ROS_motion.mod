@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "4187793f3053";
+    CONST string ROS_BUILD_MOTION := "e161cc629025";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -49,17 +49,13 @@ MODULE ROS_motion
     LOCAL VAR num closed := 0;
     ! Why a move failed.
     LOCAL VAR num fault := 0;
-    LOCAL VAR clock since_busy;
 
     PROC main()
         ROS_run;
     ENDPROC
 
-    ! Serve the ring: for ever, or until the signal or the datum is TRUE. Then no new
-    ! trajectory is taken, the one under way comes to its end, and the robot stands.
-    PROC ROS_run(\VAR signaldi UntilDI | PERS bool Until)
-        VAR bool left := FALSE;
-
+    ! Serve the ring, for ever.
+    PROC ROS_run()
         ROS_start_task ROS_shown_motion_2, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service_2 := ROS_OUTSIDE;
         in_move := FALSE;
@@ -75,43 +71,11 @@ MODULE ROS_motion
         IPers ROS_speed_asked_2, speed_bell;
         percent := 0;
         set_speed;
-        WHILE NOT left DO
-            IF is_wanted(\UntilDI?UntilDI \Until?Until) THEN
-                left := is_over();
-            ELSE
-                ROS_service_2 := ROS_SERVING;
-            ENDIF
-            IF NOT left serve_ring;
+        WHILE TRUE DO
+            ROS_service_2 := ROS_SERVING;
+            serve_ring;
         ENDWHILE
-        ROS_service_2 := ROS_OUTSIDE;
-        IDelete bell;
-        IDelete speed_bell;
-        ROS_speed_of_2 := -1;
-        set_speed;
     ENDPROC
-
-    ! TRUE when ROS_run is to return.
-    LOCAL FUNC bool is_wanted(\VAR signaldi UntilDI | PERS bool Until)
-        IF Present(UntilDI) RETURN DInput(UntilDI) = 1;
-        IF Present(Until) RETURN Until;
-        RETURN FALSE;
-    ERROR
-        ! The signal's unit is not there.
-        SkipWarn;
-        RETURN FALSE;
-    ENDFUNC
-
-    ! TRUE when nothing has been under way for half a second in which none could begin, and
-    ! nothing stops the robot.
-    LOCAL FUNC bool is_over()
-        IF ROS_service_2 <> ROS_LEAVING OR ROS_active() OR ROS_abort_2 <> ROS_abort_done_2 OR IsStopMoveAct() THEN
-            ROS_service_2 := ROS_LEAVING;
-            ClkReset since_busy;
-            ClkStart since_busy;
-            RETURN FALSE;
-        ENDIF
-        RETURN ClkRead(since_busy) > 0.5;
-    ENDFUNC
 
     LOCAL PROC serve_ring()
         ! Read before the head of the ring: no point comes after this.
@@ -129,7 +93,8 @@ MODULE ROS_motion
         ENDIF
     ENDPROC
 
-    ! Do what the supervisor asks for. Only main does: it is in no move then.
+    ! Drop the path, and answer the supervisor who may have asked for it. Only main does: it is in no
+    ! move then.
     LOCAL PROC answer(num reason)
         VAR num asked;
 
@@ -142,7 +107,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         ROS_drop_points reason;
-        ROS_start_robot;
+        ROS_start_robot IsStopMoveAct(\FromMoveTask);
         IF IsStopMoveAct(\FromMoveTask) THEN
             WaitTime 0.1;
             RETURN;
@@ -182,6 +147,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR num passed;
         VAR bool first;
+        VAR bool stops;
         VAR bool waited;
 
         before := point.target;
@@ -204,11 +170,13 @@ MODULE ROS_motion
         ROS_starved_2 := -1;
         ROS_tail_2 := next;
         ROS_planned_2 := arrived;
+        ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
+        stops := first OR next = ROS_head_2 OR ROS_ring_2{next MOD ROS_RING_SIZE + 1}.dwell;
         IF point.dwell THEN
             WaitUntil ROS_abort_2 <> ROS_abort_done_2 \MaxTime:=point.duration \TimeFlag:=waited \PollRate:=0.04;
         ELSEIF point.duration = 0 THEN
             ! The robot stands there already.
-        ELSEIF first OR stops_before(next) THEN
+        ELSEIF stops THEN
             move fine;
         ELSE
             shape_corner next;
@@ -248,12 +216,6 @@ MODULE ROS_motion
         set_speed;
         IEnable;
     ENDPROC
-
-    ! TRUE if the robot has to stop at a point: its successor is not here yet, or is a dwell.
-    LOCAL FUNC bool stops_before(num next)
-        IF next = ROS_head_2 RETURN TRUE;
-        RETURN ROS_ring_2{next MOD ROS_RING_SIZE + 1}.dwell;
-    ENDFUNC
 
     ! The zone in which the axes change their speeds from those of the way to the point to those
     ! of the way to its successor. On its faster side the TCP is in it for half of the time that
@@ -352,17 +314,10 @@ MODULE ROS_motion
 
     ! This task itself ends the trajectory.
     LOCAL PROC give_up()
-        ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
+        IF ROS_active() ErrWrite "ROS: trajectory ended early", ROS_reason_text(fault)
             \RL2:="At point " + ValToStr(ROS_planned_2 - 1) + ".";
         ROS_stop_robot;
-        clear_path;
-        IF NOT ROS_cleared THEN
-            WaitTime 0.1;
-            RETURN;
-        ENDIF
-        ROS_drop_points fault;
-        ROS_start_robot;
-        fault := ROS_REASON_NONE;
+        answer fault;
     ENDPROC
 
     ! ROS_cleared: the robot stands, and nothing is left of its path.
