@@ -45,6 +45,18 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "BESetupToolJ BECheckTcp BEUpdateTcp BERefPointer BETcpExtend BEDebugState",
     ),
     (
+        "the Production Manager's engine, which calls parts and menus, is not simulated",
+        "ExecEngine PMgrGetNextPart PMgrSetNextPart PMgrRunMenu",
+    ),
+    (
+        "paths of seams are not recorded, and weld data hold for a whole movement",
+        "ArcRepL ArcRefresh",
+    ),
+    (
+        "SmarTac feels a part with the torch: there is neither",
+        "Search_1D Search_Groove Search_Part PDispAdd",
+    ),
+    (
         "the controller's path recorder is not simulated",
         """PathRecStart PathRecStop PathRecMoveBwd PathRecMoveFwd PathRecValidBwd PathRecValidFwd
         StepBwdPath""",
