@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "5558e859d148";
+    CONST string ROS_BUILD_MOTION := "b6412f8f087d";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -39,8 +39,14 @@ MODULE ROS_motion
 
     LOCAL VAR intnum bell;
     LOCAL VAR intnum speed_bell;
-    ! Percent of the programmed speed, as it was set last.
-    LOCAL VAR num percent := 0;
+    LOCAL VAR intnum tick;
+    ! Percent of the programmed speed that is wanted, for which the point at hand has its time, and
+    ! the newest move of the trajectory (0: it is short); percent by SpeedRefresh.
+    LOCAL VAR num pace := 100;
+    LOCAL VAR num taken := 100;
+    LOCAL VAR num latest := 0;
+    LOCAL VAR num share := 100;
+    LOCAL VAR num repeats := 0;
     ! Leaves a move whose path is gone, by a long jump out of the trap.
     LOCAL VAR errnum path_gone := -1;
     ! Main moves, or is about to: there the trap may end what it does.
@@ -77,7 +83,7 @@ MODULE ROS_motion
         IDelete speed_bell;
         CONNECT speed_bell WITH on_bell;
         IPers ROS_speed_asked, speed_bell;
-        percent := 0;
+        IF repeats > 0 say_again;
         set_speed;
         WHILE TRUE DO
             ROS_service := ROS_SERVING;
@@ -158,6 +164,14 @@ MODULE ROS_motion
         VAR bool stops;
         VAR bool waited;
 
+        taken := pace;
+        IF share < 100 THEN
+            ! SpeedRefresh may hold for one move or for all: its move ends before another is ordered.
+            point.duration := 0.1;
+            move fine;
+            IF fault = ROS_REASON_NONE AND ROS_abort = ROS_abort_done ROS_reached := ROS_planned;
+            RETURN;
+        ENDIF
         before := point.target;
         point := ROS_ring{ROS_tail MOD ROS_RING_SIZE + 1};
         next := ROS_next(ROS_tail);
@@ -178,6 +192,7 @@ MODULE ROS_motion
         ROS_starved := -1;
         ROS_tail := next;
         ROS_planned := arrived;
+        IF NOT point.dwell point.duration := point.duration * 100 / taken;
         ! The robot stands at the first point, and at one whose successor is not here yet, or is a dwell.
         stops := first OR next = ROS_head OR ROS_ring{next MOD ROS_RING_SIZE + 1}.dwell;
         IF first left_at := 0;
@@ -210,10 +225,17 @@ MODULE ROS_motion
     ! A move whose path was cleared never returns on some controllers; so the trap leaves it. A
     ! request that comes before `in_move` is seen here, one that comes later by the trap.
     LOCAL PROC move(zonedata zone)
+        ! A speed may have been asked for since the point was taken.
+        IDisable;
+        IF share >= 100 latest := 0;
+        IF point.duration > 0.25 AND taken > latest latest := taken;
+        IF pace < latest set_speed;
+        IEnable;
         in_move := TRUE;
         IF ROS_abort = ROS_abort_done
             MoveAbsJ point.target \NoEOffs, SPEED \T:=point.duration, zone, torch \WObj:=table;
         in_move := FALSE;
+        IF zone.finep share := 100;
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;
@@ -228,7 +250,9 @@ MODULE ROS_motion
         ROS_reached := 0;
         ROS_started := session;
         IDisable;
+        latest := 0;
         set_speed;
+        taken := pace;
         IEnable;
     ENDPROC
 
@@ -273,7 +297,7 @@ MODULE ROS_motion
 
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         IF after.duration <= 0 RETURN 0;
-        RETURN after.least / after.duration;
+        RETURN after.least / after.duration * taken / 100;
     ENDFUNC
 
     ! The zone in which the axes change their speeds from those of the way to the point to those
@@ -294,6 +318,7 @@ MODULE ROS_motion
         after := ROS_ring{next MOD ROS_RING_SIZE + 1};
         ! It may be a first point, of another trajectory, at which the robot stands.
         IF after.duration <= 0 RETURN;
+        after.duration := after.duration * 100 / taken;
         arriving := tcp_speed(before, point.target, point.duration);
         leaving := tcp_speed(point.target, after.target, after.duration);
         IF arriving + leaving > RESTING uneven := Abs(leaving - arriving) / (arriving + leaving);
@@ -352,24 +377,46 @@ MODULE ROS_motion
         RETURN 9E9;
     ENDFUNC
 
-    ! Set the speed that is wanted for the trajectory under way: as programmed, unless a client
-    ! has asked for less.
+    ! Find the speed that is wanted for the trajectory under way: points get their time for it. A long
+    ! move that has its time already is slowed down by SpeedRefresh.
     LOCAL PROC set_speed()
         VAR num asked;
-        VAR num wanted := 100;
+        VAR num percent := 100;
+        VAR num due := 100;
 
         asked := ROS_speed_asked;
-        IF ROS_speed_of = ROS_session AND ROS_active() wanted := ROS_speed_wanted;
-        IF wanted <> percent THEN
-            SpeedRefresh wanted;
-            percent := wanted;
+        IF ROS_speed_of = ROS_session AND ROS_active() percent := ROS_speed_wanted;
+        IF percent < latest due := 100 * percent / latest;
+        IF due <> share THEN
+            SpeedRefresh due;
+            share := due;
+            repeats := 5;
+            say_again;
         ENDIF
+        pace := percent;
         ROS_speed_done := asked;
     ERROR
         ! Not answered: whoever asked is told that it was not done.
         SkipWarn;
         RETURN;
     ENDPROC
+
+    ! It may hold for one move only, and do nothing at a standstill. One bell at a time may wait.
+    LOCAL PROC say_again()
+        IDelete tick;
+        CONNECT tick WITH on_tick;
+        ITimer \Single, 0.1, tick;
+    ENDPROC
+
+    LOCAL TRAP on_tick
+        IF share < 100 OR (NOT in_move) OR IsStopMoveAct() repeats := 5;
+        repeats := repeats - 1;
+        IF repeats > 0 say_again;
+        SpeedRefresh share;
+    ERROR
+        SkipWarn;
+        RETURN;
+    ENDTRAP
 
     ! This task itself ends the trajectory.
     LOCAL PROC give_up()
@@ -384,6 +431,7 @@ MODULE ROS_motion
         ROS_cleared := FALSE;
         WaitRob \ZeroSpeed;
         ROS_clear_path;
+        IF ROS_cleared share := 100;
     ERROR
         SkipWarn;
         RETURN;

@@ -93,7 +93,7 @@ def _joint_move(
         target=target,
         speed=speed,
         zone=zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
-        time=time_of(given["T"], group.modal),
+        time=time_of(given["T"], group),
         concurrent=bool(given.get("Conc")),
         dwell=dwell_of(stop),
         carrier=carrier,
