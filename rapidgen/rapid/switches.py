@@ -150,6 +150,14 @@ class Switches:
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
+    stationary_zones: Literal["power_on", "anywhere"] = "power_on"
+    """Where stationary world zones may be defined: in event routines of POWER ON [manual
+    3HAC050917], or in any routine, for programs that are tried without their event routines."""
+
+    hands_calibrated: bool = False
+    """Whether the hands of a YuMi are calibrated when the controller is switched on [HandDriver.sys
+    asks for it]. True: as if a program before had done it."""
+
     byte_to_str: Literal["character", "code"] = "character"
     """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
     end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""
@@ -168,6 +176,8 @@ NOT_THE_DRIVERS = frozenset(
         "list_number",
         "queue_patience",
         "sockets_limited",
+        "stationary_zones",
+        "hands_calibrated",
     }
 )
 """Switches that no generated driver can notice: it does nothing that they are about."""
