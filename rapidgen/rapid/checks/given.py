@@ -17,11 +17,11 @@ class Extent(IntEnum):
     FILE = 0
     """One module: its siblings and the configuration are not known."""
     FOLDER = 1
-    """Modules with an entry routine: routines and types are known, data may lie elsewhere."""
+    """Modules that belong together: what they do not declare may lie elsewhere."""
     TASK = 2
-    """All modules of a task: only what the configuration installs may be unknown."""
+    """All program and system modules of a task: no other module hides a built-in name."""
     SYSTEM = 3
-    """A whole system with its configuration."""
+    """A whole system with its configuration: nothing else declares anything."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,13 +35,8 @@ class Given:
     """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
 
     @property
-    def judges_routines(self) -> bool:
-        """Whether an unknown routine or type is an error."""
-        return self.extent >= Extent.FOLDER and not self.gaps
-
-    @property
-    def judges_data(self) -> bool:
-        """Whether an unknown datum is an error wherever it stands."""
+    def knows_all(self) -> bool:
+        """Whether nothing else can declare a name: then an unknown one is an error."""
         return self.extent == Extent.SYSTEM and not self.gaps
 
 

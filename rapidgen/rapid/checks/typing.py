@@ -48,10 +48,6 @@ from rapidgen.rapid.syntax.nodes import (
 )
 
 _MAX_DEPTH: Final = 50
-_HARDWARE: Final = frozenset(
-    ("signaldi", "signaldo", "signalgi", "signalgo", "signalai", "signalao", "mecunit", "taskid")
-)
-"""Types whose objects the configuration installs."""
 
 
 class TypeChecker:
@@ -128,9 +124,7 @@ class TypeChecker:
     def _call(self, node: FunctionCall) -> str | None:
         symbol = called(self.findings.find(node.name))
         if symbol is None:
-            self.findings.unknown(
-                "function", node.name, node.first, certain=self.findings.given.judges_routines
-            )
+            self.findings.unknown("function", node.name, node.first)
             self.calls.loose_arguments(node.arguments)
             return None
         if not isinstance(symbol, RoutineSymbol) or symbol.kind != "FUNC":
@@ -193,13 +187,7 @@ class TypeChecker:
         return components[node.component.lower()]
 
     def _unknown_datum(self, node: Name, wanted: str | None) -> None:
-        given = self.findings.given
-        certain = given.judges_data and wanted != "mecunit"
-        if given.extent == Extent.TASK and not given.gaps and wanted not in _HARDWARE:
-            certain = wanted is not None and wanted not in ("num", "dnum", "anytype")
-        if wanted in _HARDWARE and not given.judges_data:
-            return
-        self.findings.unknown("datum", node.name, node, certain=certain)
+        self.findings.unknown("datum", node.name, node, wanted)
 
     def _no_datum(self, symbol: Symbol, node: Name) -> None:
         help = ""
@@ -449,7 +437,7 @@ class TypeChecker:
                     "RG330", f"{place} is an aggregate, but {wanted} has no components", node
                 )
             return
-        if len(members) != len(components):
+        if not self.findings.module.takes(wanted, len(members)):
             names = ", ".join(components)
             self.report(
                 "RG330",
@@ -459,7 +447,7 @@ class TypeChecker:
                 notes=("an aggregate has a member for each component [K §3.9]",),
             )
             return
-        for member, (name, type_name) in zip(members, components.items(), strict=True):
+        for member, (name, type_name) in zip(members, components.items(), strict=False):
             if type(member) is NumberLiteral and type_name == "num":
                 if member.value > 8_388_608:
                     self._single(member)

@@ -59,7 +59,7 @@ def datum(key: str) -> Data | None:
     kind = _needed(found.type)
     if found.kind == "PERS":
         return Data(found.name, "PERS", kind, (), "cell", f"p_{key}")
-    readonly = found.kind == "CONST"
+    readonly = found.readonly
     if readonly and kind.kind != "record":
         return Data(
             found.name, "CONST", kind, (), "inline", "", value=value(key), readonly=readonly

@@ -131,7 +131,7 @@ def _check_mode(data: Data, mode: n.Mode, node: n.Expression) -> None:
     """The table of K §5.1; what only run time knows is left to ASVAR and ASPERS."""
     if mode in ("REF", ""):
         return
-    if data.kind == "CONST" or data.readonly:
+    if data.readonly:
         raise CannotCompile(f"{data.name} cannot be changed", node)
     if mode == "VAR" and (data.kind == "PERS" or data.mode == "PERS"):
         raise CannotCompile(f"{data.name} is a persistent: a VAR parameter takes a variable", node)

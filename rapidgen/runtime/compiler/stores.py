@@ -18,7 +18,7 @@ def _target(unit: Unit, node: n.Expression) -> DataPlace:
         if isinstance(node, n.Name) and unit.data(node.name) is None:
             raise CannotCompile(f"{node.name} is not declared", node)
         raise CannotCompile("only variables, persistents and parameters can be assigned", node)
-    if place.data.kind == "CONST" or place.data.readonly:
+    if place.data.readonly:
         raise CannotCompile(f"{place.data.name} cannot be changed", node)
     return place
 
