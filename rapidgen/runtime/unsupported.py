@@ -3,7 +3,10 @@
 Loading a program says which of them it uses; reaching one stops the task with an event.
 """
 
+from functools import cache
 from typing import Final
+
+from rapidgen.rapid.builtins import signatures
 
 _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     (
@@ -88,12 +91,24 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "IndAMove IndCMove IndDMove IndRMove IndReset IndInpos IndSpeed",
     ),
 )
+OPTION: Final = (
+    "it belongs to an option or add-in of RobotWare, of which only the name is known here:"
+    " declare it in a module of your own to say what it does"
+)
 _REASONS: Final = {name.lower(): reason for reason, names in _GROUPS for name in names.split()}
 
 
 def reason(name: str) -> str:
-    """Why a built-in without a binding cannot be executed. KeyError: it can."""
-    return _REASONS[name.lower()]
+    """Why a built-in without a binding, or a name of an option, cannot be executed. KeyError: it
+    can."""
+    key = name.lower()
+    return OPTION if key in option_routines() else _REASONS[key]
+
+
+@cache
+def option_routines() -> frozenset[str]:
+    """Lower-case names of routines of options of which nothing else is known."""
+    return signatures.option_names("procedures") | signatures.option_names("functions")
 
 
 def names() -> frozenset[str]:

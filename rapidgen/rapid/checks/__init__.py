@@ -82,9 +82,12 @@ def _check_modules(modules: Sequence[Module], given: Given) -> list[Diagnostic]:
 
 
 def _check_module(
-    scope: ModuleScope, given: Given, clashes: Sequence[tuple[Symbol, Symbol]] = ()
+    scope: ModuleScope,
+    given: Given,
+    clashes: Sequence[tuple[Symbol, Symbol]] = (),
+    entry: str = "",
 ) -> list[Diagnostic]:
-    """One module; `clashes` are those with other modules of its task."""
+    """One module; `clashes` are those with other modules of its task, which starts in `entry`."""
     findings = Findings(scope, given)
     for first, second in scope.clashes:
         _clash(findings, first, second, "in this module")
@@ -93,19 +96,23 @@ def _check_module(
         check_module(findings)
     for first, second in clashes:
         if second.module is scope:
-            _clash(findings, first, second, "in this task")
+            _clash(findings, first, second, "in this task", entry)
     return [*diagnostics, *findings.found]
 
 
-def _clash(findings: Findings, first: Symbol, second: Symbol, where: str) -> None:
+def _clash(findings: Findings, first: Symbol, second: Symbol, where: str, entry: str = "") -> None:
     named = isinstance(second, DataSymbol | RoutineSymbol)
     head = second.node.first if second.node is not None else 0
+    # RobotWare 7.21 loads such modules: "Global routine name main ambiguous" comes at the start.
+    starts = second.name.lower() == entry.lower() and isinstance(second, RoutineSymbol)
+    notes = ("only the start of this task is refused",) if starts else ()
     findings.report(
         "RG305",
         f"'{second.name}' is declared twice {where}",
         second.token if named else head,
-        notes=("objects of one scope differ in name [K §2.12, 9.1]",),
+        notes=("objects of one scope differ in name [K §2.12, 9.1]", *notes),
         related=findings.declared(first),
+        severity=Severity.WARNING if starts else Severity.ERROR,
     )
 
 
@@ -128,7 +135,7 @@ def _check_system(system: System, dialect: Dialect, gaps: bool) -> list[Diagnost
         modules = [scope.tree for scope in scopes]
         given = Given(dialect, Extent.SYSTEM, gaps or _loads(modules) or _any_unreadable(modules))
         for scope in scopes:
-            found += _check_module(scope, given, task.clashes)
+            found += _check_module(scope, given, task.clashes, spec.entry)
         found += _entry(spec, task, given)
     return _sorted(dict.fromkeys(found))  # a module may be in several tasks
 

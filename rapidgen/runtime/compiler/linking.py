@@ -4,7 +4,7 @@ Modules are linked into one Python namespace. Persistents, data of shared module
 classes are common to all tasks.
 """
 
-from rapidgen.diagnostics import Diagnostic, error
+from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.binding.names import (
     ModuleScope,
     Scope,
@@ -20,6 +20,7 @@ from rapidgen.rapid.binding.symbols import (
     Symbol,
     TypeSymbol,
 )
+from rapidgen.rapid.builtins import signatures
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler import predefined
 from rapidgen.runtime.compiler.evaluate import evaluate
@@ -50,6 +51,8 @@ class Shared:
         self.common: dict[tuple[str, str], Value] = {}
         """Data of shared modules by module and name: cells of atoms, else the object itself."""
         self.records: dict[tuple[object, ...], Type] = {}
+        self.unknown: dict[str, Type] = {}
+        """Types that nothing declares, by lower-case name."""
         self.configured = configured if configured is not None else {}
         """Signals, mechanical units and taskids by lower-case name."""
         self.names = installed_objects((k, t.name) for k, (t, _) in self.configured.items())
@@ -65,6 +68,7 @@ class Linker:
         self.names = TaskScope(shared.names)
         self.modules: dict[str, LoadedModule] = {}
         self.faults: list[Diagnostic] = []
+        """Errors, and warnings of types that nothing declares."""
         self.trace_points: list[tuple[Routine, n.Statement]] = []
         self._kept: dict[int, str] = {}
         self._loaded: dict[ModuleScope, LoadedModule] = {}
@@ -142,18 +146,40 @@ class Linker:
 
     # -- types -----------------------------------------------------------------------------------
 
-    def find_type(self, module: LoadedModule, name: str) -> Type | None:
-        """What a name of a type means in a module."""
+    def find_type(self, module: LoadedModule, name: str, node: n.Node) -> Type | None:
+        """What a name of a type means in a module; `node` is where it stands.
+
+        One that nothing declares may be of an option or add-in: statements stop, which need to
+        know more of it, when they are reached. None: a record that holds itself.
+        """
         if name in module.types:
             return module.types[name]
         symbol = module.scope.type_symbol(name)
-        found = module.types[name] = None if symbol is None else self._type(symbol)
+        found = self._unknown(module, name, node) if symbol is None else self._type(symbol)
+        module.types[name] = found
+        return found
+
+    def _unknown(self, module: LoadedModule, name: str, node: n.Node) -> Type:
+        found = self.shared.unknown.get(name.lower())
+        if found is None:
+            found = self.shared.unknown[name.lower()] = predefined.unknown_type(name)
+            option = name.lower() in signatures.option_names("types")
+            self.faults.append(
+                error(
+                    "RG404",
+                    module.span(node),
+                    f"the type {name} is not declared in any module, nor built in",
+                    "" if option else "load the module that declares it",
+                    label="statements that look into it stop the task",
+                    notes=("it belongs to an option or add-in of RobotWare",) if option else (),
+                    severity=Severity.WARNING,
+                )
+            )
         return found
 
     def _check_type(self, module: LoadedModule, symbol: TypeSymbol) -> None:
-        found = self.find_type(module, symbol.name)
-        if found is None and isinstance(symbol.node, n.AliasDeclaration):
-            self._fault(module, f"type {symbol.node.type} is not known", symbol.node)
+        assert symbol.node is not None
+        self.find_type(module, symbol.name, symbol.node)
 
     def _type(self, symbol: TypeSymbol) -> Type | None:
         if symbol.module is None:
@@ -167,7 +193,7 @@ class Linker:
         assert isinstance(symbol.node, n.RecordDeclaration)
         components = []
         for component in symbol.node.components:
-            kind = self.find_type(module, component.type)
+            kind = self.find_type(module, component.type, component)
             if kind is None:
                 self._fault(module, f"type {component.type} is not known", component)
                 return None
@@ -203,12 +229,12 @@ class Linker:
         parameters = []
         for p in d.parameters:
             switch = p.type.lower() == "switch"
-            kind = None if switch else self.find_type(module, p.type)
+            kind = None if switch else self.find_type(module, p.type, p)
             if kind is None and not switch:
                 self._fault(module, f"type {p.type} is not known", p)
                 kind = NUM
             parameters.append(formal(p, kind))
-        result = self.find_type(module, d.type) if d.type else None
+        result = self.find_type(module, d.type, d) if d.type else None
         if d.type and result is None:
             self._fault(module, f"type {d.type} is not known", d)
         code = f"m{module.index}_{d.name.lower()}"
@@ -241,7 +267,7 @@ class Linker:
             kind, dims, value = self.evaluate(module, module.scope, d)
         except CannotCompile as fault:
             self._fault(module, str(fault), fault.node)
-            found = self.find_type(module, d.type)
+            found = self.find_type(module, d.type, d)
             if found is None:
                 return None
             kind, dims, value = found, (), found.default()
@@ -309,11 +335,11 @@ class Linker:
 
     def evaluate(self, module: LoadedModule, scope: Scope, d: n.DataDeclaration) -> Typed:
         """Type, sizes and initial value of a declaration. CannotCompile."""
-        kind = self.find_type(module, d.type)
+        kind = self.find_type(module, d.type, d)
         if kind is None:
             raise CannotCompile(f"type {d.type} is not known", d)
         dims = tuple(_dimension(x, scope) for x in d.dimensions)
-        if d.initial is not None:
+        if d.initial is not None and kind.name not in self.shared.unknown:
             return kind, dims, evaluate(d.initial, kind, dims, scope)
         if dims:
             return kind, dims, make_array(dims, kind.default)

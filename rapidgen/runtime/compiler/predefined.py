@@ -19,6 +19,11 @@ class Opaque:
         self.value: Value = None
 
 
+def unknown_type(name: str) -> Type:
+    """A type that nothing at hand declares: data of it are kept, and only handed on."""
+    return Type(name.lower(), "nonvalue", (), lambda: Opaque(name))
+
+
 @cache
 def find_type(name: str) -> Type | None:
     """A predefined type by lower-case name, aliases resolved."""

@@ -15,8 +15,6 @@ def _target(unit: Unit, node: n.Expression) -> DataPlace:
         raise CannotCompile("a placeholder is no datum", node)
     place = place_of(unit, node)
     if place is None:
-        if isinstance(node, n.Name) and unit.data(node.name) is None:
-            raise CannotCompile(f"{node.name} is not declared", node)
         raise CannotCompile("only variables, persistents and parameters can be assigned", node)
     if place.data.readonly:
         raise CannotCompile(f"{place.data.name} cannot be changed", node)

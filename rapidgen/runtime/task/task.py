@@ -8,6 +8,7 @@ event routines, and the run, which is what its greenlet executes.
 import sys
 from collections.abc import Callable, Iterable, Iterator
 
+from rapidgen.diagnostics import Span
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.motion.faults import MotionFault
@@ -57,6 +58,8 @@ class Task(Process):
         self.spec = spec
         self.controller = controller
         self.state: TaskState = "empty"
+        self.no_start = ""
+        """Why the task has no program that could be started."""
         self.fault: FatalError | None = None
         self.cycles = 0
         """How often the program came to the end of its entry routine."""
@@ -444,6 +447,10 @@ class Task(Process):
         raise FatalError(
             40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
         )
+
+    def refuse(self, reason: str, span: Span) -> None:
+        """A statement that breaks a rule of the language, which nothing found before."""
+        raise FatalError(40001, "Statement cannot be executed", reason, span=span)
 
     def late(
         self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]
