@@ -42,6 +42,18 @@ def test_json_is_one_array_also_for_none(folder, capsys):
 
 
 @pytest.mark.parametrize(
+    "text",
+    ["#!/usr/bin/env python3\n", "module example.org/x\n\ngo 1.21\n", "Sub Load()\nEnd Sub\n"],
+)
+def test_a_file_of_another_language_in_a_folder_is_left_out(folder, capsys, text):
+    (folder / "bad.mod").write_text(text)
+    assert main(["check", ".", "--format", "concise"]) == 0
+    assert "info[RG208]" in capsys.readouterr().out
+    (folder / "bad.mod").write_text("PROC p()\nENDPROC\n")
+    assert main(["check", "."]) == 1
+
+
+@pytest.mark.parametrize(
     ("format", "start"), [("concise", "bad.mod:2:18: error[RG307]"), ("github", "::error ")]
 )
 def test_other_formats(folder, capsys, format, start):

@@ -85,10 +85,11 @@ def test_objects_that_differ_between_tasks_are_not_judged():
     assert found([one, two]) == []
 
 
-def test_a_whole_task_may_have_data_of_an_option():
-    one = parse(module("a", "own_flag := TRUE;"), path="a.mod")
-    assert found([one], whole_task=True) == [("info", "RG302")]
-    assert found([one], whole_task=True, gaps=True) == [("info", "RG302")]
+@pytest.mark.parametrize("body", ["WaitDI SENSOR, 1;", "n := Sensor + 1;", "WaitUntil pose = 1;"])
+def test_a_signal_may_have_the_name_of_a_predefined_type(body):
+    """[code] A program for RobotStudio has an input SENSOR, which is no record there."""
+    assert found(module("a", body, "VAR num n;")) == [("info", "RG302")]
+    assert "RG306" in {code for _, code in found(system(module("a", body, "VAR num n;")))}
 
 
 def test_a_module_that_cannot_be_read_may_declare_anything():
@@ -98,8 +99,8 @@ def test_a_module_that_cannot_be_read_may_declare_anything():
 
 
 def test_a_program_that_loads_modules_may_get_names_from_them():
-    one = parse(module("a", 'Load "HOME:/b.mod";\nMissing;'), path="a.mod")
-    assert found([one]) == [("info", "RG301")]
+    text = module("a", 'Load "HOME:/b.mod";\nMissing;')
+    assert found(system(text)) == [("info", "RG301")]
 
 
 def test_names_of_other_tasks_are_not_called_unknown():

@@ -267,11 +267,10 @@ class CallChecker:
             )
             return
         found = self.types.datum(value, wanted)
-        self._mode(parameter, argument, value)
-        if found is None or wanted is None or base == "anytype":
-            return
-        if found != wanted:
-            self.types.mismatch(value, wanted, found, place)
+        if base != "anytype" and None not in (found, wanted) and found != wanted:
+            self.types.mismatch(value, wanted or "", found or "", place)
+        else:
+            self._mode(parameter, argument, value)
 
     def _mode(self, parameter: Parameter, argument: Argument, value: Name | Index | Member) -> None:
         datum = root(value, self.findings.here)

@@ -2,7 +2,6 @@
 
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
-from enum import IntEnum
 from typing import Final
 
 from rapidgen.rapid.dialect import Dialect
@@ -11,33 +10,23 @@ _SHORT: Final = 3
 _LONG: Final = 7
 
 
-class Extent(IntEnum):
-    """How much of a controller is there to be judged."""
-
-    FILE = 0
-    """One module: its siblings and the configuration are not known."""
-    FOLDER = 1
-    """Modules that belong together: what they do not declare may lie elsewhere."""
-    TASK = 2
-    """All program and system modules of a task: no other module hides a built-in name."""
-    SYSTEM = 3
-    """A whole system with its configuration: nothing else declares anything."""
-
-
 @dataclass(frozen=True, slots=True)
 class Given:
-    """Dialect and extent. `gaps` is set where parts of a task are not there to be read."""
+    """Dialect and extent."""
 
     dialect: Dialect
-    extent: Extent
+    system: bool = False
+    """A task of a system with its configuration. Else modules: what they do not declare may lie
+    elsewhere, and hide what is predefined."""
     gaps: bool = False
+    """Parts of the task are not there to be read."""
     elsewhere: Collection[str] = ()
     """Lower-case names that modules of other tasks declare: not known here, nor unknown."""
 
     @property
     def knows_all(self) -> bool:
         """Whether nothing else can declare a name: then an unknown one is an error."""
-        return self.extent == Extent.SYSTEM and not self.gaps
+        return self.system and not self.gaps
 
 
 def closest(word: str, known: Iterable[str]) -> str:

@@ -8,7 +8,16 @@ from collections.abc import Callable, Sequence
 from typing import Final, cast
 
 from rapidgen.diagnostics import Severity
-from rapidgen.rapid.binding import DATA, DataSymbol, RoutineSymbol, Symbol, constant, root, sizes_of
+from rapidgen.rapid.binding import (
+    DATA,
+    DataSymbol,
+    RoutineSymbol,
+    Symbol,
+    TypeSymbol,
+    constant,
+    root,
+    sizes_of,
+)
 from rapidgen.rapid.binding.names import called
 from rapidgen.rapid.binding.types import (
     AGGREGATE,
@@ -27,7 +36,7 @@ from rapidgen.rapid.binding.types import (
 from rapidgen.rapid.builtins.signatures import Value
 from rapidgen.rapid.checks.calls import CallChecker
 from rapidgen.rapid.checks.findings import Findings
-from rapidgen.rapid.checks.given import Extent, closest
+from rapidgen.rapid.checks.given import closest
 from rapidgen.rapid.numbers import MAX_STRING, is_exact_single, is_single
 from rapidgen.rapid.syntax.nodes import (
     Aggregate,
@@ -161,7 +170,7 @@ class TypeChecker:
                 self._unknown_datum(node, wanted)
                 return None
             if symbol.kind not in DATA:
-                self._no_datum(symbol, node)
+                self._no_datum(symbol, node, wanted)
                 return None
             return self.findings.module.type_of(symbol)
         if isinstance(node, Index):
@@ -189,13 +198,16 @@ class TypeChecker:
     def _unknown_datum(self, node: Name, wanted: str | None) -> None:
         self.findings.unknown("datum", node.name, node, wanted)
 
-    def _no_datum(self, symbol: Symbol, node: Name) -> None:
+    def _no_datum(self, symbol: Symbol, node: Name, wanted: str | None) -> None:
+        if symbol.module is None and isinstance(symbol, TypeSymbol) and self._may_be_hidden:
+            self._unknown_datum(node, wanted)  # WaitDI SENSOR, 1;
+            return
         help = ""
         if symbol.kind == "FUNC":
             help = f"a function is called with parentheses: {symbol.name}()"
         # A module that is not here may declare a datum that hides the built-in routine.
         hidden = isinstance(symbol, RoutineSymbol) and symbol.node is None
-        hidden = hidden and self.findings.given.extent < Extent.TASK
+        hidden = hidden and self._may_be_hidden
         self.report(
             "RG306",
             f"'{symbol.name}' is no datum",
@@ -205,6 +217,12 @@ class TypeChecker:
             related=self.declared(symbol),
             severity=Severity.WARNING if hidden else Severity.ERROR,
         )
+
+    @property
+    def _may_be_hidden(self) -> bool:
+        """Whether something that is not here, as a signal, may have the name of a predefined
+        object."""
+        return not self.findings.given.system
 
     def _indexed(self, node: Index) -> str | None:
         for index in node.indices:

@@ -99,6 +99,11 @@ def pos_scale(a: Value, k: float) -> Value:
     return Pos(single(a.x * k), single(a.y * k), single(a.z * k))
 
 
+def pos_divide(a: Value, k: float) -> Value:
+    """pos / num. ERR_DIVZERO."""
+    return Pos(single(a.x / k), single(a.y / k), single(a.z / k))
+
+
 def pos_cross(a: Value, b: Value) -> Value:
     """pos * pos, the cross product [S4 overview 4-26]."""
     return Pos(
@@ -382,6 +387,7 @@ NAMESPACE: dict[str, Callable[..., Value]] = {
     "PSUB": pos_subtract,
     "PNEG": pos_negate,
     "PMUL": pos_scale,
+    "PDIV": pos_divide,
     "PCROSS": pos_cross,
     "QMUL": orient_multiply,
     "STEPS": count_steps,
