@@ -48,6 +48,7 @@ def load(
             found += [d for d in tree.diagnostics if d not in found]
         task.program.load([(t, f) for t, f in trees if t.name])
         found += task.program.faults
+        _tell_its_robot(task)
         key = task.spec.entry.lower()
         entry = task.program.find_routine(None, key)
         if any(first.name.lower() == key for first, _ in task.program.names.clashes):
@@ -64,6 +65,13 @@ def load(
     if any(d.severity is Severity.ERROR for d in found):
         raise DiagnosticError(found)
     return found
+
+
+def _tell_its_robot(task: Task) -> None:
+    """ROB_ID is the robot that the task moves or is connected to."""
+    group = task.controller.motion.of_task(task.name)
+    unit = task.program.value(None, "rob_id")
+    unit.value = group.config.mechanical_unit if group is not None else ""
 
 
 def _no_entry(task: Task) -> Diagnostic:

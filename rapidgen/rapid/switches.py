@@ -150,6 +150,14 @@ class Switches:
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
+    no_configuration: Literal["limit", "reach", "stop"] = "limit"
+    """CalcJointT of a configuration that the place has not: ERR_ROBLIMIT, as an axis would have to
+    be where it cannot be [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""
+
+    delimiters: Literal["added", "alone"] = "added"
+    """The \\Delim of ReadStr comes in addition to the line feed, as with ReadNum [mem], or in its
+    place."""
+
     byte_to_str: Literal["character", "code"] = "character"
     """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
     end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""

@@ -232,7 +232,7 @@ def _line(file: IO[bytes], delimiters: bytes, *, skip: bool = False) -> str | No
 
 @builtin("ReadStr", cost="socket")
 def read_str(
-    _task: Task,
+    task: Task,
     device: IODevice,
     delimiters: str | None,
     remove_cr: bool | None,
@@ -243,7 +243,8 @@ def read_str(
 ) -> str:
     r"""The next line, or the string EOF; \Status is then -1, else 0."""
     file = _reader(device)
-    ends = (delimiters or "\n").encode("latin-1")
+    alone = task.controller.dialect.delimiters == "alone"
+    ends = (delimiters + "\n" * (not alone) if delimiters else "\n").encode("latin-1")
     skipped: str | None = ""
     if line_number is not None:
         file.seek(0)

@@ -161,8 +161,9 @@ def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) 
     if binding.cost != "call":
         cost = int(cost * unit.options.builtin_scale)
     kind = routine.type or NUM
+    code = f"{routine.code}({', '.join(codes)})"
     result = E(
-        f"{routine.code}({', '.join(codes)})",
+        f"WHOLE({code})" if kind.kind == "dnum" else code,
         kind,
         cost=cost if binding.cost != "call" else unit.options.call,
         fresh=True,

@@ -1,6 +1,6 @@
 """Expressions: typed Python source, with what it costs and touches."""
 
-from rapidgen.rapid.numbers import single
+from rapidgen.rapid.numbers import dnum, single
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import E, Unit, failing
 from rapidgen.runtime.compiler.inline import function_call
@@ -46,15 +46,19 @@ def compile_expression(
 def _number(unit: Unit, node: n.NumberLiteral, want: Type | None) -> E:
     value = node.value
     if want is not None and want.kind == "dnum":
-        code = repr(value)
-        return E(code, DNUM, literal=True, whole=isinstance(value, int))
+        return _double(unit, value)
     try:
         value = single(value)
     except OverflowError:
-        return E(repr(node.value), DNUM, literal=True)
+        return _double(unit, node.value)
     if isinstance(value, int):
         return E(repr(value), NUM, literal=True, whole=True, exact=True, range=(value, value))
     return E(repr(value), NUM, literal=True, exact=True)
+
+
+def _double(unit: Unit, value: float) -> E:
+    held = dnum(value, int(unit.options.dialect.dnum_whole))
+    return E(repr(held), DNUM, literal=True, whole=isinstance(held, int))
 
 
 def _name(unit: Unit, node: n.Name, want: Type | None) -> E:

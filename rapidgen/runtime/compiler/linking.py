@@ -4,6 +4,8 @@ Modules are linked into one Python namespace. Persistents, data of shared module
 classes are common to all tasks.
 """
 
+from collections import Counter
+
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.binding.names import (
     ModuleScope,
@@ -46,6 +48,8 @@ class Shared:
 
     def __init__(self, configured: dict[str, tuple[Type, Value]] | None = None) -> None:
         self.cells: dict[str, PersistentCell] = {}
+        self.declared: Counter[str] = Counter()
+        """So many loaded modules declare the persistent of a cell: with the last one it goes."""
         self.bare: set[str] = set()
         """Cells whose declarations so far had no initial value."""
         self.common: dict[tuple[str, str], Value] = {}
@@ -135,11 +139,22 @@ class Linker:
             if isinstance(symbol, TypeSymbol):
                 self._types.pop(symbol, None)
             elif isinstance(symbol, DataSymbol):
-                self._data.pop(symbol, None)
+                self._forget(self._data.pop(symbol, None))
             elif isinstance(symbol, RoutineSymbol):
                 self._routines.pop(symbol, None)
         for module in self.modules.values():
             module.types.clear()
+
+    def _forget(self, data: Data | None) -> None:
+        """A declaration is gone; a system-global persistent goes with its last one [K §14.4]."""
+        if data is None or data.kind != "PERS":
+            return
+        key = data.name.lower()
+        if self.shared.cells.get(key) is self.space.get(data.code):
+            self.shared.declared[key] -= 1
+            if not self.shared.declared[key]:
+                del self.shared.cells[key]
+                self.shared.bare.discard(key)
 
     def _fault(self, module: LoadedModule, message: str, node: n.Node) -> None:
         self.faults.append(error("RG401", module.span(node), message))
@@ -318,6 +333,8 @@ class Linker:
             return PersistentCell(d.name, kind, dims, value)
         key = d.name.lower()
         cell = self.shared.cells.get(key)
+        if cell is None or (cell.type.name == kind.name and cell.dims == dims):
+            self.shared.declared[key] += 1
         if cell is None:
             cell = self.shared.cells[key] = PersistentCell(d.name, kind, dims, value)
             if d.initial is None:
@@ -340,10 +357,18 @@ class Linker:
             raise CannotCompile(f"type {d.type} is not known", d)
         dims = tuple(_dimension(x, scope) for x in d.dimensions)
         if d.initial is not None and kind.name not in self.shared.unknown:
-            return kind, dims, evaluate(d.initial, kind, dims, scope)
+            return kind, dims, self._counted(evaluate(d.initial, kind, dims, scope), kind)
         if dims:
             return kind, dims, make_array(dims, kind.default)
         return kind, dims, kind.default()
+
+    def _counted(self, value: Value, kind: Type) -> Value:
+        """An initial value with its dnums as they are held."""
+        if kind.kind != "dnum":
+            return value
+        if value.__class__ is dict:
+            return {i: self._counted(part, kind) for i, part in value.items()}
+        return self.space["WHOLE"](value)
 
     def _predefined(self, symbol: DataSymbol) -> Data | None:
         key = symbol.name.lower()

@@ -152,6 +152,8 @@ def step(emitter: Emitter, key: str, node: n.ProcedureCall) -> None:
             whole=current.whole and by.whole,
             risky=not (by.literal or (current.whole and by.whole)),
         ).take(current, by)
+    if kind.kind == "dnum" and key != "clear":
+        value.code, value.fails = f"WHOLE{value.code}", True
     value.cost += emitter.options.call
     _store(emitter, place, value)
 

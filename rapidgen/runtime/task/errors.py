@@ -82,6 +82,11 @@ class Errors:
             raise known
         elif self._stops:
             self._stop_at_bare_callee(known, traceback)
+        elif listed is None and self._came_out_of_bare(traceback):
+            # A recovery point further out comes before a plain handler nearer by [K §7.2].
+            known.target = self._recovery_point(frame, number)
+            if known.target is not None:
+                raise known
         if way is None:
             if not retries:
                 self.retry_base = 0
@@ -152,14 +157,18 @@ class Errors:
 
     def _stop_at_bare_callee(self, error: RapidError, traceback: TracebackType | None) -> None:
         """Switch: an error that came out of a routine without ERROR is nobody's."""
+        if self._came_out_of_bare(traceback):
+            raise self.unhandled(error) from None
+
+    def _came_out_of_bare(self, traceback: TracebackType | None) -> bool:
+        """Whether an error was raised by a call of a routine without ERROR."""
         at = traceback.tb_next if traceback is not None else None
         while at is not None:
             compiled = self._task.program.codes.get(at.tb_frame.f_code.co_filename)
             if compiled is not None:
-                if not compiled.handled:
-                    raise self.unhandled(error) from None
-                return
+                return not compiled.handled
             at = at.tb_next
+        return False
 
     def _settled(
         self,
@@ -309,6 +318,8 @@ class Errors:
         if isinstance(leaving, RECOVERABLE):
             known = as_rapid_error(leaving)
             frame = sys._getframe(1)
+            if known.target is None and not self._stops:
+                known.target = self._recovery_point(frame, known.number)
             if known.target is None and self._has_handler_above(frame):
                 return
             if known.target is None and self._keep_undo(handler):
