@@ -12,7 +12,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     (
         "externally guided motion (option 689-1) is not simulated",
         """EGMGetId EGMGetState EGMSetupUC EGMSetupAI EGMSetupAO EGMSetupLTAPP EGMActJoint
-        EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
+        EGMSetupGI EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
         EGMStreamStart EGMStreamStop EGMWaitCond""",
     ),
     (
@@ -23,11 +23,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
         "there are no I/O units: every signal is a virtual one",
-        "IOEnable IODisable IOUnitState PackDNHeader",
-    ),
-    (
-        "conditions that the controller evaluates by itself are not simulated",
-        "GetMaxNumberOfCyclicBool SetupCyclicBool RemoveCyclicBool RemoveAllCyclicBool",
+        "IOEnable IODisable IOUnitState IOBusStart IOBusState PackDNHeader",
     ),
     ("nobody can lead a simulated robot by hand", "SetLeadThrough IsLeadThrough"),
     (
@@ -75,7 +71,52 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "how the controller fits axes and tools to measured points is in no public source",
         "CalcRotAxisFrame CalcRotAxFrameZ MToolRotCalib SToolRotCalib SToolTCPCalib",
     ),
-    ("loads are not identified: torques are 0", "LoadId"),
+    (
+        "loads and friction are not identified: torques are 0",
+        """LoadId ManLoadIdProc ParIdPosValid ParIdRobValid FricIdInit FricIdEvaluate
+        FricIdSetFricLevels""",
+    ),
+    (
+        "profiles of synchronised sensors are not simulated",
+        """PrxActivAndStoreRecord PrxActivRecord PrxDbgStoreRecord PrxDeactRecord PrxResetPos
+        PrxResetRecords PrxSetPosOffset PrxSetRecordSampleTime PrxSetSyncalarm PrxStartRecord
+        PrxStopRecord PrxStoreRecord PrxUseFileRecord PrxGetMaxRecordpos SupSyncSensorOn
+        SupSyncSensorOff""",
+    ),
+    (
+        "continuous applications (CAP) are not simulated",
+        """CapL CapC CapCondSetDO CapEquiDist CapNoProcess CapRefresh CapGetFailSigs ICap InitSuperv
+        SetupSuperv RemoveSuperv""",
+    ),
+    (
+        "servo guns are not simulated",
+        """STCalib STClose STOpen STIndGun STIndGunReset STTune STTuneReset STCalcForce STCalcTorque
+        STIsCalib STIsClosed STIsIndGun STIsOpen""",
+    ),
+    (
+        "there is no safety controller",
+        """SafetyControllerSyncRequest SafetyControllerGetChecksum SafetyControllerGetOpModePinCode
+        SafetyControllerGetSWVersion SafetyControllerGetUserChecksum""",
+    ),
+    (
+        "wear of axes is not counted",
+        """ResetAxisDistance ResetAxisMoveTime GetAxisDistance GetAxisMoveTime HollowWristReset""",
+    ),
+    (
+        "how the planner's modes and its event buffer act is in no public source",
+        "MotionProcessModeSet ActEventBuffer DeactEventBuffer",
+    ),
+    ("program memory has no size here", "ProgMemFree"),
+    (
+        "what a program does is shown by --trace, not by a file of the controller",
+        "SpyStart SpyStop",
+    ),
+    (
+        "it is not remembered who moved the pointer, nor which path power failed on",
+        "PPMovedInManMode ResetPPMoved PFRestart",
+    ),
+    ("UIMsgWrite is written, not shown: nothing is there to take away", "UIMsgWriteAbort"),
+    ("its values are in no public source", "GetModalPayLoadMode"),
     (
         "there is no camera",
         """CamLoadJob CamStartLoadJob CamWaitLoadJob CamSetProgramMode CamSetRunMode CamReqImage

@@ -367,15 +367,21 @@ def fs_size(
 
 
 @builtin("FileTime", cost="socket")
-def file_time(
+def file_time(task: Task, path: str, *parts: Value) -> float:
+    """Seconds since 1970; a num resolves 128 s today, \\StrDig every one."""
+    return single(file_time_dnum(task, path, *parts))
+
+
+@builtin("FileTimeDnum", cost="socket")
+def file_time_dnum(
     task: Task,
     path: str,
     _modify: bool | None,
     access: bool | None,
     status: bool | None,
     digits: Ref | None,
-) -> float:
-    """Seconds since 1970; a num resolves 128 s today, \\StrDig every one."""
+) -> int:
+    """Seconds since 1970."""
     found = _status(task, path)
     seconds = int(found.st_atime if access else found.st_ctime if status else found.st_mtime)
     if status and task.scheduler.clock == "virtual":
@@ -383,7 +389,7 @@ def file_time(
         seconds = int(found.st_mtime)
     if digits is not None:
         digits.set(str(seconds))
-    return single(seconds)
+    return seconds
 
 
 def _status(task: Task, path: str) -> os.stat_result:

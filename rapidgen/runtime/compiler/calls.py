@@ -140,7 +140,13 @@ def _condition_code(unit: Unit, node: n.Expression | None, e: E) -> str:
             watched.append(f"{data.code}.signal.changed")
     sets = "".join(f"{code}, " for code in dict.fromkeys(watched))
     cost = e.ops * unit.options.operator + e.cost
-    return f"CONDITION(lambda: {e.code}, ({sets}), {cost})"
+    own = any(
+        isinstance(part, n.FunctionCall)
+        and (routine := unit.routine_named(part.name)) is not None
+        and routine.node is not None
+        for part in (walk(node) if node is not None else ())
+    )
+    return f"CONDITION(lambda: {e.code}, ({sets}), {cost}, {own})"
 
 
 def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) -> E:

@@ -372,6 +372,8 @@ class Condition:
     watched: tuple[WaitSet, ...]
     """Persistents and signals in it."""
     cost: int
+    calls: bool = False
+    """It calls a function of the program."""
 
     def __call__(self) -> bool:
         return self.look()

@@ -219,6 +219,12 @@ class Errors:
             raise FatalError(40001, "RAISE with a number may not stand in a handler", "[K §4.8]")
         self._instead = self._own_error(number)
 
+    def retry_here(self) -> NoReturn:
+        """RETRY, asked for by an instruction. FatalError: outside an ERROR handler."""
+        if not self.handler_level:
+            raise FatalError(40001, "RETRY stands only in an error handler", "[K §4.10]")
+        raise ResumeInside(RETRY)
+
     def _own_error(self, number: float) -> RapidError:
         """1 to 90, a booked number or an ERR_ constant; else ERR_ILLRAISE [K §4.8]."""
         whole = int(number) if number == number and abs(number) < 1e9 else 0

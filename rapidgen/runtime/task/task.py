@@ -17,6 +17,7 @@ from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
+from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host, TaskState
 from rapidgen.runtime.motion_faults import in_rapid
@@ -73,6 +74,7 @@ class Task(Process):
         self.waiting_for: Callable[[], bool] | None = None
         self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
         """What SetDataSearch has found and GetNextSym has not given yet."""
+        self.cyclic = CyclicBools()
         self._order: BaseException | None = None
         self._holds = 0
 
