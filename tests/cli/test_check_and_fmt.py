@@ -111,6 +111,13 @@ def test_fmt_writes_once(folder, capsys):
     assert main(["fmt", "ugly.mod", "--check"]) == 0
 
 
+def test_fmt_says_that_a_file_mixes_line_ends(folder, capsys):
+    (folder / "mixed.mod").write_bytes(GOOD.encode().replace(b"\n", b"\r\n", 2))
+    assert main(["fmt", "mixed.mod"]) == 0
+    assert "mixed.mod mixes line ends (3 LF, 2 CRLF): all become LF" in capsys.readouterr().err
+    assert (folder / "mixed.mod").read_bytes() == GOOD.encode()
+
+
 def test_fmt_leaves_wrong_files_alone(folder, capsys):
     path = folder / "wrong.mod"
     path.write_text("module m\nvar num\nendmodule\n")

@@ -239,9 +239,8 @@ def read_str(
     discard: bool | None,
     _time: float | None,
     line_number: float | None,
-    status: Ref | None,
 ) -> str:
-    r"""The next line, or the string EOF; \Status is then -1, else 0."""
+    """The next line, or the string EOF."""
     file = _reader(device)
     alone = task.controller.dialect.delimiters == "alone"
     ends = (delimiters + "\n" * (not alone) if delimiters else "\n").encode("latin-1")
@@ -251,8 +250,6 @@ def read_str(
         for _ in range(1, whole(line_number, "ERR_ARGVALERR")):
             skipped = _line(file, ends)
     text = None if skipped is None else _line(file, ends, skip=bool(discard))
-    if status is not None:
-        status.set(-1 if text is None else 0)
     if text is None:
         return _EOF_TEXT
     return text.rstrip("\r") if remove_cr else text
