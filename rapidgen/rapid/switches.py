@@ -176,6 +176,8 @@ NOT_THE_DRIVERS = frozenset(
         "list_number",
         "queue_patience",
         "sockets_limited",
+        "delimiters",
+        "no_configuration",
     }
 )
 """Switches that no generated driver can notice: it does nothing that they are about."""
