@@ -182,7 +182,9 @@ class VirtualController:
         self.tasks: Mapping[str, TaskView] = {
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
-        self.diagnostics = load(self.rapid_tasks.values(), self.parse_module)
+        self.diagnostics = load(
+            self.rapid_tasks.values(), self.parse_module, entries_wanted=not system.robot_types
+        )
         signals.connect()
         self.operation.power_up()
         self.answered = settle(self, surroundings)

@@ -161,6 +161,8 @@ class Operation:
             lost = task.state == "error" and task.pointer.place is None
             if lost and task.spec.type == "NORMAL":
                 log.warning(_REFUSED, "Program start refused", "PP to main first", task=task.name)
+            if task.no_start and task.spec.modules:
+                log.warning(_REFUSED, "Program start refused", task.no_start, task=task.name)
             task.start()
         self.step_moves()
         self.changed.notify()

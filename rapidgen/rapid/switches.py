@@ -158,6 +158,14 @@ class Switches:
     """Whether the hands of a YuMi are calibrated when the controller is switched on [HandDriver.sys
     asks for it]. True: as if a program before had done it."""
 
+    no_configuration: Literal["limit", "reach", "stop"] = "limit"
+    """CalcJointT of a configuration that the place has not: ERR_ROBLIMIT, as an axis would have to
+    be where it cannot be [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""
+
+    delimiters: Literal["added", "alone"] = "added"
+    """The \\Delim of ReadStr comes in addition to the line feed, as with ReadNum [mem], or in its
+    place."""
+
     byte_to_str: Literal["character", "code"] = "character"
     """ByteToStr \\Char of a code that cannot be shown: the character itself (open_abb's servers
     end their lines so), or three characters such as `\\07` (S4 datasys 3-ByteToStr by its word)."""
@@ -178,6 +186,8 @@ NOT_THE_DRIVERS = frozenset(
         "sockets_limited",
         "stationary_zones",
         "hands_calibrated",
+        "delimiters",
+        "no_configuration",
     }
 )
 """Switches that no generated driver can notice: it does nothing that they are about."""

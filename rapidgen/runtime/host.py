@@ -23,6 +23,7 @@ from rapidgen.rapid.switches import Switches
 from rapidgen.rapid.syntax import nodes as n
 from rapidgen.runtime.compiler.context import Options
 from rapidgen.runtime.compiler.program import Program
+from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.queues import QueueSystem
 from rapidgen.runtime.robot_data import RobotData
@@ -140,6 +141,7 @@ class RapidTask(Waiter, Protocol):
     in_trap: bool
     errno: int
     intno: int
+    cyclic: CyclicBools
 
     @property
     def frame(self) -> FrameType | None:

@@ -3,23 +3,22 @@
 Loading a program says which of them it uses; reaching one stops the task with an event.
 """
 
+from functools import cache
 from typing import Final
+
+from rapidgen.rapid.builtins import signatures
 
 _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     (
         "externally guided motion (option 689-1) is not simulated",
         """EGMGetId EGMGetState EGMSetupUC EGMSetupAI EGMSetupAO EGMSetupLTAPP EGMActJoint
-        EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
+        EGMSetupGI EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
         EGMStreamStart EGMStreamStop EGMWaitCond""",
     ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
         "there are no I/O units: every signal is a virtual one",
-        "IOEnable IODisable IOUnitState PackDNHeader",
-    ),
-    (
-        "conditions that the controller evaluates by itself are not simulated",
-        "GetMaxNumberOfCyclicBool SetupCyclicBool RemoveCyclicBool RemoveAllCyclicBool",
+        "IOEnable IODisable IOUnitState IOBusStart IOBusState PackDNHeader",
     ),
     (
         "path correction is not simulated",
@@ -74,7 +73,52 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "how the controller fits axes and tools to measured points is in no public source",
         "CalcRotAxisFrame CalcRotAxFrameZ MToolRotCalib SToolRotCalib SToolTCPCalib",
     ),
-    ("loads are not identified: torques are 0", "LoadId"),
+    (
+        "loads and friction are not identified: torques are 0",
+        """LoadId ManLoadIdProc ParIdPosValid ParIdRobValid FricIdInit FricIdEvaluate
+        FricIdSetFricLevels""",
+    ),
+    (
+        "profiles of synchronised sensors are not simulated",
+        """PrxActivAndStoreRecord PrxActivRecord PrxDbgStoreRecord PrxDeactRecord PrxResetPos
+        PrxResetRecords PrxSetPosOffset PrxSetRecordSampleTime PrxSetSyncalarm PrxStartRecord
+        PrxStopRecord PrxStoreRecord PrxUseFileRecord PrxGetMaxRecordpos SupSyncSensorOn
+        SupSyncSensorOff""",
+    ),
+    (
+        "continuous applications (CAP) are not simulated",
+        """CapL CapC CapCondSetDO CapEquiDist CapNoProcess CapRefresh CapGetFailSigs ICap InitSuperv
+        SetupSuperv RemoveSuperv""",
+    ),
+    (
+        "servo guns are not simulated",
+        """STCalib STClose STOpen STIndGun STIndGunReset STTune STTuneReset STCalcForce STCalcTorque
+        STIsCalib STIsClosed STIsIndGun STIsOpen""",
+    ),
+    (
+        "there is no safety controller",
+        """SafetyControllerSyncRequest SafetyControllerGetChecksum SafetyControllerGetOpModePinCode
+        SafetyControllerGetSWVersion SafetyControllerGetUserChecksum""",
+    ),
+    (
+        "wear of axes is not counted",
+        """ResetAxisDistance ResetAxisMoveTime GetAxisDistance GetAxisMoveTime HollowWristReset""",
+    ),
+    (
+        "how the planner's modes and its event buffer act is in no public source",
+        "MotionProcessModeSet ActEventBuffer DeactEventBuffer",
+    ),
+    ("program memory has no size here", "ProgMemFree"),
+    (
+        "what a program does is shown by --trace, not by a file of the controller",
+        "SpyStart SpyStop",
+    ),
+    (
+        "it is not remembered who moved the pointer, nor which path power failed on",
+        "PPMovedInManMode ResetPPMoved PFRestart",
+    ),
+    ("UIMsgWrite is written, not shown: nothing is there to take away", "UIMsgWriteAbort"),
+    ("its values are in no public source", "GetModalPayLoadMode"),
     (
         "there is no camera",
         """CamLoadJob CamStartLoadJob CamWaitLoadJob CamSetProgramMode CamSetRunMode CamReqImage
@@ -90,12 +134,24 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         "IndAMove IndCMove IndDMove IndRMove IndReset IndInpos IndSpeed",
     ),
 )
+OPTION: Final = (
+    "it belongs to an option or add-in of RobotWare, of which only the name is known here:"
+    " declare it in a module of your own to say what it does"
+)
 _REASONS: Final = {name.lower(): reason for reason, names in _GROUPS for name in names.split()}
 
 
 def reason(name: str) -> str:
-    """Why a built-in without a binding cannot be executed. KeyError: it can."""
-    return _REASONS[name.lower()]
+    """Why a built-in without a binding, or a name of an option, cannot be executed. KeyError: it
+    can."""
+    key = name.lower()
+    return OPTION if key in option_routines() else _REASONS[key]
+
+
+@cache
+def option_routines() -> frozenset[str]:
+    """Lower-case names of routines of options of which nothing else is known."""
+    return signatures.option_names("procedures") | signatures.option_names("functions")
 
 
 def names() -> frozenset[str]:

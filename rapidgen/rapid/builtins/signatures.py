@@ -18,9 +18,11 @@ Marks behind a header say what its parameters do not:
     !lazy Cond                looks at this argument again and again, not at its first value
     !index FromIndex          the place of a byte in raw data
 
-and a line `!readonly ERRNO` beside data names those that a program cannot write. Alternatives of
-*required* parameters (`VAR signaldi Signal | PERS bool PersBool`) exist in built-ins only, and so
-does an optional one in place of a required one (`string Message | \\string MsgArray{*}`).
+and lines beside declarations: `!readonly ERRNO` names data that a program cannot write, `!writable
+vmax` constants that it can, `!newer accdata finepramp` the last components of a record, which are
+missing in values of older releases. Alternatives of *required* parameters (`VAR signaldi Signal |
+PERS bool PersBool`) exist in built-ins only, and so does an optional one in place of a required one
+(`string Message | \\string MsgArray{*}`).
 """
 
 import re
@@ -69,6 +71,8 @@ _MARKS: Final = frozenset(
     )
 )
 _READ_ONLY: Final = re.compile(r"^!readonly (.*)$", re.MULTILINE)
+_WRITABLE: Final = re.compile(r"^!writable (.*)$", re.MULTILINE)
+_NEWER: Final = re.compile(r"^!newer (\w+) (.*)$", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +110,8 @@ class PredefinedRecord:
 
     name: str
     components: tuple[tuple[str, str], ...]
+    newer: int = 0
+    """So many of the last components are missing in values that older releases saved."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +243,7 @@ def _types() -> _Types:
     names: dict[str, str] = {}
     aliases: dict[str, str] = {}
     records: dict[str, PredefinedRecord] = {}
+    newer = {name: len(listed.split()) for name, listed in _NEWER.findall(text)}
     for kind, listed in _CLASSES.findall(text):
         for name in listed.split():
             classes[name] = kind
@@ -249,7 +256,7 @@ def _types() -> _Types:
             aliases[key] = declaration.type
         elif isinstance(declaration, RecordDeclaration):
             components = tuple((c.type, c.name) for c in declaration.components)
-            records[key] = PredefinedRecord(declaration.name, components)
+            records[key] = PredefinedRecord(declaration.name, components, newer.get(key, 0))
     return _Types(classes, names, aliases, records)
 
 
@@ -288,11 +295,14 @@ def predefined() -> Mapping[str, Predefined]:
     """All predefined constants, persistents and variables by lower-case name."""
     found: dict[str, Predefined] = {}
     text = _read("constants") + _read("data") + _declared()
-    read_only = {name for names in _READ_ONLY.findall(text) for name in names.split()}
+    read_only, writable = (
+        {name for names in listed.findall(text) for name in names.split()}
+        for listed in (_READ_ONLY, _WRITABLE)
+    )
     for d in _declarations(text):
         if isinstance(d, DataDeclaration):
             value = None if d.initial is None else _value(d.initial)
-            readonly = d.kind == "CONST" or d.name in read_only
+            readonly = d.name not in writable if d.kind == "CONST" else d.name in read_only
             found[d.name.lower()] = Predefined(d.name, d.kind, d.type, value, readonly)
     return MappingProxyType(found)
 

@@ -245,7 +245,7 @@ def _else(value: Value, default: float | None) -> float:
     return 0 if default is None else default
 
 
-@by_name("UINumEntry", "UIDnumEntry", "UINumTune", cost="string")
+@by_name("UINumEntry", "UIDnumEntry", "UINumTune", "UIDnumTune", cost="string")
 def ui_num_entry(task: Task, dialog: str, given: Arguments) -> float:
     """Ask for a number, which may be tuned from an initial one."""
     initial, low, high = given["InitValue"], given["MinValue"], given["MaxValue"]

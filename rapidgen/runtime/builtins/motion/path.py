@@ -60,6 +60,13 @@ def start_move(task: Task, all_tasks: bool | None) -> None:
         group.start(reason_of(task))
 
 
+@builtin("StartMoveRetry", cost="call")
+def start_move_retry(task: Task) -> None:
+    """StartMove and RETRY in one, in an ERROR handler only [manual 3HAC050917]."""
+    start_move(task, None)
+    task.errors.retry_here()
+
+
 @builtin("StopMoveReset", cost="call")
 def stop_move_reset(task: Task, all_tasks: bool | None) -> None:
     """Takes back the stop without moving: what is left of the path is gone (`stop_move_reset`)."""
