@@ -10,6 +10,7 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity, refusal
 if TYPE_CHECKING:
     from rapidgen.config.model import GroupConfig
     from rapidgen.system import System
+    from rapidgen.system.controller_cfg import ControllerCfg
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +22,8 @@ class Bootable:
     groups: tuple["GroupConfig", ...]
     driver: bool
     notes: tuple[Diagnostic, ...] = ()
+    cfg: "ControllerCfg | None" = None
+    """All domains of a backup."""
 
 
 def load_target(
@@ -54,7 +57,8 @@ def _folder(path: Path, robot: str, backup: Path | None) -> Bootable:
     from rapidgen.config import from_manifest
     from rapidgen.controller.cell import in_its_cell
     from rapidgen.controller.mechanics import mechanics
-    from rapidgen.system import is_generated, read_folder, read_manifest, read_system
+    from rapidgen.system import is_backup, is_generated, read_folder, read_manifest, read_system
+    from rapidgen.system.backup import backup_cfg
 
     notes: list[Diagnostic] = []
     if is_generated(path):
@@ -65,7 +69,8 @@ def _folder(path: Path, robot: str, backup: Path | None) -> Bootable:
         raise only_of_folders(str(path))
     system = read_system(path, notes=notes)
     groups, more = mechanics(system, robot)
-    return Bootable(system.name, system, groups, False, (*notes, *more))
+    cfg = backup_cfg(path, system.robotware, []) if is_backup(path) else None
+    return Bootable(system.name, system, groups, False, (*notes, *more), cfg)
 
 
 def only_of_folders(target: str) -> Exception:

@@ -73,6 +73,7 @@ class Choices(TypedDict, total=False):
     folder: Path | None
     faults: FaultPlan | None
     autostart: bool
+    entry_needed: bool
 
 
 class VirtualController:
@@ -104,12 +105,13 @@ class VirtualController:
         folder: Path | None = None,
         faults: FaultPlan | None = None,
         autostart: bool = True,
+        entry_needed: bool = True,
     ) -> None:
         """Load every module and, with `autostart`, start all tasks in automatic mode.
 
         `host` selects the operating system's network (an address to bind); empty = in memory
         on the virtual clock, 127.0.0.1 on the real one. DiagnosticError when a module cannot
-        be loaded.
+        be loaded or, with `entry_needed`, a task with modules has no entry routine.
         """
         self.system = system
         self.costs = costs if costs is not None else Costs()
@@ -173,7 +175,9 @@ class VirtualController:
         self.tasks: Mapping[str, TaskView] = {
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
-        self.diagnostics = load(self.rapid_tasks.values(), self.parse_module)
+        self.diagnostics = load(
+            self.rapid_tasks.values(), self.parse_module, entry_needed=entry_needed
+        )
         signals.connect()
         self.operation.power_up()
         if faults is not None:

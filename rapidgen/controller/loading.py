@@ -31,10 +31,15 @@ class Trees:
         return tree
 
 
-def load(tasks: Iterable[Task], tree_of: Callable[[ModuleFile], n.Module]) -> list[Diagnostic]:
+def load(
+    tasks: Iterable[Task],
+    tree_of: Callable[[ModuleFile], n.Module],
+    *,
+    entry_needed: bool = True,
+) -> list[Diagnostic]:
     """Link the modules of tasks, which are ready then; warnings.
 
-    DiagnosticError: a module cannot be loaded, or the entry routine is not there.
+    DiagnosticError: a module cannot be loaded, or the entry routine is not there and needed.
     """
     found: list[Diagnostic] = []
     for task in tasks:
@@ -47,20 +52,20 @@ def load(tasks: Iterable[Task], tree_of: Callable[[ModuleFile], n.Module]) -> li
         if isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters:
             task.state = "ready"
         else:
-            found.append(_no_entry(task))
+            found.append(_no_entry(task, needed=entry_needed))
         found += missing_routines(task.program)
     if any(d.severity is Severity.ERROR for d in found):
         raise DiagnosticError(found)
     return found
 
 
-def _no_entry(task: Task) -> Diagnostic:
+def _no_entry(task: Task, *, needed: bool) -> Diagnostic:
     return error(
         "RG402",
         None,
         f"task {task.name} has no procedure {task.spec.entry} without parameters",
         f"declare PROC {task.spec.entry}() in one of its modules, or name another entry",
-        severity=Severity.ERROR if task.spec.modules else Severity.WARNING,
+        severity=Severity.ERROR if task.spec.modules and needed else Severity.WARNING,
     )
 
 
