@@ -87,6 +87,7 @@ def sim(
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
+    _check_release(chosen, rws)
     if check:
         refuse_unloadable(chosen.system)
     if ports is None and chosen.driver:
@@ -303,6 +304,17 @@ def _check_host(host: str) -> None:
         ipaddress.IPv4Address(host)
     except ValueError as fault:
         raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from fault
+
+
+def _check_release(target: "Bootable", rws: str | None) -> None:
+    """RWS 1.0 is of RobotWare 6 and older, 2.0 of RobotWare 7 and 8."""
+    major, minor = target.system.robotware
+    fits = {None: True, "1": major <= 6, "2": major == 7, "8": major in (7, 8)}[rws]
+    if not fits:
+        wanted = "1" if major <= 6 else "2 or 8"
+        raise typer.BadParameter(
+            f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {wanted}"
+        )
 
 
 def _check_ports(target: "Bootable", host: str, offset: int) -> None:

@@ -1,5 +1,6 @@
 """What a controller tells about itself, as frozen data."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 
@@ -152,3 +153,11 @@ class Change:
     resource: str
     kind: str
     value: str
+
+
+@dataclass(frozen=True, slots=True)
+class CfgInstance:
+    """One instance of a cfg type; attributes as texts, a flag as `true`."""
+
+    name: str
+    attributes: Mapping[str, str]

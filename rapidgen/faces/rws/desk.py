@@ -19,6 +19,7 @@ from rapidgen.faces.rws.subscriptions import Groups
 from rapidgen.machine.files import DiskFault
 from rapidgen.wire.rws import login as logging_in
 from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax
+from rapidgen.wire.rws.codes import CODES, OK
 from rapidgen.wire.rws.forms import FORM, read_form, split_target
 from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
 
@@ -81,14 +82,18 @@ class Desk:
     def _restarted(self) -> None:
         self.groups.end_all()
         self.sessions.end_all()
+        self.masters = Masters(self)
         self.progress.clear()
         self._nonces.clear()
 
-    def new_job(self, code: int) -> str:
-        """The number of a job that has come to its end with a code."""
+    def started(self, refused: str) -> Answer:
+        """The answer to a job that has come to its end already: refused by a code's name, or not.
+
+        RWS 2.0, and a backup in RWS 1.0, answer 202 with the address of the end.
+        """
         number = str(len(self.progress) + 1)
-        self.progress[number] = code
-        return number
+        self.progress[number] = CODES[refused] if refused else OK
+        return Answer(202, headers=(("Location", f"/progress/{number}"),))
 
     def write_file(self, path: Path, data: bytes) -> bool:
         """Write a file of the controller's disks; whether it is a new one. Refused."""

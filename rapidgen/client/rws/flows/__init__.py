@@ -1,5 +1,15 @@
 """What the client does step by step: generators over `effects`."""
 
-from rapidgen.client.rws.flows import connecting, holding, panel, rapid, signals
+from rapidgen.client.rws.flows import (
+    cfg,
+    connecting,
+    files,
+    holding,
+    jobs,
+    log,
+    panel,
+    rapid,
+    signals,
+)
 
-__all__ = ["connecting", "holding", "panel", "rapid", "signals"]
+__all__ = ["cfg", "connecting", "files", "holding", "jobs", "log", "panel", "rapid", "signals"]

@@ -2,7 +2,9 @@
 
 from typing import TYPE_CHECKING
 
+from rapidgen.controller.backing_up import back_up
 from rapidgen.faces.rws.asking import Answer, Asked, Refused, show
+from rapidgen.faces.rws.disks import disk_path
 from rapidgen.faces.rws.routing import serves
 from rapidgen.machine.calendar import date_time
 from rapidgen.wire.rws import operations as ops
@@ -119,3 +121,26 @@ def get_progress(desk: "Desk", asked: Asked) -> Answer:
     if code is None:
         raise Refused(404, "E_UNRESOLVED_URL", asked.path)
     return show(Item("progress", asked.names["id"], {"state": "ready", "code": str(code)}))
+
+
+@serves(ops.BACKUP)
+def back_up_now(desk: "Desk", asked: Asked) -> Answer:
+    """A backup into a new folder: done when it is answered."""
+    words = asked.field("backup")
+    if not words.startswith("/fileservice/"):
+        raise Refused(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
+    path, cabinet = disk_path(desk, words, asked), desk.cabinet
+    if path.exists():
+        raise Refused(400, "E_DIR_EXIST", words)
+    try:
+        back_up(cabinet.controller, cabinet.programs, cabinet.cfg, path)
+    except OSError as error:
+        raise Refused(400, "E_DIR_NOT_EXIST", words) from error
+    desk.controller.log.info(10_230, "Backup finished", words)
+    return desk.started("")
+
+
+@serves(ops.BACKUP_STATE)
+def backup_state(desk: "Desk", asked: Asked) -> Answer:
+    """Whether a backup is under way: never, here."""
+    return show(Item("ctrl-backup", "state", {"state": "0", "backup-state": "idle"}))
