@@ -24,7 +24,7 @@ class CannotLoad(Exception):
 
 
 @dataclass(slots=True)
-class Broken:
+class UnlinkedModule:
     """A module that lies in a task and is not linked."""
 
     file: ModuleFile
@@ -46,7 +46,9 @@ class Programs:
 
     def __init__(self, controller: VirtualController) -> None:
         self._controller = controller
-        self.broken: dict[str, dict[str, Broken]] = {name: {} for name in controller.rapid_tasks}
+        self.broken: dict[str, dict[str, UnlinkedModule]] = {
+            name: {} for name in controller.rapid_tasks
+        }
         """By task, by lower-case name."""
 
     @property
@@ -102,7 +104,7 @@ class Programs:
             if wrong:
                 task.program.unload(name)
         if wrong:
-            here[name.lower()] = Broken(file, wrong)
+            here[name.lower()] = UnlinkedModule(file, wrong)
         self._find_entry(task)
         return name
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from rapidgen.controller.controller import Choices, VirtualController
-from rapidgen.controller.programs import Broken, Programs
+from rapidgen.controller.programs import Programs, UnlinkedModule
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, Severity
 from rapidgen.rapid import Dialect, parse
 from rapidgen.system.controller_cfg import ControllerCfg
@@ -30,7 +30,7 @@ _NOT_LOADED = 40_165  # [mem]
 @dataclass(slots=True)
 class _Task:
     spec: TaskSpec
-    broken: list[Broken]
+    broken: list[UnlinkedModule]
     missing: list[str]
 
 
@@ -102,11 +102,11 @@ def _task(
         file = load_module(path, target=entry.file, shared=entry.shared, installed=entry.installed)
         found[file.name.casefold()] = replace(file, path=entry.file)
     good: list[ModuleFile] = []
-    broken: list[Broken] = []
+    broken: list[UnlinkedModule] = []
     for file in found.values():
         faults = _faults(file, before.robotware)
         if faults:
-            broken.append(Broken(file, faults))
+            broken.append(UnlinkedModule(file, faults))
         else:
             good.append(file)
     return _Task(replace(spec, modules=tuple(good)), broken, missing)
@@ -141,7 +141,7 @@ def _put_aside(tasks: list[_Task], found: Sequence[Diagnostic]) -> bool:
         for file in task.spec.modules:
             if file.path in paths or not paths:
                 own = tuple(d for d in errors if d.span is None or d.span.path == file.path)
-                task.broken.append(Broken(file, own))
+                task.broken.append(UnlinkedModule(file, own))
                 some = True
         gone = {b.file.name for b in task.broken}
         left = tuple(m for m in task.spec.modules if m.name not in gone)

@@ -14,7 +14,7 @@ _HOST = re.compile(r"[\w.-]{1,253}|[0-9a-fA-F:.%]{2,64}", re.ASCII)
 
 
 @dataclass(frozen=True, slots=True)
-class Address:
+class RwsAddress:
     """A host; `port` 0 stands for 443 with TLS and 80 without."""
 
     host: str
@@ -32,7 +32,7 @@ class Address:
         return f"{'rwss' if self.tls_only else 'rws'}://{self.netloc}{port}"
 
 
-def parse_address(text: str) -> Address:
+def parse_address(text: str) -> RwsAddress:
     """An address from what a user writes. Raises DiagnosticError RG657."""
     whole = text if "://" in text else f"rws://{text}"
     try:
@@ -45,7 +45,7 @@ def parse_address(text: str) -> Address:
     rest = parts.path.strip("/") or parts.query or parts.fragment
     if parts.scheme not in ("rws", "rwss") or rest or not _HOST.fullmatch(host) or port == 0:
         raise _bad(text if "@" not in text else f"{parts.scheme}://...")
-    return Address(host, port or 0, parts.scheme == "rwss", unquote(parts.username or ""))
+    return RwsAddress(host, port or 0, parts.scheme == "rwss", unquote(parts.username or ""))
 
 
 def _bad(shown: str, why: str = "") -> DiagnosticError:

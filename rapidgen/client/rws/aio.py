@@ -9,7 +9,7 @@ from typing import Self, TypeVar
 
 import httpx2
 
-from rapidgen.client.rws.core import Core, Pace
+from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
     Exchange,
@@ -38,7 +38,7 @@ T = TypeVar("T")
 class Awaiting:
     """Carries out flows on the caller's loop, one after the other."""
 
-    def __init__(self, core: Core, timeout: float) -> None:
+    def __init__(self, core: RwsCore, timeout: float) -> None:
         self._core = core
         self._timeout = timeout
         self._lock = asyncio.Lock()

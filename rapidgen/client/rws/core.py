@@ -8,10 +8,10 @@ from pathlib import Path
 from uuid import NAMESPACE_DNS, uuid5
 
 from rapidgen.client.errors import NotSupported
-from rapidgen.client.rws.address import Address
+from rapidgen.client.rws.address import RwsAddress
 from rapidgen.client.rws.errors import LoginFailed
 from rapidgen.wire.rws.bodies import Generation
-from rapidgen.wire.rws.operations import Operation, Route
+from rapidgen.wire.rws.operations import Route, RwsOperation
 
 RATE = 18
 """Requests in a second: RWS 1.0 answers 503 above 20 [RWS manual]."""
@@ -42,10 +42,10 @@ class Login:
 
 
 @dataclass(slots=True)
-class Core:
+class RwsCore:
     """State of one client."""
 
-    address: Address
+    address: RwsAddress
     login: Login
     fingerprint: str = ""
     """The certificate that was told to be right; empty: the list of known ones says."""
@@ -57,6 +57,8 @@ class Core:
     certificate: bytes = b""
     connected: bool = False
     robotware: str = ""
+    system: str = ""
+    """Name of the system that was found."""
     held: set[str] = field(default_factory=set)
     """Domains of mastership that this session has."""
     requests: int = 0
@@ -86,7 +88,7 @@ class Core:
                 "give it: `password=`, RAPIDGEN_PASSWORD, or --secrets FILE; nothing was sent",
             )
 
-    def route(self, operation: Operation) -> Route:
+    def route(self, operation: RwsOperation) -> Route:
         """How this controller spells an operation. Raises NotSupported (RG659)."""
         found = operation.route(self.generation)
         if found is None:

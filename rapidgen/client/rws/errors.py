@@ -42,7 +42,7 @@ class LoginFailed(ConnectionFailed):
     """No password, a wrong one, or nobody that a password may be sent to."""
 
 
-class NotDone(RobotError):
+class NotObeyed(RobotError):
     """The controller said yes, and what it said is not so."""
 
 

@@ -31,7 +31,7 @@ class Panel:
 
 
 @dataclass(frozen=True, slots=True)
-class Execution:
+class ProgramState:
     """Whether the program runs; `cycle` is once or forever."""
 
     running: bool
@@ -52,7 +52,7 @@ class TaskState:
 
 
 @dataclass(frozen=True, slots=True)
-class Module:
+class TaskModule:
     """A module in a task."""
 
     name: str
@@ -70,7 +70,7 @@ class BuildError:
 
 
 @dataclass(frozen=True, slots=True)
-class Pointer:
+class ProgramPointer:
     """Where a program pointer stands; empty texts and 0: nowhere."""
 
     module: str
@@ -147,7 +147,7 @@ class Holder:
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class ResourceEvent:
     """An event of a subscription: what it is about, and its new value."""
 
     resource: str

@@ -8,7 +8,7 @@ from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar
 from rapidgen.client.methods import Method, method
 from rapidgen.client.rws import flows, pins
 from rapidgen.client.rws.address import parse_address
-from rapidgen.client.rws.core import Core, Login
+from rapidgen.client.rws.core import Login, RwsCore
 from rapidgen.client.rws.effects import Flow
 from rapidgen.wire.rws.bodies import Generation
 
@@ -16,14 +16,14 @@ P = ParamSpec("P")
 T = TypeVar("T")
 
 
-class Carrier(Protocol):
+class RwsCarrier(Protocol):
     """Carries out flows for a core."""
 
-    def __init__(self, core: Core, timeout: float) -> None: ...
+    def __init__(self, core: RwsCore, timeout: float) -> None: ...
 
 
-def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
-    def opened(core: Core, *args: P.args, **options: P.kwargs) -> Flow[T]:
+def _of_core(flow: Callable[Concatenate[RwsCore, P], Flow[T]]) -> Method[P, T]:
+    def opened(core: RwsCore, *args: P.args, **options: P.kwargs) -> Flow[T]:
         yield from flows.connecting.connect(core)
         return (yield from flow(core, *args, **options))
 
@@ -32,7 +32,7 @@ def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
     return method(opened, attrgetter("_core"))
 
 
-C_co = TypeVar("C_co", bound=Carrier, covariant=True)
+C_co = TypeVar("C_co", bound=RwsCarrier, covariant=True)
 
 
 class ControllerSurface(Generic[C_co]):
@@ -51,7 +51,7 @@ class ControllerSurface(Generic[C_co]):
         pin_file: Path | None = None,
         timeout: float = 10.0,
     ) -> None:
-        self._core = Core(
+        self._core = RwsCore(
             parse_address(address),
             Login(user, password),
             fingerprint,

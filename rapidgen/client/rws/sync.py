@@ -10,7 +10,7 @@ from typing import Self, TypeVar
 
 import httpx2
 
-from rapidgen.client.rws.core import Core, Pace
+from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
     Exchange,
@@ -39,7 +39,7 @@ T = TypeVar("T")
 class Blocking:
     """Carries out flows by the caller's thread; requests of several threads go one by one."""
 
-    def __init__(self, core: Core, timeout: float) -> None:
+    def __init__(self, core: RwsCore, timeout: float) -> None:
         self._core = core
         self._timeout = timeout
         self._lock = threading.RLock()

@@ -9,7 +9,7 @@ import ssl
 import httpx2
 
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotError
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import LogIn, Response
 
 _NO_CHECK_TIME = 0x200000
@@ -33,7 +33,7 @@ def no_verification() -> ssl.SSLContext:
     return context
 
 
-def auth_of(effect: LogIn, core: Core) -> httpx2.Auth:
+def auth_of(effect: LogIn, core: RwsCore) -> httpx2.Auth:
     """The login that was found to be wanted."""
     if effect.way == "digest":
         return httpx2.DigestAuth(core.user, core.login.password)
@@ -47,7 +47,7 @@ def response_of(answer: httpx2.Response) -> Response:
     return Response(answer.status_code, headers, answer.content)
 
 
-def not_reached(core: Core, error: Exception, timeout: float) -> RobotError:
+def not_reached(core: RwsCore, error: Exception, timeout: float) -> RobotError:
     """Nobody answers, or nobody any more."""
     if isinstance(error, (httpx2.TimeoutException, TimeoutError)):
         message = f"no answer from {core.where} within {timeout:g} s"

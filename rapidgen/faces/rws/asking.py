@@ -23,7 +23,7 @@ class Received:
 
 
 @dataclass(frozen=True, slots=True)
-class Reply:
+class HttpReply:
     """An answer as it goes out. Several headers may have one name (cookies)."""
 
     status: int
@@ -61,10 +61,10 @@ class Asked:
         return self.generation is Generation.ONE
 
     def field(self, name: str, choices: tuple[str, ...] = ()) -> str:
-        """A field that has to be there. Refused: it is not, or is none of the choices."""
+        """A field that has to be there. Denied: it is not, or is none of the choices."""
         value = self.form.get(name)
         if value is None or (choices and value not in choices):
-            raise Refused(400, "E_INVALIDARG", f"{name}: {value}")
+            raise Denied(400, "E_INVALIDARG", f"{name}: {value}")
         return value
 
     def kind(self, one: str, two: str) -> str:
@@ -73,7 +73,7 @@ class Asked:
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class Served:
     """What a handler gives: a body, bytes of a file, or nothing (204)."""
 
     status: int = 204
@@ -82,7 +82,7 @@ class Answer:
     headers: tuple[tuple[str, str], ...] = ()
 
 
-class Refused(Exception):
+class Denied(Exception):
     """A request is refused with ABB's code; `icode` is a hint behind the words."""
 
     def __init__(self, status: int, name: str, text: str = "", icode: int = -1) -> None:
@@ -98,7 +98,7 @@ class Refused(Exception):
         return f"rapidgen[1] {self.text} code:{self.code} icode:{self.icode}"
 
 
-def show(*items: Item, title: str = "rw", collection: bool = False, following: str = "") -> Answer:
+def show(*items: Item, title: str = "rw", collection: bool = False, following: str = "") -> Served:
     """An answer with these items."""
     body = Body(items, title=title, collection=collection, next=following)
-    return Answer(200, body)
+    return Served(200, body)

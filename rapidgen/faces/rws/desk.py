@@ -5,21 +5,19 @@ Strict is what controllers are: versions in media types (406, 415), verbs in the
 """
 
 import secrets
-from dataclasses import dataclass, replace
-from pathlib import Path
+from dataclasses import replace
+from functools import partial
 
 from rapidgen.controller.cabinet import Cabinet
-from rapidgen.controller.controller import VirtualController
 from rapidgen.faces.rws import handlers as handlers
-from rapidgen.faces.rws.asking import Answer, Asked, Received, Refused, Reply
-from rapidgen.faces.rws.mastership import Masters
+from rapidgen.faces.rws.asking import Asked, Denied, HttpReply, Received, Served
+from rapidgen.faces.rws.office import Accounts, Office
 from rapidgen.faces.rws.routing import find
 from rapidgen.faces.rws.sessions import Session, Sessions
 from rapidgen.faces.rws.subscriptions import Groups
-from rapidgen.machine.files import DiskFault
+from rapidgen.faces.rws.watching import watched
 from rapidgen.wire.rws import login as logging_in
 from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax
-from rapidgen.wire.rws.codes import CODES, OK
 from rapidgen.wire.rws.forms import FORM, read_form, split_target
 from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
 
@@ -29,39 +27,26 @@ LARGEST_FORM = 100_000
 _REALM = 'Basic realm="Robot Web Services"'
 
 
-@dataclass(frozen=True, slots=True)
-class Login:
-    """Who may log in. All users have all grants but `Default User` those of `denied`."""
-
-    users: dict[str, str]
-    denied: frozenset[str] = frozenset()
-
-
 class Desk:
     """Answers requests to one cabinet."""
 
     def __init__(
-        self, cabinet: Cabinet, generation: Generation, login: Login, *, strict: bool = True
+        self, cabinet: Cabinet, generation: Generation, login: Accounts, *, strict: bool = True
     ) -> None:
-        self.cabinet = cabinet
+        self.office = office = Office(cabinet, generation, login, strict=strict)
         self.generation = generation
-        self.strict = strict
-        self.login = login
         self.sessions = Sessions(lambda: cabinet.now, strict=strict)
-        self.masters = Masters(self)
-        self.groups = Groups(self)
-        self.progress: dict[str, int] = {}
-        """Result codes of jobs by number."""
+        self.groups = office.groups = Groups(
+            generation, lambda: cabinet.controller.scheduler, partial(watched, office)
+        )
+        office.end_session = self.sessions.end
+        self._users = login.users
+        self._strict = strict
         self._key = secrets.randbelow(10**9) * 10**6
         self._nonces: dict[str, None] = {}
         self._connections: dict[str, Session] = {}
         """Sessions by the cookie of the TCP connection."""
         cabinet.on_restart.append(self._restarted)
-
-    @property
-    def controller(self) -> VirtualController:
-        """The controller that runs now."""
-        return self.cabinet.controller
 
     @property
     def is_one(self) -> bool:
@@ -82,45 +67,23 @@ class Desk:
     def _restarted(self) -> None:
         self.groups.end_all()
         self.sessions.end_all()
-        self.masters = Masters(self)
-        self.progress.clear()
+        self.office.restarted()
         self._nonces.clear()
-
-    def started(self, refused: str) -> Answer:
-        """The answer to a job that has come to its end already: refused by a code's name, or not.
-
-        RWS 2.0, and a backup in RWS 1.0, answer 202 with the address of the end.
-        """
-        number = str(len(self.progress) + 1)
-        self.progress[number] = CODES[refused] if refused else OK
-        return Answer(202, headers=(("Location", f"/progress/{number}"),))
-
-    def write_file(self, path: Path, data: bytes) -> bool:
-        """Write a file of the controller's disks; whether it is a new one. Refused."""
-        new = not path.exists()
-        try:
-            self.controller.files.spend(len(data))
-            path.write_bytes(data)
-        except DiskFault as fault:
-            raise Refused(507, "E_NOT_ENOUGH_SPACE", str(fault)) from fault
-        except OSError as fault:
-            raise Refused(404, "E_DIR_NOT_EXIST", fault.strerror or "") from fault
-        return new
 
     # -- a request -------------------------------------------------------------------------------
 
-    def handle(self, got: Received) -> Reply:
+    def handle(self, got: Received) -> HttpReply:
         """Answer a request."""
         if self.sessions.is_too_fast():
-            return Reply(503, (("Retry-After", "1"),))
+            return HttpReply(503, (("Retry-After", "1"),))
         try:
             path, suffix, query = split_target(got.target)
         except ValueError:
-            return Reply(400)
+            return HttpReply(400)
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None:
             entered = self._enter(got)
-            if isinstance(entered, Reply):
+            if isinstance(entered, HttpReply):
                 return entered
             session = entered
         syntax: Syntax = "xhtml"
@@ -128,18 +91,18 @@ class Desk:
             accepted = self._syntax(got, path, dict(query))
             syntax = accepted or "hal"
             answer = self._carry_out(got, session, path, suffix, dict(query), accepted)
-        except Refused as refused:
+        except Denied as refused:
             title = "rw" if self.is_one else ""
             fault = Fault(refused.code, refused.message)
-            answer = Answer(refused.status, Body(title=title, fault=fault))
+            answer = Served(refused.status, Body(title=title, fault=fault))
         return self._reply(got, session, path, answer, syntax)
 
-    def _enter(self, got: Received) -> Session | Reply:
+    def _enter(self, got: Received) -> Session | HttpReply:
         """Log in; a reply says why not."""
         user = self._user(got)
         if user is None:
-            return Reply(401, (("WWW-Authenticate", self._challenge()),))
-        return self.sessions.begin(user) or Reply(503, (("Retry-After", "1"),))
+            return HttpReply(401, (("WWW-Authenticate", self._challenge()),))
+        return self.sessions.begin(user) or HttpReply(503, (("Retry-After", "1"),))
 
     def _challenge(self) -> str:
         if self.generation is not Generation.ONE:
@@ -154,11 +117,11 @@ class Desk:
         """Who it is, by the Authorization header; None: nobody."""
         header = got.headers.get("authorization", "")
         if self.generation is not Generation.ONE:
-            return logging_in.basic_user(header, self.login.users)
+            return logging_in.basic_user(header, self._users)
         sent = logging_in.parse(header)
         if sent is None or sent.nonce not in self._nonces:
             return None
-        password = self.login.users.get(sent.user)
+        password = self._users.get(sent.user)
         if password is None or not logging_in.is_right(sent, got.method, password):
             return None
         return sent.user
@@ -166,7 +129,7 @@ class Desk:
     def _syntax(self, got: Received, path: str, query: dict[str, str]) -> Syntax | None:
         """What the answer is to be written in; None: this client does not say."""
         found = wanted(self.generation, got.headers.get("accept", ""), query)
-        if found is None and not self.strict:
+        if found is None and not self._strict:
             return "hal"
         if found is None and path == "/logout":
             return "hal"
@@ -180,46 +143,46 @@ class Desk:
         suffix: str,
         query: dict[str, str],
         syntax: Syntax | None,
-    ) -> Answer:
+    ) -> Served:
         files = path.startswith("/fileservice")
         if syntax is None and not (files and got.method in ("GET", "PUT")):
-            raise Refused(406, "E_INVALIDARG", "cannot generate response for given accept header")
+            raise Denied(406, "E_INVALIDARG", "cannot generate response for given accept header")
         self._check_type(got, files)
         found = find(self.generation, got.method, path, query.get("action", ""))
         if found.handler is None:
             if found.allowed:
-                raise Refused(405, "E_INVALIDARG", f"{got.method} {path}")
-            raise Refused(404, "E_UNRESOLVED_URL", path)
+                raise Denied(405, "E_INVALIDARG", f"{got.method} {path}")
+            raise Denied(404, "E_UNRESOLVED_URL", path)
         form = got.method == "POST" or path.startswith("/subscription")
         asked = Asked(
             self.generation, session, path, suffix, found.names, query,
             self._form(got) if form else (), got.body,
             plain(got.headers.get("content-type", "")), got.headers.get("host", ""),
         )  # fmt: skip
-        return found.handler(self, asked) or Answer()
+        return found.handler(self.office, asked) or Served()
 
     def _check_type(self, got: Received, files: bool) -> None:
         """406 for a request without the type that RWS 2.0 wants, 415 for a file of another."""
-        if got.method in ("GET", "OPTIONS") or not self.strict:
+        if got.method in ("GET", "OPTIONS") or not self._strict:
             return
         sent = plain(got.headers.get("content-type", ""))
         if self.generation is Generation.ONE:
             # Nothing at all is let through: public clients send such requests [code: rwsuis].
             if got.method == "POST" and got.body and not sent.startswith(FORM):
-                raise Refused(415, "E_INVALIDARG", "a form is wanted")
+                raise Denied(415, "E_INVALIDARG", "a form is wanted")
         elif files and got.method == "PUT":
             if sent not in FILE_TYPES:
-                raise Refused(415, "E_INVALIDARG", f"Content type {sent} is not supported")
+                raise Denied(415, "E_INVALIDARG", f"Content type {sent} is not supported")
         elif sent != f"{FORM};v=2.0":
-            raise Refused(406, "E_INVALIDARG", "Content type is not supported")
+            raise Denied(406, "E_INVALIDARG", "Content type is not supported")
 
     def _form(self, got: Received) -> tuple[tuple[str, str], ...]:
         if len(got.body) > LARGEST_FORM:
-            raise Refused(413, "E_BUFFER_OVERFLOW", "the form is too large")
+            raise Denied(413, "E_BUFFER_OVERFLOW", "the form is too large")
         try:
             return tuple(read_form(got.body))
         except ValueError as error:
-            raise Refused(400, "E_INVALIDARG", "no form") from error
+            raise Denied(400, "E_INVALIDARG", "no form") from error
 
     def _connection(self, got: Received, session: Session) -> str:
         """The cookie of a TCP connection, which leads to the session."""
@@ -230,8 +193,8 @@ class Desk:
         return number
 
     def _reply(
-        self, got: Received, session: Session, path: str, answer: Answer, syntax: Syntax
-    ) -> Reply:
+        self, got: Received, session: Session, path: str, answer: Served, syntax: Syntax
+    ) -> HttpReply:
         headers = [*answer.headers]
         headers.append(("Set-Cookie", f"{SESSION}={session.key}; path=/; httponly"))
         headers.append(
@@ -241,7 +204,7 @@ class Desk:
             data = answer.data or b""
             if answer.data is not None and not any(k == "Content-Type" for k, _ in headers):
                 headers.append(("Content-Type", "application/octet-stream"))
-            return Reply(answer.status, tuple(headers), data)
+            return HttpReply(answer.status, tuple(headers), data)
         scheme = "http" if self.is_one else "https"
         base = f"{scheme}://{got.headers.get('host', '')}{path.rpartition('/')[0]}/"
         body = replace(answer.body, base=base, here=answer.body.here or path.rpartition("/")[2])
@@ -249,7 +212,7 @@ class Desk:
         if syntax == "xhtml" and self.generation is not Generation.ONE:
             kind += ";v=2.0"
         headers.append(("Content-Type", kind))
-        return Reply(answer.status, tuple(headers), WRITERS[syntax](body))
+        return HttpReply(answer.status, tuple(headers), WRITERS[syntax](body))
 
 
 def _cookies(got: Received) -> dict[str, str]:

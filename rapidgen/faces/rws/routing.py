@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from functools import cache
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Answer, Asked
+from rapidgen.faces.rws.asking import Asked, Served
 from rapidgen.wire.rws.bodies import Generation
-from rapidgen.wire.rws.operations import Operation, Route
+from rapidgen.wire.rws.operations import Route, RwsOperation
 
 if TYPE_CHECKING:
-    from rapidgen.faces.rws.desk import Desk
+    from rapidgen.faces.rws.office import Office
 
-Handler = Callable[["Desk", Asked], Answer | None]
-_TABLE: list[tuple[Operation, Handler]] = []
+Handler = Callable[["Office", Asked], Served | None]
+_TABLE: list[tuple[RwsOperation, Handler]] = []
 
 
-def serves(*operations: Operation) -> Callable[[Handler], Handler]:
+def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
     """The decorated function carries these operations out."""
 
     def put(handler: Handler) -> Handler:
@@ -35,7 +35,7 @@ class _Row:
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Lookup:
     """What a path leads to: a handler, or the methods that there would be."""
 
     handler: Handler | None
@@ -51,7 +51,7 @@ def _rows(generation: Generation) -> tuple[_Row, ...]:
     return tuple(sorted(rows, key=lambda row: (row.route.path.count("{"), "*" in row.route.path)))
 
 
-def find(generation: Generation, method: str, path: str, action: str) -> Found:
+def find(generation: Generation, method: str, path: str, action: str) -> Lookup:
     """The handler of a request. With none, `allowed` empty is 404, else 405."""
     allowed: list[str] = []
     for row in _rows(generation):
@@ -59,6 +59,6 @@ def find(generation: Generation, method: str, path: str, action: str) -> Found:
         if match is None:
             continue
         if row.route.method == method and row.route.action == action:
-            return Found(row.handler, match.groupdict())
+            return Lookup(row.handler, match.groupdict())
         allowed.append(row.route.method)
-    return Found(None, {}, tuple(dict.fromkeys(allowed)))
+    return Lookup(None, {}, tuple(dict.fromkeys(allowed)))

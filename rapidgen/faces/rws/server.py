@@ -11,15 +11,16 @@ from itertools import count
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from rapidgen.controller.cabinet import Cabinet
-from rapidgen.faces.rws.asking import Received, Refused, Reply
+from rapidgen.faces.rws.asking import Denied, HttpReply, Received
 from rapidgen.faces.rws.certificate import Certificate, self_signed
-from rapidgen.faces.rws.desk import Desk, Login
+from rapidgen.faces.rws.desk import Desk
+from rapidgen.faces.rws.office import Accounts
 from rapidgen.faces.service import Service, in_use, loopback
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
 
 LARGEST_BODY = 64 * 1024 * 1024
-_RESTARTING = Reply(503, (("Retry-After", "1"),))
+_RESTARTING = HttpReply(503, (("Retry-After", "1"),))
 _UNREAD = 1000
 """Events that may wait for a client that does not read."""
 
@@ -29,7 +30,7 @@ def serve_rws(
     generation: Generation,
     host: str = "127.0.0.1",
     port: int = 0,
-    login: Login | None = None,
+    login: Accounts | None = None,
     *,
     strict: bool = True,
     beyond_loopback: bool = False,
@@ -41,7 +42,7 @@ def serve_rws(
     """
     if login is None or not beyond_loopback:
         host = loopback(host)
-    login = login or Login({"Default User": "robotics", "Admin": "robotics"})
+    login = login or Accounts({"Default User": "robotics", "Admin": "robotics"})
     certificate = None if generation is Generation.ONE else self_signed(host)
     server = _Server(Desk(cabinet, generation, login, strict=strict), certificate)
     server.start(host, port)
@@ -59,11 +60,11 @@ class _Server:
         self._loop = asyncio.new_event_loop()
         self._connections = count(1)
         self._numbers: dict[asyncio.BaseTransport, int] = {}
-        self._pending: set[asyncio.Future[Reply]] = set()
+        self._pending: set[asyncio.Future[HttpReply]] = set()
         self._runner = web.AppRunner(self._app(), access_log=None, shutdown_timeout=0.5)
         self._thread: threading.Thread | None = None
         self.port = 0
-        desk.cabinet.on_restart.append(self._restarting)
+        desk.office.cabinet.on_restart.append(self._restarting)
 
     def _app(self) -> web.Application:
         app = web.Application(client_max_size=LARGEST_BODY)
@@ -138,16 +139,16 @@ class _Server:
         headers = {name.lower(): value for name, value in request.headers.items()}
         return Received(request.method, request.raw_path, headers, body, number)
 
-    async def _on_controller(self, function: Callable[[], Reply]) -> Reply:
+    async def _on_controller(self, function: Callable[[], HttpReply]) -> HttpReply:
         """The outcome of a function on the controller's thread; 503 while it restarts."""
-        future: asyncio.Future[Reply] = self._loop.create_future()
+        future: asyncio.Future[HttpReply] = self._loop.create_future()
 
-        def settle(reply: Reply) -> None:
+        def settle(reply: HttpReply) -> None:
             if not future.done():
                 future.set_result(reply)
 
         def run() -> None:
-            reply = Reply(500)
+            reply = HttpReply(500)
             try:
                 reply = function()
             finally:
@@ -155,7 +156,7 @@ class _Server:
 
         self._pending.add(future)
         try:
-            if not self._desk.cabinet.post(run):
+            if not self._desk.office.cabinet.post(run):
                 return _RESTARTING
             return await future
         finally:
@@ -175,16 +176,16 @@ class _Server:
         def send(event: bytes | None) -> None:
             self._loop.call_soon_threadsafe(events.put_nowait, event)
 
-        def listen() -> Reply:
+        def listen() -> HttpReply:
             session = self._desk.session_of(got)
             if session is None:
-                return Reply(403)
+                return HttpReply(403)
             try:
                 group = self._desk.groups.find(number, session)
                 self._desk.groups.listen(group, send, lambda: send(None))
-            except Refused as refused:
-                return Reply(refused.status)
-            return Reply(101)
+            except Denied as refused:
+                return HttpReply(refused.status)
+            return HttpReply(101)
 
         reply = await self._on_controller(listen)
         if reply.status != 101:
@@ -198,7 +199,7 @@ class _Server:
             await self._hear(socket)
         finally:
             sender.cancel()
-            self._desk.cabinet.post(lambda: self._desk.groups.leave(number))
+            self._desk.office.cabinet.post(lambda: self._desk.groups.leave(number))
         return socket
 
     async def _send(
@@ -218,7 +219,7 @@ class _Server:
                 return
 
 
-def _response(reply: Reply) -> web.Response:
+def _response(reply: HttpReply) -> web.Response:
     response = web.Response(status=reply.status, body=reply.body or None)
     for name, value in reply.headers:
         response.headers.add(name, value)

@@ -6,23 +6,32 @@ Events are XHTML in either generation; a signal's event repeats the text that wa
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Refused
+from rapidgen.faces.rws.asking import Asked, Denied
 from rapidgen.faces.rws.sessions import Session
-from rapidgen.faces.rws.watching import Watched, watched
-from rapidgen.machine.scheduler import Timer
+from rapidgen.machine.scheduler import Scheduler, Timer
 from rapidgen.wire.rws.bodies import Generation, Item
 from rapidgen.wire.rws.events import Wanted, write_events
-
-if TYPE_CHECKING:
-    from rapidgen.faces.rws.desk import Desk
 
 _PERIODS = {0: 5_000_000_000, 1: 200_000_000, 2: 0}
 MOST_RESOURCES, MOST_GROUPS, MOST_HIGH = 1000, 2, 64
 MOST_SOCKETS = 19
 """Sessions that may hold a websocket [RWS 2.0 manual]."""
 Send = Callable[[bytes], None]
+
+
+Told = Callable[[Item | None], None]
+"""Told that something changed; with the event where only that one knows it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Watched:
+    """One resource: `item()` is its event now, `watch(told)` begins to watch and gives the end."""
+
+    item: Callable[[], Item]
+    watch: Callable[[Told], Callable[[], None]]
+    fast: bool = False
+    has_state: bool = True
 
 
 @dataclass(slots=True, eq=False)
@@ -36,7 +45,7 @@ class _Watch:
 
 
 @dataclass(slots=True, eq=False)
-class Group:
+class EventGroup:
     """One subscription. `send` is there while somebody listens."""
 
     number: int
@@ -53,45 +62,53 @@ class Group:
 class Groups:
     """All subscriptions of a face."""
 
-    def __init__(self, desk: "Desk") -> None:
-        self._desk = desk
-        self._groups: dict[int, Group] = {}
+    def __init__(
+        self,
+        generation: Generation,
+        scheduler: Callable[[], Scheduler],
+        watched: Callable[[Asked, Wanted], Watched],
+    ) -> None:
+        """`watched` finds a resource, or refuses it."""
+        self._generation = generation
+        self._scheduler = scheduler
+        self._watched = watched
+        self._groups: dict[int, EventGroup] = {}
         self._made = 0
 
-    def find(self, number: str, session: Session) -> Group:
-        """A group of a session. Refused: it has none of that number."""
+    def find(self, number: str, session: Session) -> EventGroup:
+        """A group of a session. Denied: it has none of that number."""
         group = self._groups.get(int(number)) if number.isdecimal() else None
         if group is None or group.session is not session:
-            raise Refused(404, "E_UNRESOLVED_URL", f"no subscription {number}")
+            raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
         return group
 
-    def begin(self, asked: Asked, wanted: Iterable[Wanted]) -> Group:
-        """A new group. Refused: too many, or something that cannot be watched."""
+    def begin(self, asked: Asked, wanted: Iterable[Wanted]) -> EventGroup:
+        """A new group. Denied: too many, or something that cannot be watched."""
         own = sum(g.session is asked.session for g in self._groups.values())
         if own >= MOST_GROUPS:
-            raise Refused(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
+            raise Denied(503, "E_MAX_LIMIT_REACHED", "two groups are the most")
         self._made += 1
-        group = Group(self._made, asked.session)
+        group = EventGroup(self._made, asked.session)
         self.add(asked, group, wanted)
         self._groups[group.number] = group
         asked.session.on_end.append(lambda: self.end(group))
         return group
 
-    def add(self, asked: Asked, group: Group, wanted: Iterable[Wanted]) -> None:
-        """More resources for a group, all or none. Refused."""
-        found = [_Watch(one, watched(self._desk, asked, one)) for one in wanted]
+    def add(self, asked: Asked, group: EventGroup, wanted: Iterable[Wanted]) -> None:
+        """More resources for a group, all or none. Denied."""
+        found = [_Watch(one, self._watched(asked, one)) for one in wanted]
         every = [*group.watches, *found]
         high = sum(w.wanted.priority == 2 for w in every)
         if len(every) > MOST_RESOURCES or high > MOST_HIGH:
-            raise Refused(503, "E_MAX_LIMIT_REACHED", "too many resources")
+            raise Denied(503, "E_MAX_LIMIT_REACHED", "too many resources")
         if any(w.wanted.priority == 2 and not w.seen.fast for w in found):
-            raise Refused(400, "E_INVALIDARG", "high priority is for signals and persistents")
+            raise Denied(400, "E_INVALIDARG", "high priority is for signals and persistents")
         for watch in found:
             group.watches.append(watch)
             watch.end = watch.seen.watch(self._changed(group, watch))
 
-    def remove(self, group: Group, resource: str) -> None:
-        """One resource less; the last one ends the group. Refused: it has no such one."""
+    def remove(self, group: EventGroup, resource: str) -> None:
+        """One resource less; the last one ends the group. Denied: it has no such one."""
         for watch in group.watches:
             if watch.wanted.resource == resource:
                 self._end_watch(watch)
@@ -99,13 +116,13 @@ class Groups:
                 if not group.watches:
                     self.end(group)
                 return
-        raise Refused(400, "E_INVALIDARG", f"no resource {resource}")
+        raise Denied(400, "E_INVALIDARG", f"no resource {resource}")
 
-    def initial(self, group: Group) -> list[Item]:
+    def initial(self, group: EventGroup) -> list[Item]:
         """What everything of a group is now."""
         return [w.seen.item() for w in group.watches if w.seen.has_state]
 
-    def end(self, group: Group) -> None:
+    def end(self, group: EventGroup) -> None:
         """Watch no more."""
         if self._groups.pop(group.number, None) is None:
             return
@@ -126,13 +143,13 @@ class Groups:
 
     # -- events ----------------------------------------------------------------------------------
 
-    def listen(self, group: Group, send: Send, hang_up: Callable[[], None]) -> None:
-        """Somebody listens from now on. Refused: RWS 2.0 gives a poll URL once."""
-        if group.spent and self._desk.generation is not Generation.ONE:
-            raise Refused(404, "E_UNRESOLVED_URL", "used already")
+    def listen(self, group: EventGroup, send: Send, hang_up: Callable[[], None]) -> None:
+        """Somebody listens from now on. Denied: RWS 2.0 gives a poll URL once."""
+        if group.spent and self._generation is not Generation.ONE:
+            raise Denied(404, "E_UNRESOLVED_URL", "used already")
         listening = sum(g.send is not None for g in self._groups.values())
         if listening >= MOST_SOCKETS:
-            raise Refused(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
+            raise Denied(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
         group.send, group.hang_up, group.spent = send, hang_up, True
         if group.waiting:
             self._tell(group, group.waiting)
@@ -144,10 +161,10 @@ class Groups:
         if group is None:
             return
         group.send, group.hang_up = None, lambda: None
-        if self._desk.generation is not Generation.ONE:
+        if self._generation is not Generation.ONE:
             self.end(group)
 
-    def _changed(self, group: Group, watch: _Watch) -> Callable[[Item | None], None]:
+    def _changed(self, group: EventGroup, watch: _Watch) -> Callable[[Item | None], None]:
         """What is called at a change, with its event where a later look would miss it."""
 
         def now(item: Item) -> None:
@@ -166,10 +183,10 @@ class Groups:
             if item is not None or not period:
                 now(item or watch.seen.item())
             elif watch.timer is None:
-                watch.timer = self._desk.controller.scheduler.after(period, later)
+                watch.timer = self._scheduler().after(period, later)
 
         return changed
 
-    def _tell(self, group: Group, items: Iterable[Item]) -> None:
+    def _tell(self, group: EventGroup, items: Iterable[Item]) -> None:
         assert group.send is not None
         group.send(write_events(items))

@@ -2,11 +2,11 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Asked, Refused
+from rapidgen.faces.rws.asking import Asked, Denied
 from rapidgen.faces.rws.handlers import execution, panel, signals, symbols, tasks
+from rapidgen.faces.rws.subscriptions import Told, Watched
 from rapidgen.machine.log import Event
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.text import literal_text
@@ -16,34 +16,21 @@ from rapidgen.wire.rws.events import Wanted
 from rapidgen.wire.rws.operations import SYMBOL
 
 if TYPE_CHECKING:
-    from rapidgen.faces.rws.desk import Desk
-
-Told = Callable[[Item | None], None]
-"""Told that something changed; with the event where only that one knows it."""
+    from rapidgen.faces.rws.office import Office
 
 
-@dataclass(frozen=True, slots=True)
-class Watched:
-    """One resource: `item()` is its event now, `watch(told)` begins to watch and gives the end."""
-
-    item: Callable[[], Item]
-    watch: Callable[[Told], Callable[[], None]]
-    fast: bool = False
-    has_state: bool = True
-
-
-def watched(desk: "Desk", asked: Asked, wanted: Wanted) -> Watched:
-    """The resource of a text such as `/rw/panel/ctrlstate`. Refused: nothing of the kind."""
+def watched(office: "Office", asked: Asked, wanted: Wanted) -> Watched:
+    """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
     path, _, suffix = wanted.resource.partition(";")
     path = path.rstrip("/")
     for pattern, make in _KINDS:
         match = re.fullmatch(pattern, path)
         if match is not None:
-            return make(desk, asked, wanted.resource, suffix, match)
-    raise Refused(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
+            return make(office, asked, wanted.resource, suffix, match)
+    raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {wanted.resource}")
 
 
-_Make = Callable[["Desk", Asked, str, str, re.Match[str]], Watched]
+_Make = Callable[["Office", Asked, str, str, re.Match[str]], Watched]
 
 
 def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> Watched:
@@ -64,51 +51,53 @@ def _on(wait: WaitSet, now: Callable[[], object], item: Callable[[], Item]) -> W
     return Watched(item, watch)
 
 
-def _panel(kind: str, name: str, read: Callable[["Desk"], str]) -> _Make:
-    def make(desk: "Desk", _a: Asked, text: str, suffix: str, _m: re.Match[str]) -> Watched:
+def _panel(kind: str, name: str, read: Callable[["Office"], str]) -> _Make:
+    def make(office: "Office", _a: Asked, text: str, suffix: str, _m: re.Match[str]) -> Watched:
         if suffix not in ("", name):
-            raise Refused(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+            raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
         href = text.partition(";")[0]
 
         def item() -> Item:
-            return Item(kind, name, {name: read(desk)}, {"self": href})
+            return Item(kind, name, {name: read(office)}, {"self": href})
 
-        return _on(desk.controller.operation.changed, lambda: read(desk), item)
+        return _on(office.controller.operation.changed, lambda: read(office), item)
 
     return make
 
 
-def _execution(desk: "Desk", _asked: Asked, text: str, suffix: str, _m: re.Match[str]) -> Watched:
+def _execution(
+    office: "Office", _asked: Asked, text: str, suffix: str, _m: re.Match[str]
+) -> Watched:
     kinds = {"ctrlexecstate": "rap-ctrlexecstate-ev", "rapidexeccycle": "rap-execcycle-ev"}
     if suffix not in kinds:
-        raise Refused(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def read() -> str:
-        c = desk.controller
+        c = office.controller
         return execution.execution(c) if suffix == "ctrlexecstate" else c.cycle
 
     def item() -> Item:
         return Item(kinds[suffix], suffix, {suffix: read()}, {"self": text})
 
-    return _on(desk.controller.operation.changed, read, item)
+    return _on(office.controller.operation.changed, read, item)
 
 
-def _task(desk: "Desk", asked: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
-    task = tasks.find_task(desk, m["task"], asked)
+def _task(office: "Office", asked: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
+    task = tasks.find_task(office, m["task"], asked)
     if suffix != "excstate":
-        raise Refused(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
 
     def item() -> Item:
         state = {"excstate": tasks.execution_state(task, asked)}
         return Item("rap-execstate-ev", task.name, state, {"self": text})
 
-    return _on(desk.controller.operation.changed, lambda: task.state, item)
+    return _on(office.controller.operation.changed, lambda: task.state, item)
 
 
-def _signal(desk: "Desk", _a: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _signal(office: "Office", _a: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
     if suffix != "state":
-        raise Refused(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
-    signal = signals.find(desk, m["signal"])
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+    signal = signals.find(office, m["signal"])
 
     def item() -> Item:
         told = {"lvalue": signals.value_of(signal), "lstate": "not simulated"}
@@ -124,15 +113,15 @@ def _signal(desk: "Desk", _a: Asked, text: str, suffix: str, m: re.Match[str]) -
     return Watched(item, watch, fast=True)
 
 
-def _symbol(desk: "Desk", asked: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
+def _symbol(office: "Office", asked: Asked, text: str, suffix: str, m: re.Match[str]) -> Watched:
     route = SYMBOL.route(asked.generation)
     assert route is not None
     if suffix != "value":
-        raise Refused(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
-    found = symbols.find(desk, m["symbol"], asked)
+        raise Denied(400, "E_INVALIDARG", f"cannot be subscribed: {text}")
+    found = symbols.find(office, m["symbol"], asked)
     cell = found.task.cell(found.name)
     if not isinstance(cell, PersistentCell) or cell.cell is None:
-        raise Refused(400, "E_INVALIDARG", f"no persistent: {text}")
+        raise Denied(400, "E_INVALIDARG", f"no persistent: {text}")
     # RWS 2.0 gives the address without what follows the semicolon [code: App SDK].
     href = text if asked.is_one else text.partition(";")[0]
 
@@ -150,7 +139,7 @@ def _symbol(desk: "Desk", asked: Asked, text: str, suffix: str, m: re.Match[str]
     return Watched(item, watch, fast=True)
 
 
-def _elog(desk: "Desk", _a: Asked, text: str, _suffix: str, m: re.Match[str]) -> Watched:
+def _elog(office: "Office", _a: Asked, text: str, _suffix: str, m: re.Match[str]) -> Watched:
     domain = int(m["domain"])
 
     def event_item(event: Event) -> Item:
@@ -162,7 +151,7 @@ def _elog(desk: "Desk", _a: Asked, text: str, _suffix: str, m: re.Match[str]) ->
             if domain in (0, int(event.domain)):
                 told(event_item(event))
 
-        return desk.controller.log.subscribe(take)
+        return office.controller.log.subscribe(take)
 
     return Watched(lambda: Item("elog-message-ev"), watch, has_state=False)
 

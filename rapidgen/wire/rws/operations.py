@@ -41,7 +41,7 @@ class Route:
 
 
 @dataclass(frozen=True, slots=True)
-class Operation:
+class RwsOperation:
     """One thing that can be asked; `eight` where RobotWare 8 differs from 7."""
 
     one: str
@@ -54,7 +54,7 @@ class Operation:
 
 
 @cache
-def _route(operation: Operation, generation: Generation) -> Route | None:
+def _route(operation: RwsOperation, generation: Generation) -> Route | None:
     text = operation.one if generation is Generation.ONE else operation.two
     if generation is Generation.EIGHT and operation.eight:
         text = operation.eight
@@ -65,100 +65,108 @@ def _route(operation: Operation, generation: Generation) -> Route | None:
     return Route(method, path, action)
 
 
-def _same(text: str) -> Operation:
-    return Operation(text, text)
+def _same(text: str) -> RwsOperation:
+    return RwsOperation(text, text)
 
 
 # -- session, users
 LOGOUT = _same("GET /logout")
-REGISTER_USER = Operation("POST /users", "POST /users/register")
-LOGIN_INFO = Operation("-", "GET /users/login-info")
-GRANTS = Operation("GET /users/grants", "GET /uas/user/grants")
-GRANT_EXISTS = Operation("-", "GET /users/grant-exists")
+REGISTER_USER = RwsOperation("POST /users", "POST /users/register")
+LOGIN_INFO = RwsOperation("-", "GET /users/login-info")
+GRANTS = RwsOperation("GET /users/grants", "GET /uas/user/grants")
+GRANT_EXISTS = RwsOperation("-", "GET /users/grant-exists")
 RMMP = _same("GET /users/rmmp")
 RMMP_POLL = _same("GET /users/rmmp/poll")
 ASK_RMMP = _same("POST /users/rmmp")
-CANCEL_RMMP = Operation("POST /users/rmmp?action=cancel", "POST /users/rmmp/cancel")
+CANCEL_RMMP = RwsOperation("POST /users/rmmp?action=cancel", "POST /users/rmmp/cancel")
 RETCODE = _same("GET /rw/retcode")
 
 # -- mastership, write access
-MASTERSHIPS = Operation("GET /rw/mastership", "GET /rw/mastership")
-MASTERSHIP = Operation("GET /rw/mastership/{domain}", "GET /rw/mastership/{domain}")
-REQUEST_ALL = Operation("POST /rw/mastership?action=request", "POST /rw/mastership/request")
-REQUEST_PLAIN = Operation("POST /rw/mastership", "-")
-RELEASE_ALL = Operation("POST /rw/mastership?action=release", "POST /rw/mastership/release")
-REQUEST = Operation(
+MASTERSHIPS = RwsOperation("GET /rw/mastership", "GET /rw/mastership")
+MASTERSHIP = RwsOperation("GET /rw/mastership/{domain}", "GET /rw/mastership/{domain}")
+REQUEST_ALL = RwsOperation("POST /rw/mastership?action=request", "POST /rw/mastership/request")
+REQUEST_PLAIN = RwsOperation("POST /rw/mastership", "-")
+RELEASE_ALL = RwsOperation("POST /rw/mastership?action=release", "POST /rw/mastership/release")
+REQUEST = RwsOperation(
     "POST /rw/mastership/{domain}?action=request", "POST /rw/mastership/{domain}/request"
 )
-RELEASE = Operation(
+RELEASE = RwsOperation(
     "POST /rw/mastership/{domain}?action=release", "POST /rw/mastership/{domain}/release"
 )
-STATION_REGISTER = Operation("-", "-", "POST /rw/controlstation/register/remote")
-WRITE_ACCESS = Operation("-", "-", "GET /rw/controlstation/writeaccess/status")
-WRITE_REQUEST = Operation("-", "-", "POST /rw/controlstation/writeaccess/request")
-WRITE_RELEASE = Operation("-", "-", "POST /rw/controlstation/writeaccess/release")
-MOTION_ALLOWED = Operation("-", "-", "GET /rw/controlstation/allowmotioncontrol")
-ALLOW_MOTION = Operation("-", "-", "POST /rw/controlstation/allowmotioncontrol")
+STATION_REGISTER = RwsOperation("-", "-", "POST /rw/controlstation/register/remote")
+WRITE_ACCESS = RwsOperation("-", "-", "GET /rw/controlstation/writeaccess/status")
+WRITE_REQUEST = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/request")
+WRITE_RELEASE = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/release")
+MOTION_ALLOWED = RwsOperation("-", "-", "GET /rw/controlstation/allowmotioncontrol")
+ALLOW_MOTION = RwsOperation("-", "-", "POST /rw/controlstation/allowmotioncontrol")
 
 # -- panel
-CTRL_STATE = Operation("GET /rw/panel/ctrlstate", "GET /rw/panel/ctrl-state")
-SET_CTRL_STATE = Operation(
+CTRL_STATE = RwsOperation("GET /rw/panel/ctrlstate", "GET /rw/panel/ctrl-state")
+SET_CTRL_STATE = RwsOperation(
     "POST /rw/panel/ctrlstate?action=setctrlstate", "POST /rw/panel/ctrl-state"
 )
 OPMODE = _same("GET /rw/panel/opmode")
-SET_OPMODE = Operation("POST /rw/panel/opmode?action=setopmode", "POST /rw/panel/opmode")
+SET_OPMODE = RwsOperation("POST /rw/panel/opmode?action=setopmode", "POST /rw/panel/opmode")
 SPEED = _same("GET /rw/panel/speedratio")
 SET_SPEED = _same("POST /rw/panel/speedratio?action=setspeedratio")
 COLLISION = _same("GET /rw/panel/coldetstate")
 
 # -- execution
 EXECUTION = _same("GET /rw/rapid/execution")
-START = Operation("POST /rw/rapid/execution?action=start", "POST /rw/rapid/execution/start")
-STOP = Operation("POST /rw/rapid/execution?action=stop", "POST /rw/rapid/execution/stop")
-RESET_PP = Operation("POST /rw/rapid/execution?action=resetpp", "POST /rw/rapid/execution/resetpp")
-SET_CYCLE = Operation("POST /rw/rapid/execution?action=setcycle", "POST /rw/rapid/execution/cycle")
+START = RwsOperation("POST /rw/rapid/execution?action=start", "POST /rw/rapid/execution/start")
+STOP = RwsOperation("POST /rw/rapid/execution?action=stop", "POST /rw/rapid/execution/stop")
+RESET_PP = RwsOperation(
+    "POST /rw/rapid/execution?action=resetpp", "POST /rw/rapid/execution/resetpp"
+)
+SET_CYCLE = RwsOperation(
+    "POST /rw/rapid/execution?action=setcycle", "POST /rw/rapid/execution/cycle"
+)
 
 # -- tasks, modules, program
 TASKS = _same("GET /rw/rapid/tasks")
 TASK = _same("GET /rw/rapid/tasks/{task}")
-ACTIVATE = Operation("POST /rw/rapid/tasks/{task}?action=activate", "POST /rw/rapid/tasks/activate")
-DEACTIVATE = Operation(
+ACTIVATE = RwsOperation(
+    "POST /rw/rapid/tasks/{task}?action=activate", "POST /rw/rapid/tasks/activate"
+)
+DEACTIVATE = RwsOperation(
     "POST /rw/rapid/tasks/{task}?action=deactivate", "POST /rw/rapid/tasks/deactivate"
 )
-MODULES = Operation("GET /rw/rapid/modules", "GET /rw/rapid/tasks/{task}/modules")
-MODULE = Operation("GET /rw/rapid/modules/{module}", "GET /rw/rapid/tasks/{task}/modules/{module}")
-MODULE_TEXT = Operation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text")
-LOAD_MODULE = Operation(
+MODULES = RwsOperation("GET /rw/rapid/modules", "GET /rw/rapid/tasks/{task}/modules")
+MODULE = RwsOperation(
+    "GET /rw/rapid/modules/{module}", "GET /rw/rapid/tasks/{task}/modules/{module}"
+)
+MODULE_TEXT = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text")
+LOAD_MODULE = RwsOperation(
     "POST /rw/rapid/tasks/{task}?action=loadmod", "POST /rw/rapid/tasks/{task}/loadmod"
 )
-UNLOAD_MODULE = Operation(
+UNLOAD_MODULE = RwsOperation(
     "POST /rw/rapid/tasks/{task}?action=unloadmod", "POST /rw/rapid/tasks/{task}/unloadmod"
 )
-SAVE_MODULE = Operation(
+SAVE_MODULE = RwsOperation(
     "POST /rw/rapid/modules/{module}?action=save",
     "POST /rw/rapid/tasks/{task}/modules/{module}/save",
 )
 PROGRAM = _same("GET /rw/rapid/tasks/{task}/program")
 BUILD_ERRORS = _same("GET /rw/rapid/tasks/{task}/program/builderror")
 POINTER = _same("GET /rw/rapid/tasks/{task}/pcp")
-POINTER_TO_ROUTINE = Operation(
+POINTER_TO_ROUTINE = RwsOperation(
     "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-routine",
     "POST /rw/rapid/tasks/{task}/pcp/routine",
 )
 
 # -- symbols
-SYMBOL = Operation(
+SYMBOL = RwsOperation(
     "GET /rw/rapid/symbol/data/RAPID/{symbol*}", "GET /rw/rapid/symbol/RAPID/{symbol*}/data"
 )
-SET_SYMBOL = Operation(
+SET_SYMBOL = RwsOperation(
     "POST /rw/rapid/symbol/data/RAPID/{symbol*}?action=set",
     "POST /rw/rapid/symbol/RAPID/{symbol*}/data",
 )
-SYMBOL_PROPERTIES = Operation(
+SYMBOL_PROPERTIES = RwsOperation(
     "GET /rw/rapid/symbol/properties/RAPID/{symbol*}",
     "GET /rw/rapid/symbol/RAPID/{symbol*}/properties",
 )
-SEARCH_SYMBOLS = Operation(
+SEARCH_SYMBOLS = RwsOperation(
     "POST /rw/rapid/symbols?action=search-symbols", "POST /rw/rapid/symbols/search"
 )
 
@@ -167,11 +175,11 @@ NETWORKS = _same("GET /rw/iosystem/networks")
 DEVICES = _same("GET /rw/iosystem/devices")
 SIGNALS = _same("GET /rw/iosystem/signals")
 SIGNAL = _same("GET /rw/iosystem/signals/{signal*}")
-SET_SIGNAL = Operation(
+SET_SIGNAL = RwsOperation(
     "POST /rw/iosystem/signals/{signal*}?action=set",
     "POST /rw/iosystem/signals/{signal*}/set-value",
 )
-SEARCH_SIGNALS = Operation(
+SEARCH_SIGNALS = RwsOperation(
     "POST /rw/iosystem/signals?action=signal-search", "POST /rw/iosystem/signals/signal-search"
 )
 
@@ -187,18 +195,18 @@ CFG = _same("GET /rw/cfg")
 CFG_DOMAIN = _same("GET /rw/cfg/{domain}")
 CFG_INSTANCES = _same("GET /rw/cfg/{domain}/{type}/instances")
 CFG_INSTANCE = _same("GET /rw/cfg/{domain}/{type}/instances/{instance}")
-CFG_SET = Operation(
+CFG_SET = RwsOperation(
     "POST /rw/cfg/{domain}/{type}/instances/{instance}?action=set",
     "POST /rw/cfg/{domain}/{type}/instances/{instance}",
 )
-CFG_CREATE = Operation(
+CFG_CREATE = RwsOperation(
     "POST /rw/cfg/{domain}/{type}/instances?action=create-default",
     "POST /rw/cfg/{domain}/{type}/instances/create-default",
 )
 CFG_DELETE = _same("DELETE /rw/cfg/{domain}/{type}/instances/{instance}")
-CFG_LOAD = Operation("POST /rw/cfg?action=load", "POST /rw/cfg/load")
-CFG_VALIDATE = Operation("POST /rw/cfg?action=validate", "POST /rw/cfg/validate")
-CFG_SAVE = Operation("POST /rw/cfg/{domain}?action=saveas", "POST /rw/cfg/{domain}/saveas")
+CFG_LOAD = RwsOperation("POST /rw/cfg?action=load", "POST /rw/cfg/load")
+CFG_VALIDATE = RwsOperation("POST /rw/cfg?action=validate", "POST /rw/cfg/validate")
+CFG_SAVE = RwsOperation("POST /rw/cfg/{domain}?action=saveas", "POST /rw/cfg/{domain}/saveas")
 
 # -- files
 VOLUMES = _same("GET /fileservice")
@@ -206,10 +214,10 @@ READ_FILE = _same("GET /fileservice/{path*}")
 WRITE_FILE = _same("PUT /fileservice/{path*}")
 DELETE_FILE = _same("DELETE /fileservice/{path*}")
 # RWS 1.0 tells create, copy and rename apart by the form's `fs-action`.
-FILE_ACTION = Operation("POST /fileservice/{path*}", "-")
-CREATE_FOLDER = Operation("-", "POST /fileservice/{path*}/create")
-COPY_FILE = Operation("-", "POST /fileservice/{path*}/copy")
-RENAME_FILE = Operation("-", "POST /fileservice/{path*}/rename")
+FILE_ACTION = RwsOperation("POST /fileservice/{path*}", "-")
+CREATE_FOLDER = RwsOperation("-", "POST /fileservice/{path*}/create")
+COPY_FILE = RwsOperation("-", "POST /fileservice/{path*}/copy")
+RENAME_FILE = RwsOperation("-", "POST /fileservice/{path*}/rename")
 
 # -- controller, system, log
 CONTROLLER = _same("GET /ctrl")
@@ -217,18 +225,18 @@ VARIABLE = _same("GET /ctrl/{variable}")
 IDENTITY = _same("GET /ctrl/identity")
 CLOCK = _same("GET /ctrl/clock")
 SYSTEM = _same("GET /rw/system")
-OPTIONS = Operation("-", "GET /rw/system/options")
+OPTIONS = RwsOperation("-", "GET /rw/system/options")
 PRODUCTS = _same("GET /rw/system/products")
 ROBOT_TYPE = _same("GET /rw/system/robottype")
-RESTART = Operation("POST /rw/panel?action=restart", "POST /ctrl/restart")
-RESTART_AT_CTRL = Operation("POST /ctrl", "-")
-BACKUP = Operation("POST /ctrl/backup?action=backup", "POST /ctrl/backup/create")
+RESTART = RwsOperation("POST /rw/panel?action=restart", "POST /ctrl/restart")
+RESTART_AT_CTRL = RwsOperation("POST /ctrl", "-")
+BACKUP = RwsOperation("POST /ctrl/backup?action=backup", "POST /ctrl/backup/create")
 BACKUP_STATE = _same("GET /ctrl/backup/state")
 PROGRESS = _same("GET /progress/{id}")
 ELOGS = _same("GET /rw/elog")
 ELOG = _same("GET /rw/elog/{domain}")
 ELOG_EVENT = _same("GET /rw/elog/{domain}/{number}")
-CLEAR_ELOG = Operation("POST /rw/elog/{domain}?action=clear", "POST /rw/elog/{domain}/clear")
+CLEAR_ELOG = RwsOperation("POST /rw/elog/{domain}?action=clear", "POST /rw/elog/{domain}/clear")
 
 # -- subscriptions
 SUBSCRIBE = _same("POST /subscription")

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Exchange, Flow, Forget, Pause, Response
 from rapidgen.client.rws.errors import Busy, LoginFailed, NotRws, RwsError
 from rapidgen.wire.rws import media
 from rapidgen.wire.rws.bodies import Body, Generation, Unreadable
 from rapidgen.wire.rws.forms import Fields, form_type, write_form
-from rapidgen.wire.rws.operations import Operation
+from rapidgen.wire.rws.operations import RwsOperation
 
 _TRIES = 6
 _BREATH = 0.25
@@ -16,8 +16,8 @@ _BREATH = 0.25
 
 
 def ask(
-    core: Core,
-    operation: Operation,
+    core: RwsCore,
+    operation: RwsOperation,
     names: Mapping[str, str] | None = None,
     form: Fields | None = None,
     *,
@@ -59,7 +59,7 @@ def ask(
 
 
 def _send(
-    core: Core, method: str, target: str, headers: Mapping[str, str], body: bytes
+    core: RwsCore, method: str, target: str, headers: Mapping[str, str], body: bytes
 ) -> Flow[Response]:
     """A request, again after 503, and once more after a session that has ended."""
     again = True
@@ -87,7 +87,7 @@ def _send(
     )
 
 
-def _read(core: Core, response: Response) -> Body:
+def _read(core: RwsCore, response: Response) -> Body:
     kind = response.headers.get("content-type", "")
     is_body = "json" in kind or "xhtml" in kind or (response.status >= 400 and response.body)
     if not response.body or not is_body:

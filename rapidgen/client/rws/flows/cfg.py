@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Literal
 from urllib.parse import parse_qs
 
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.files import volume
@@ -18,19 +18,19 @@ Mode = Literal["add", "replace"]
 _PAGES = 200
 
 
-def cfg_domains(core: Core) -> Flow[tuple[str, ...]]:
+def cfg_domains(core: RwsCore) -> Flow[tuple[str, ...]]:
     """Names of the domains."""
     body, _ = yield from ask(core, ops.CFG)
     return tuple(item.title for item in body.all("cfg-domain-li"))
 
 
-def cfg_types(core: Core, domain: str) -> Flow[tuple[str, ...]]:
+def cfg_types(core: RwsCore, domain: str) -> Flow[tuple[str, ...]]:
     """Types of a domain."""
     body, _ = yield from ask(core, ops.CFG_DOMAIN, {"domain": domain})
     return tuple(item.title for item in body.all("cfg-dt-li"))
 
 
-def cfg_instances(core: Core, domain: str, type: str) -> Flow[tuple[CfgInstance, ...]]:
+def cfg_instances(core: RwsCore, domain: str, type: str) -> Flow[tuple[CfgInstance, ...]]:
     """Instances of a type with their attributes: one request for seventy."""
     found: list[Item] = []
     query = ""
@@ -47,7 +47,7 @@ def cfg_instances(core: Core, domain: str, type: str) -> Flow[tuple[CfgInstance,
 
 
 def cfg_set(
-    core: Core, domain: str, type: str, instance: str, attributes: Mapping[str, str]
+    core: RwsCore, domain: str, type: str, instance: str, attributes: Mapping[str, str]
 ) -> Flow[None]:
     """Give attributes of an instance new values, which count after a restart."""
     one = core.generation is Generation.ONE
@@ -56,19 +56,19 @@ def cfg_set(
     yield from held(core, "cfg", ask(core, ops.CFG_SET, names, form))
 
 
-def cfg_create(core: Core, domain: str, type: str, instance: str) -> Flow[None]:
+def cfg_create(core: RwsCore, domain: str, type: str, instance: str) -> Flow[None]:
     """A new instance with a name and nothing else."""
     names = {"domain": domain, "type": type}
     yield from held(core, "cfg", ask(core, ops.CFG_CREATE, names, {"name": instance}))
 
 
-def cfg_delete(core: Core, domain: str, type: str, instance: str) -> Flow[None]:
+def cfg_delete(core: RwsCore, domain: str, type: str, instance: str) -> Flow[None]:
     """Take an instance out."""
     names = {"domain": domain, "type": type, "instance": instance}
     yield from held(core, "cfg", ask(core, ops.CFG_DELETE, names))
 
 
-def cfg_load(core: Core, path: str, *, mode: Mode = "add") -> Flow[None]:
+def cfg_load(core: RwsCore, path: str, *, mode: Mode = "add") -> Flow[None]:
     """Load a cfg file that lies on a volume (`HOME/a.cfg`); what it brings counts after a restart.
 
     `add`: any instance that exists refuses the file whole. `replace`: such ones are overwritten.
@@ -80,7 +80,7 @@ def cfg_load(core: Core, path: str, *, mode: Mode = "add") -> Flow[None]:
     yield from held(core, "cfg", finish(core, ops.CFG_LOAD, {}, form))
 
 
-def cfg_save(core: Core, domain: str, path: str) -> Flow[None]:
+def cfg_save(core: RwsCore, domain: str, path: str) -> Flow[None]:
     """Write a domain to a file on a volume."""
     form = {"filepath": f"/fileservice/{volume(core, path)}"}
     yield from ask(core, ops.CFG_SAVE, {"domain": domain}, form)

@@ -5,7 +5,7 @@ import socket
 
 from rapidgen.client.errors import ConnectionFailed, RobotError
 from rapidgen.client.rws import pins
-from rapidgen.client.rws.core import APPLICATION, Core
+from rapidgen.client.rws.core import APPLICATION, RwsCore
 from rapidgen.client.rws.effects import (
     Exchange,
     Flow,
@@ -24,7 +24,7 @@ from rapidgen.wire.rws.bodies import Generation
 _FIRST = "/rw/system"
 
 
-def connect(core: Core) -> Flow[None]:
+def connect(core: RwsCore) -> Flow[None]:
     """Find out who is there and log in. A second call does nothing.
 
     Raises ConnectionFailed (RG601), LoginFailed (RG651, RG652), NotRws (RG653), Busy (RG656).
@@ -51,7 +51,7 @@ def connect(core: Core) -> Flow[None]:
     told = body.first("sys-system") or body.first("sys-system-li")
     if told is None:
         raise _no_rws(core)
-    core.robotware = told.text("rwversion")
+    core.robotware, core.system = told.text("rwversion"), told.text("name")
     if core.generation is Generation.TWO and int(_major(core.robotware)) >= 8:
         core.generation = Generation.EIGHT
     core.connected = True
@@ -73,7 +73,7 @@ def _major(version: str) -> str:
     return major if major.isdecimal() else "0"
 
 
-def _reach(core: Core) -> Flow[str]:
+def _reach(core: RwsCore) -> Flow[str]:
     """Settle on TLS or, where nobody speaks it, on plain HTTP; how it asks for a login."""
     address = core.address
     core.port = address.port or 443
@@ -109,7 +109,7 @@ def _reach(core: Core) -> Flow[str]:
     return answer.headers.get("www-authenticate", "").lower()
 
 
-def _trust(core: Core, certificate: bytes) -> Flow[None]:
+def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
     """Whether this certificate is the right one, before a password is sent."""
     fingerprint = hashlib.sha256(certificate).hexdigest()
     wanted = pins.plain(core.fingerprint) or pins.known(core.pins, core.where)
@@ -136,7 +136,7 @@ def _trust(core: Core, certificate: bytes) -> Flow[None]:
     yield from ()
 
 
-def _no_rws(core: Core) -> NotRws:
+def _no_rws(core: RwsCore) -> NotRws:
     return NotRws.because(
         "RG653",
         f"{core.where} answers, and does not speak Robot Web Services",
@@ -144,7 +144,7 @@ def _no_rws(core: Core) -> NotRws:
     )
 
 
-def close(core: Core) -> Flow[None]:
+def close(core: RwsCore) -> Flow[None]:
     """Give back what is held, log out, and close; harmless when nothing is open."""
     if core.connected:
         try:

@@ -1,6 +1,6 @@
 """Mastership of RobotWare 6 and 7, write access of 8: taken, given back, held by others."""
 
-from rapidgen.client.rws.core import APPLICATION, Core
+from rapidgen.client.rws.core import APPLICATION, RwsCore
 from rapidgen.client.rws.effects import Flow, Pause, T
 from rapidgen.client.rws.errors import Held, RwsError
 from rapidgen.client.rws.flows.asking import ask
@@ -13,7 +13,7 @@ _LOOK = 1.0
 _TAKEN = ("E_RESOURCE_HELD", "E_WRITE_ACCESS_TAKEN")
 
 
-def domain_of(core: Core, domain: str) -> str:
+def domain_of(core: RwsCore, domain: str) -> str:
     """What this controller calls a domain: cfg, motion and rapid are one `edit` on RobotWare 7,
     and all is one write access on 8."""
     if core.generation is Generation.EIGHT:
@@ -23,7 +23,7 @@ def domain_of(core: Core, domain: str) -> str:
     return domain if domain != "edit" else "rapid"
 
 
-def held(core: Core, domain: str, steps: Flow[T]) -> Flow[T]:
+def held(core: RwsCore, domain: str, steps: Flow[T]) -> Flow[T]:
     """Carry out steps with mastership of a domain, which is given back where it was not held."""
     if domain_of(core, domain) in core.held:
         return (yield from steps)
@@ -34,7 +34,7 @@ def held(core: Core, domain: str, steps: Flow[T]) -> Flow[T]:
         yield from give(core, domain)
 
 
-def take(core: Core, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
+def take(core: RwsCore, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
     """Take mastership of `rapid`, `cfg` or `motion`; wait s for it while somebody else has it.
 
     It is never taken by force. Raises Held (RG654) with who has it.
@@ -58,7 +58,7 @@ def take(core: Core, domain: str = "rapid", *, wait: float = 0.0) -> Flow[None]:
         left -= _LOOK
 
 
-def _request(core: Core, name: str) -> Flow[None]:
+def _request(core: RwsCore, name: str) -> Flow[None]:
     if core.generation is not Generation.EIGHT:
         yield from ask(core, ops.REQUEST, {"domain": name})
         return
@@ -72,7 +72,7 @@ def _request(core: Core, name: str) -> Flow[None]:
     yield from ask(core, ops.WRITE_REQUEST)
 
 
-def give(core: Core, domain: str = "rapid") -> Flow[None]:
+def give(core: RwsCore, domain: str = "rapid") -> Flow[None]:
     """Give mastership back; harmless when it is not held."""
     name = domain_of(core, domain)
     if name not in core.held:
@@ -85,7 +85,7 @@ def give(core: Core, domain: str = "rapid") -> Flow[None]:
         yield from ask(core, ops.RELEASE, {"domain": name})
 
 
-def holder(core: Core, domain: str = "rapid") -> Flow[Holder | None]:
+def holder(core: RwsCore, domain: str = "rapid") -> Flow[Holder | None]:
     """Who has mastership of a domain; None: nobody."""
     name = domain_of(core, domain)
     if core.generation is Generation.EIGHT:
@@ -108,7 +108,7 @@ def holder(core: Core, domain: str = "rapid") -> Flow[Holder | None]:
     )
 
 
-def _held_by(core: Core, name: str) -> Flow[Held]:
+def _held_by(core: RwsCore, name: str) -> Flow[Held]:
     who = yield from holder(core, name)
     own = who is not None and who.application == APPLICATION
     mend = "wait for them (`wait=`), or let them end their session"

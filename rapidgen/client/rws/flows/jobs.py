@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Forget, Pause
 from rapidgen.client.rws.errors import Busy, LoginFailed, RwsError
 from rapidgen.client.rws.flows.asking import ask
@@ -14,7 +14,7 @@ from rapidgen.client.rws.flows.rapid import tasks
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Fault
 from rapidgen.wire.rws.forms import Fields
-from rapidgen.wire.rws.operations import Operation
+from rapidgen.wire.rws.operations import RwsOperation
 
 _LOOK = 1.0
 """s between two looks at a job, or at a controller that restarts."""
@@ -22,7 +22,9 @@ _LONGEST = 600.0
 """s that a backup or a load may take."""
 
 
-def finish(core: Core, operation: Operation, names: Mapping[str, str], form: Fields) -> Flow[None]:
+def finish(
+    core: RwsCore, operation: RwsOperation, names: Mapping[str, str], form: Fields
+) -> Flow[None]:
     """Ask for a job and wait for its end. Raises RwsError (RG650), RobotTimeout (RG602)."""
     _, response = yield from ask(core, operation, names, form)
     number = response.headers.get("location", "").rpartition("/progress/")[2]
@@ -42,7 +44,7 @@ def finish(core: Core, operation: Operation, names: Mapping[str, str], form: Fie
     raise RobotTimeout.because("RG602", f"{operation.two} did not end within {_LONGEST:g} s")
 
 
-def backup(core: Core, name: str, *, volume_name: str = "BACKUP") -> Flow[str]:
+def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str]:
     """Make a backup into a new folder on the controller; its path there."""
     path = f"{volume_name}/{name}"
     form = {"backup": f"/fileservice/{volume(core, path)}"}
@@ -50,7 +52,7 @@ def backup(core: Core, name: str, *, volume_name: str = "BACKUP") -> Flow[str]:
     return path
 
 
-def restart(core: Core, *, wait: float = 180.0) -> Flow[None]:
+def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     """Restart the controller (a warm start, no other kind), and wait s until it serves again.
 
     RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602).
@@ -70,7 +72,7 @@ def restart(core: Core, *, wait: float = 180.0) -> Flow[None]:
     yield from wait_ready(core, wait=wait)
 
 
-def _gone(core: Core, wait: float) -> Flow[None]:
+def _gone(core: RwsCore, wait: float) -> Flow[None]:
     """Wait until the mastership of this session is gone: with it the old run of the controller."""
     left = wait
     while left > 0:
@@ -84,7 +86,7 @@ def _gone(core: Core, wait: float) -> Flow[None]:
         left -= _LOOK
 
 
-def wait_ready(core: Core, *, wait: float = 180.0) -> Flow[None]:
+def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     """Wait s until the controller answers, lets in and has tasks. Raises RobotTimeout (RG602)."""
     left = wait
     last: Exception | None = None

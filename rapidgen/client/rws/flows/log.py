@@ -1,6 +1,6 @@
 """The event log, with arguments."""
 
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.model import LogEvent
@@ -11,7 +11,7 @@ _TYPES = {"1": "info", "2": "warning", "3": "error"}
 
 
 def log(
-    core: Core, *, domain: int = 0, after: int = 0, count: int = 50
+    core: RwsCore, *, domain: int = 0, after: int = 0, count: int = 50
 ) -> Flow[tuple[LogEvent, ...]]:
     """The last `count` entries of a domain (0: all) that are newer than number `after`, oldest
     first; at most fifty on RobotWare 7: one request."""

@@ -1,44 +1,43 @@
 """Identity, panel and execution: what is read, switched, started and stopped."""
 
 from rapidgen.client.errors import NotReady
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow, Pause
-from rapidgen.client.rws.errors import NotDone
+from rapidgen.client.rws.errors import NotObeyed
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.holding import held
-from rapidgen.client.rws.model import Execution, Identity, Panel
+from rapidgen.client.rws.model import Identity, Panel, ProgramState
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
-from rapidgen.wire.rws.operations import Operation
+from rapidgen.wire.rws.operations import RwsOperation
 
 _LOOKS = 20
 _LOOK = 0.1
 """s between two looks whether what was asked for has come true."""
 
 
-def one(core: Core, operation: Operation, *kinds: str, **names: str) -> Flow[Item]:
-    """The one thing that an operation gives. Raises NotDone (RG655) when it is not there."""
+def one(core: RwsCore, operation: RwsOperation, *kinds: str, **names: str) -> Flow[Item]:
+    """The one thing that an operation gives. Raises NotObeyed (RG655) when it is not there."""
     body, _ = yield from ask(core, operation, names)
     found = body.all(*kinds)
     if not found:
-        raise NotDone.because("RG655", f"{core.where} gives no {kinds[0]}")
+        raise NotObeyed.because("RG655", f"{core.where} gives no {kinds[0]}")
     return found[0]
 
 
-def identity(core: Core) -> Flow[Identity]:
-    """Who the controller is: two requests."""
+def identity(core: RwsCore) -> Flow[Identity]:
+    """Who the controller is: one request."""
     told = yield from one(core, ops.IDENTITY, "ctrl-identity-info")
-    system = yield from one(core, ops.SYSTEM, "sys-system", "sys-system-li")
     return Identity(
         told.text("ctrl-name"),
         told.text("ctrl-id"),
         told.text("ctrl-type"),
-        system.text("name"),
-        system.text("rwversion"),
+        core.system,
+        core.robotware,
     )
 
 
-def panel(core: Core) -> Flow[Panel]:
+def panel(core: RwsCore) -> Flow[Panel]:
     """Motors, mode and speed: three requests."""
     state = yield from _state(core)
     mode = yield from one(core, ops.OPMODE, "pnl-opmode")
@@ -46,21 +45,21 @@ def panel(core: Core) -> Flow[Panel]:
     return Panel(state, mode.text("opmode"), int(speed.text("speedratio", "0")))
 
 
-def _state(core: Core) -> Flow[str]:
+def _state(core: RwsCore) -> Flow[str]:
     item = yield from one(core, ops.CTRL_STATE, "pnl-ctrlstate")
     return item.text("ctrlstate")
 
 
-def execution(core: Core) -> Flow[Execution]:
+def execution(core: RwsCore) -> Flow[ProgramState]:
     """Whether the program runs."""
     told = yield from one(core, ops.EXECUTION, "rap-execution")
-    return Execution(told.text("ctrlexecstate") == "running", told.text("cycle"))
+    return ProgramState(told.text("ctrlexecstate") == "running", told.text("cycle"))
 
 
-def motors(core: Core, on: bool) -> Flow[None]:
+def motors(core: RwsCore, on: bool) -> Flow[None]:
     """Motors on or off; returns when they are.
 
-    Raises RwsError (RG650), NotDone (RG655): the controller agreed, and they are not.
+    Raises RwsError (RG650), NotObeyed (RG655): the controller agreed, and they are not.
     """
     wanted = "motoron" if on else "motoroff"
     yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": wanted})
@@ -70,14 +69,14 @@ def motors(core: Core, on: bool) -> Flow[None]:
         if state == wanted:
             return
         yield Pause(_LOOK)
-    raise NotDone.because(
+    raise NotObeyed.because(
         "RG655",
         f"{core.where} agreed to {wanted}, and is in state {state}",
         "look at the emergency stop and the guard stop; `log()` tells more",
     )
 
 
-def set_speed(core: Core, percent: int) -> Flow[None]:
+def set_speed(core: RwsCore, percent: int) -> Flow[None]:
     """Speed of all robots in percent, 0 to 100, in automatic mode; read back."""
     if not 0 <= percent <= 100:
         raise ValueError(f"a speed is 0 to 100 percent, not {percent}")
@@ -88,21 +87,21 @@ def set_speed(core: Core, percent: int) -> Flow[None]:
         yield from held(core, "edit", ask(core, ops.SET_SPEED, form=form))
     told = yield from one(core, ops.SPEED, "pnl-speedratio")
     if told.text("speedratio") != str(percent):
-        raise NotDone.because(
+        raise NotObeyed.because(
             "RG655", f"{core.where} agreed to {percent} %, and is at {told.text('speedratio')} %"
         )
 
 
-def pp_to_main(core: Core) -> Flow[None]:
+def pp_to_main(core: RwsCore) -> Flow[None]:
     """Program pointers of all tasks to main; the program must stand."""
     yield from held(core, "rapid", ask(core, ops.RESET_PP))
 
 
-def start(core: Core, *, cycle: str = "asis") -> Flow[None]:
+def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
     """Start the program of all selected tasks; returns when it runs. `cycle`: once, forever, asis.
 
     THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady (RG610): this session holds
-    mastership, which keeps a program from running. NotDone (RG655): it was agreed to, and does
+    mastership, which keeps a program from running. NotObeyed (RG655): it was agreed to, and does
     not run.
     """
     if core.held - {"write"}:
@@ -128,19 +127,19 @@ def start(core: Core, *, cycle: str = "asis") -> Flow[None]:
         if now.running:
             return
         yield Pause(_LOOK)
-    raise NotDone.because(
+    raise NotObeyed.because(
         "RG655",
         f"{core.where} agreed to start, and the program does not run",
         "are the motors on, is the program pointer set? `log()` tells more",
     )
 
 
-def _start_8(core: Core, form: dict[str, str]) -> Flow[None]:
+def _start_8(core: RwsCore, form: dict[str, str]) -> Flow[None]:
     yield from ask(core, ops.ALLOW_MOTION, form={"allow-motion-control": "true"})
     yield from ask(core, ops.START, form=form)
 
 
-def stop(core: Core, *, everything: bool = False) -> Flow[None]:
+def stop(core: RwsCore, *, everything: bool = False) -> Flow[None]:
     """Stop the program; returns when it stands. `everything`: background tasks, too.
 
     Not a safety function.
@@ -152,6 +151,6 @@ def stop(core: Core, *, everything: bool = False) -> Flow[None]:
         if not now.running:
             return
         yield Pause(_LOOK)
-    raise NotDone.because(
+    raise NotObeyed.because(
         "RG655", f"{core.where} agreed to stop, and the program runs", "use the emergency stop"
     )

@@ -1,12 +1,12 @@
 """Tasks, modules, symbols, program pointers."""
 
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.errors import NotDone
+from rapidgen.client.rws.errors import NotObeyed
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.holding import held
 from rapidgen.client.rws.flows.panel import one
-from rapidgen.client.rws.model import BuildError, Module, Pointer, SymbolInfo, TaskState
+from rapidgen.client.rws.model import BuildError, ProgramPointer, SymbolInfo, TaskModule, TaskState
 from rapidgen.client.rws.values import RapidValue, read, same, write
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Generation, Item
@@ -15,7 +15,7 @@ _KINDS = {"norm": "normal", "semi": "semistatic", "stat": "static"}
 _STATES = {"read": "ready", "star": "started", "stop": "stopped", "unin": "uninitialized"}
 
 
-def tasks(core: Core) -> Flow[tuple[TaskState, ...]]:
+def tasks(core: RwsCore) -> Flow[tuple[TaskState, ...]]:
     """All tasks: one request."""
     body, _ = yield from ask(core, ops.TASKS)
     return tuple(_task(item) for item in body.all("rap-task-li"))
@@ -34,15 +34,17 @@ def _task(item: Item) -> TaskState:
     )
 
 
-def modules(core: Core, task: str) -> Flow[tuple[Module, ...]]:
+def modules(core: RwsCore, task: str) -> Flow[tuple[TaskModule, ...]]:
     """Modules of a task."""
     names, query = _of_task(core, task)
     body, _ = yield from ask(core, ops.MODULES, names, query=query)
     found = body.all("rap-module-info-li")
-    return tuple(Module(i.text("name"), i.text("type").lower().startswith("sys")) for i in found)
+    return tuple(
+        TaskModule(i.text("name"), i.text("type").lower().startswith("sys")) for i in found
+    )
 
 
-def module_text(core: Core, task: str, module: str) -> Flow[str]:
+def module_text(core: RwsCore, task: str, module: str) -> Flow[str]:
     """Source of a module, with initial values as they were written."""
     names, query = _of_task(core, task)
     names["module"] = module
@@ -53,17 +55,17 @@ def module_text(core: Core, task: str, module: str) -> Flow[str]:
     for item in body.items:
         if "module-text" in item.fields:
             return item.text("module-text")
-    raise NotDone.because("RG655", f"{core.where} gives no text of {module} in {task}")
+    raise NotObeyed.because("RG655", f"{core.where} gives no text of {module} in {task}")
 
 
-def _of_task(core: Core, task: str) -> tuple[dict[str, str], str]:
+def _of_task(core: RwsCore, task: str) -> tuple[dict[str, str], str]:
     """Where the task's name goes: into the query of RWS 1.0, into the path of 2.0."""
     if core.generation is Generation.ONE:
         return {}, f"task={task}"
     return {"task": task}, ""
 
 
-def load_module(core: Core, task: str, path: str, *, replace: bool = False) -> Flow[None]:
+def load_module(core: RwsCore, task: str, path: str, *, replace: bool = False) -> Flow[None]:
     """Load a module file (`HOME/folder/a.mod`) into a task. RAPID must stand in all tasks.
 
     `replace`: in place of a module of the same name. What is wrong in it is told by
@@ -73,12 +75,14 @@ def load_module(core: Core, task: str, path: str, *, replace: bool = False) -> F
     yield from held(core, "rapid", ask(core, ops.LOAD_MODULE, {"task": task}, form))
 
 
-def unload_module(core: Core, task: str, module: str) -> Flow[None]:
+def unload_module(core: RwsCore, task: str, module: str) -> Flow[None]:
     """Take a module out of a task. RAPID must stand in all tasks."""
     yield from held(core, "rapid", ask(core, ops.UNLOAD_MODULE, {"task": task}, {"module": module}))
 
 
-def save_module(core: Core, task: str, module: str, name: str, volume: str = "TEMP") -> Flow[str]:
+def save_module(
+    core: RwsCore, task: str, module: str, name: str, volume: str = "TEMP"
+) -> Flow[str]:
     """Write a module with the present values of its persistents to a volume; its path there."""
     names, query = _of_task(core, task)
     names["module"] = module
@@ -88,13 +92,13 @@ def save_module(core: Core, task: str, module: str, name: str, volume: str = "TE
     return f"{volume}/{name}{'.mod' if is_one else '.modx'}"
 
 
-def _volume(core: Core, path: str) -> str:
+def _volume(core: RwsCore, path: str) -> str:
     """A path below a volume as the controller spells it: `$HOME/a` or `HOME/a`."""
     bare = path.removeprefix("$")
     return f"${bare}" if core.generation is Generation.ONE else bare
 
 
-def build_errors(core: Core, task: str) -> Flow[tuple[BuildError, ...]]:
+def build_errors(core: RwsCore, task: str) -> Flow[tuple[BuildError, ...]]:
     """What is wrong with the program of a task."""
     body, _ = yield from ask(core, ops.BUILD_ERRORS, {"task": task}, accepted=(404,))
     return tuple(
@@ -108,40 +112,42 @@ def _int(item: Item, name: str) -> int:
     return int(text) if text.isdecimal() else 0
 
 
-def pointer(core: Core, task: str) -> Flow[Pointer]:
+def pointer(core: RwsCore, task: str) -> Flow[ProgramPointer]:
     """Where the program pointer of a task stands."""
     item = yield from one(core, ops.POINTER, "pcp-info", task=task)
     row, _, column = item.text("beginposition").partition(",")
     module = item.text("modulemame") or item.text("modulename")
     at = (int(x) if x.isdecimal() else 0 for x in (row, column))
-    return Pointer(module, item.text("routinename"), *at)
+    return ProgramPointer(module, item.text("routinename"), *at)
 
 
 # -- symbols -------------------------------------------------------------------------------------
 
 
-def symbol_text(core: Core, path: str) -> Flow[str]:
+def symbol_text(core: RwsCore, path: str) -> Flow[str]:
     """A datum `TASK/MODULE/NAME` (or `TASK/NAME`) as a RAPID literal: one request."""
     body, _ = yield from ask(core, ops.SYMBOL, {"symbol": path})
     item = body.first("rap-data")
     if item is None or "value" not in item.fields:
         why = "it is too large to be given whole" if item and item.links else "there is no value"
         mend = "read it by element: NAME{1}"
-        raise NotDone.because("RG655", f"{path} at {core.where}: {why}", mend)
+        raise NotObeyed.because("RG655", f"{path} at {core.where}: {why}", mend)
     return item.text("value")
 
 
-def symbol(core: Core, path: str) -> Flow[RapidValue]:
+def symbol(core: RwsCore, path: str) -> Flow[RapidValue]:
     """A datum as a Python value: bool, str, number; records and arrays are tuples."""
     text = yield from symbol_text(core, path)
     try:
         return read(text)
     except ValueError as error:
-        raise NotDone.because("RG655", f"{path} at {core.where} is no literal: {text!r}") from error
+        raise NotObeyed.because(
+            "RG655", f"{path} at {core.where} is no literal: {text!r}"
+        ) from error
 
 
-def set_symbol(core: Core, path: str, value: RapidValue) -> Flow[None]:
-    """Give a datum a value, and read it back. Raises NotDone (RG655): it did not take it."""
+def set_symbol(core: RwsCore, path: str, value: RapidValue) -> Flow[None]:
+    """Give a datum a value, and read it back. Raises NotObeyed (RG655): it did not take it."""
     steps = ask(core, ops.SET_SYMBOL, {"symbol": path}, {"value": write(value)})
     if core.generation is Generation.ONE:
         yield from steps  # RobotWare 6 takes mastership by itself
@@ -149,13 +155,13 @@ def set_symbol(core: Core, path: str, value: RapidValue) -> Flow[None]:
         yield from held(core, "rapid", steps)
     now = yield from symbol(core, path)
     if not same(value, now):
-        raise NotDone.because(
+        raise NotObeyed.because(
             "RG655", f"{core.where} agreed to set {path} to {write(value)}, and it is {write(now)}"
         )
 
 
 def symbols(
-    core: Core, task: str, *, module: str = "", kind: str = "any", pattern: str = ""
+    core: RwsCore, task: str, *, module: str = "", kind: str = "any", pattern: str = ""
 ) -> Flow[tuple[SymbolInfo, ...]]:
     """Data of a task: `kind` per, var, con or any; `pattern` a regular expression of the name."""
     form = {

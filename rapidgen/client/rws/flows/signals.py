@@ -2,9 +2,9 @@
 
 from urllib.parse import parse_qs
 
-from rapidgen.client.rws.core import Core
+from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import Flow
-from rapidgen.client.rws.errors import NotDone
+from rapidgen.client.rws.errors import NotObeyed
 from rapidgen.client.rws.flows.asking import ask
 from rapidgen.client.rws.flows.panel import one
 from rapidgen.client.rws.model import SignalState
@@ -14,7 +14,7 @@ from rapidgen.wire.rws.bodies import Item
 _PAGES = 200
 
 
-def signals(core: Core) -> Flow[tuple[SignalState, ...]]:
+def signals(core: RwsCore) -> Flow[tuple[SignalState, ...]]:
     """All signals: one request in RWS 1.0, one for a hundred in 2.0."""
     found: list[Item] = []
     query = ""
@@ -28,7 +28,7 @@ def signals(core: Core) -> Flow[tuple[SignalState, ...]]:
     return tuple(_signal(item) for item in found)
 
 
-def signal(core: Core, name: str) -> Flow[SignalState]:
+def signal(core: RwsCore, name: str) -> Flow[SignalState]:
     """One signal, by its name or as NETWORK/DEVICE/NAME: one request."""
     item = yield from one(core, ops.SIGNAL, "ios-signal", "ios-signal-li", signal=name)
     return _signal(item)
@@ -39,18 +39,18 @@ def _signal(item: Item) -> SignalState:
     try:
         value = float(text)
     except ValueError as error:
-        raise NotDone.because("RG655", f"a signal has the value {text!r}") from error
+        raise NotObeyed.because("RG655", f"a signal has the value {text!r}") from error
     name = item.text("name") or item.title.rpartition("/")[2]
     simulated = item.text("lstate") == "simulated"
     return SignalState(name, item.title or name, item.text("type"), value, simulated)
 
 
-def set_signal(core: Core, name: str, value: float) -> Flow[SignalState]:
-    """Set a signal, and look: two requests. Raises NotDone (RG655): it is something else."""
+def set_signal(core: RwsCore, name: str, value: float) -> Flow[SignalState]:
+    """Set a signal, and look: two requests. Raises NotObeyed (RG655): it is something else."""
     yield from ask(core, ops.SET_SIGNAL, {"signal": name}, {"lvalue": f"{float(value):g}"})
     now = yield from signal(core, name)
     if abs(now.value - value) > 1e-4 * max(1.0, abs(value)):
-        raise NotDone.because(
+        raise NotObeyed.because(
             "RG655",
             f"{core.where} agreed to set {name} to {value:g}, and it is {now.value:g}",
             "is it blocked or simulated, or does a program set it, too?",

@@ -5,42 +5,42 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Answer, Asked, Refused, show
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
 from rapidgen.faces.rws.disks import VOLUMES, disk_path
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.faces.rws.desk import Desk
+    from rapidgen.faces.rws.office import Office
 
 
 @serves(ops.VOLUMES)
-def volumes(desk: "Desk", asked: Asked) -> Answer:
+def volumes(office: "Office", asked: Asked) -> Served:
     """Volumes: variables with a `$` in RWS 1.0 [VC 6.16]."""
     kind, sign = asked.kind("fs-device", "fs-dir"), asked.kind("$", "")
     return show(*(Item(kind, f"{sign}{name}") for name in VOLUMES), collection=True)
 
 
-def _path(desk: "Desk", asked: Asked) -> Path:
-    return disk_path(desk, asked.names["path"], asked)
+def _path(office: "Office", asked: Asked) -> Path:
+    return disk_path(office, asked.names["path"], asked)
 
 
-def _missing(asked: Asked, what: str) -> Refused:
+def _missing(asked: Asked, what: str) -> Denied:
     if asked.is_one:
-        return Refused(404, "E_FAIL", f"no file {what}")
-    return Refused(404, "E_DIR_NOT_EXIST", f"no file {what}")
+        return Denied(404, "E_FAIL", f"no file {what}")
+    return Denied(404, "E_DIR_NOT_EXIST", f"no file {what}")
 
 
 @serves(ops.READ_FILE)
-def read(desk: "Desk", asked: Asked) -> Answer:
+def read(office: "Office", asked: Asked) -> Served:
     """A file as it is, or what lies in a folder."""
-    path = _path(desk, asked)
+    path = _path(office, asked)
     if path.is_dir():
         entries = sorted(path.iterdir(), key=lambda p: p.name.lower())
         return show(*(_entry(p) for p in entries if not p.is_symlink()), collection=True)
     try:
-        return Answer(200, data=path.read_bytes())
+        return Served(200, data=path.read_bytes())
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
 
@@ -57,22 +57,22 @@ def _entry(path: Path) -> Item:
 
 
 @serves(ops.WRITE_FILE)
-def write(desk: "Desk", asked: Asked) -> Answer:
+def write(office: "Office", asked: Asked) -> Served:
     """Write a file: 201 for a new one, 200 for another [VC 6.16, VC 7.21]."""
-    path = _path(desk, asked)
+    path = _path(office, asked)
     if path.is_dir():
-        raise Refused(400, "E_DIR_EXIST", asked.names["path"])
+        raise Denied(400, "E_DIR_EXIST", asked.names["path"])
     if not path.parent.is_dir():
         raise _missing(asked, asked.names["path"])
-    return Answer(201 if desk.write_file(path, asked.body) else 200)
+    return Served(201 if office.write_file(path, asked.body) else 200)
 
 
 @serves(ops.DELETE_FILE)
-def delete(desk: "Desk", asked: Asked) -> None:
+def delete(office: "Office", asked: Asked) -> None:
     """Delete a file, or a folder with all that is in it."""
-    path = _path(desk, asked)
+    path = _path(office, asked)
     if _is_volume(asked.names["path"]):
-        raise Refused(403, "E_REJECT", "a volume cannot be deleted", -2)
+        raise Denied(403, "E_REJECT", "a volume cannot be deleted", -2)
     try:
         if path.is_dir():
             shutil.rmtree(path)
@@ -87,62 +87,62 @@ def _is_volume(path: str) -> bool:
 
 
 @serves(ops.FILE_ACTION)
-def act(desk: "Desk", asked: Asked) -> Answer | None:
+def act(office: "Office", asked: Asked) -> Served | None:
     """RWS 1.0: `fs-action` says what; it must stand in the body."""
     action = asked.field("fs-action", ("create", "copy", "rename"))
-    return {"create": create, "copy": copy, "rename": rename}[action](desk, asked)
+    return {"create": create, "copy": copy, "rename": rename}[action](office, asked)
 
 
 @serves(ops.CREATE_FOLDER)
-def create(desk: "Desk", asked: Asked) -> Answer:
+def create(office: "Office", asked: Asked) -> Served:
     """A new folder."""
-    path = _new(desk, asked, _path(desk, asked), asked.names["path"])
+    path = _new(office, asked, _path(office, asked), asked.names["path"])
     try:
         path.mkdir()
     except FileExistsError as error:
-        raise Refused(400, "E_DIR_EXIST", path.name) from error
+        raise Denied(400, "E_DIR_EXIST", path.name) from error
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
-    return Answer(201)
+    return Served(201)
 
 
 @serves(ops.COPY_FILE)
-def copy(desk: "Desk", asked: Asked) -> None:
+def copy(office: "Office", asked: Asked) -> None:
     """Copy a file; a bare name stays in the folder [VC 7.21]."""
-    path, target = _two(desk, asked)
+    path, target = _two(office, asked)
     if target.exists() and asked.form.get("fs-overwrite", "false").lower() != "true":
-        raise Refused(403, "E_ALREADY_EXISTS", target.name)
+        raise Denied(403, "E_ALREADY_EXISTS", target.name)
     if not path.is_file():
         raise _missing(asked, asked.names["path"])
-    desk.write_file(target, path.read_bytes())
+    office.write_file(target, path.read_bytes())
 
 
 @serves(ops.RENAME_FILE)
-def rename(desk: "Desk", asked: Asked) -> None:
+def rename(office: "Office", asked: Asked) -> None:
     """Give a file or a folder another name."""
-    path, target = _two(desk, asked)
+    path, target = _two(office, asked)
     if target.exists():
-        raise Refused(403, "E_ALREADY_EXISTS", target.name)
+        raise Denied(403, "E_ALREADY_EXISTS", target.name)
     try:
         path.rename(target)
     except OSError as error:
         raise _missing(asked, asked.names["path"]) from error
 
 
-def _two(desk: "Desk", asked: Asked) -> tuple[Path, Path]:
+def _two(office: "Office", asked: Asked) -> tuple[Path, Path]:
     here = asked.names["path"]
     if _is_volume(here):
-        raise Refused(403, "E_REJECT", "a volume stays what it is", -2)
-    return _path(desk, asked), _new(desk, asked, None, here.rpartition("/")[0])
+        raise Denied(403, "E_REJECT", "a volume stays what it is", -2)
+    return _path(office, asked), _new(office, asked, None, here.rpartition("/")[0])
 
 
-def _new(desk: "Desk", asked: Asked, folder: Path | None, words: str) -> Path:
+def _new(office: "Office", asked: Asked, folder: Path | None, words: str) -> Path:
     """The place that `fs-newname` names: in a folder, or a whole `/fileservice/...`."""
     name = asked.field("fs-newname")
     if name.startswith("/fileservice/"):
-        return disk_path(desk, name, asked)
+        return disk_path(office, name, asked)
     if not name or "/" in name or "\\" in name or name in (".", ".."):
-        raise Refused(400, "E_INVALID_PATH", name)
+        raise Denied(400, "E_INVALID_PATH", name)
     if folder is not None and not folder.is_dir():
         raise _missing(asked, words)
-    return disk_path(desk, f"{words}/{name}", asked)
+    return disk_path(office, f"{words}/{name}", asked)

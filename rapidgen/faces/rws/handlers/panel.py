@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.faces.rws.asking import Answer, Asked, Refused, show
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
@@ -10,7 +10,7 @@ from rapidgen.wire.rws.bodies import Item
 if TYPE_CHECKING:
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.operation import OperatingMode
-    from rapidgen.faces.rws.desk import Desk
+    from rapidgen.faces.rws.office import Office
 
 _MODES: dict[str, "OperatingMode"] = {
     "auto": "auto", "man": "manual_reduced", "manfs": "manual_full", "manf": "manual_full",
@@ -38,61 +38,61 @@ def speed(controller: "VirtualController") -> int:
 
 
 @serves(ops.CTRL_STATE)
-def get_ctrl_state(desk: "Desk", asked: Asked) -> Answer:
+def get_ctrl_state(office: "Office", asked: Asked) -> Served:
     """Motors, emergency stop, system failure."""
-    return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(desk.controller)}))
+    return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(office.controller)}))
 
 
 @serves(ops.SET_CTRL_STATE)
-def set_ctrl_state(desk: "Desk", asked: Asked) -> None:
+def set_ctrl_state(office: "Office", asked: Asked) -> None:
     """Motors on or off."""
     on = asked.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
-    controller = desk.controller
+    controller = office.controller
     if on and controller.mode != "auto":
-        raise Refused(403, "E_MODE_REJECT", "motors on only in automatic mode", -2)
+        raise Denied(403, "E_MODE_REJECT", "motors on only in automatic mode", -2)
     if on and controller.failed:
-        raise Refused(403, "E_SYSFAIL_REJECT", "system failure", -2)
+        raise Denied(403, "E_SYSFAIL_REJECT", "system failure", -2)
     controller.set_motors(on)
     if controller.motors_on != on:
-        raise Refused(403, "E_REJECT", "motors on refused", -2)
+        raise Denied(403, "E_REJECT", "motors on refused", -2)
 
 
 @serves(ops.OPMODE)
-def get_opmode(desk: "Desk", asked: Asked) -> Answer:
+def get_opmode(office: "Office", asked: Asked) -> Served:
     """The operating mode."""
-    return show(Item("pnl-opmode", "opmode", {"opmode": opmode(desk.controller)}))
+    return show(Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)}))
 
 
 @serves(ops.SET_OPMODE)
-def set_opmode(desk: "Desk", asked: Asked) -> None:
+def set_opmode(office: "Office", asked: Asked) -> None:
     """The key of a virtual controller; a real one's cannot be turned from afar."""
     words = ("auto", "man", "manfs" if asked.is_one else "manf")
-    desk.controller.set_mode(_MODES[asked.field("opmode", words)])
+    office.controller.set_mode(_MODES[asked.field("opmode", words)])
 
 
 @serves(ops.SPEED)
-def get_speed(desk: "Desk", asked: Asked) -> Answer:
+def get_speed(office: "Office", asked: Asked) -> Served:
     """The override."""
-    return show(Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(desk.controller))}))
+    return show(Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(office.controller))}))
 
 
 @serves(ops.SET_SPEED)
-def set_speed(desk: "Desk", asked: Asked) -> None:
+def set_speed(office: "Office", asked: Asked) -> None:
     """The override in percent, in automatic mode."""
     text = asked.field("speed-ratio")
     if not text.isdecimal() or not 0 <= int(text) <= 100:
-        raise Refused(400, "E_INVALIDARG", f"speed-ratio {text}")
-    if desk.controller.mode != "auto":
-        raise Refused(403, "E_MODE_REJECT", "only in automatic mode", -2)
+        raise Denied(400, "E_INVALIDARG", f"speed-ratio {text}")
+    if office.controller.mode != "auto":
+        raise Denied(403, "E_MODE_REJECT", "only in automatic mode", -2)
     if not asked.is_one:
-        desk.masters.need(asked, "rapid")
-    for group in desk.controller.motion.groups.values():
+        office.masters.need(asked, "rapid")
+    for group in office.controller.motion.groups.values():
         group.override = int(text) / 100
-    desk.controller.operation.changed.notify()
+    office.controller.operation.changed.notify()
 
 
 @serves(ops.COLLISION)
-def get_collision(desk: "Desk", asked: Asked) -> Answer:
+def get_collision(office: "Office", asked: Asked) -> Served:
     """Collision detection; RobotWare 6 writes the class with a blank behind it."""
     name = asked.kind("coldetstate ", "coldetstate")
     return show(Item("pnl-coldetstate", "coldetstate", {name: "INIT"}))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rapidgen.controller.views import TaskView
-from rapidgen.faces.rws.asking import Answer, Asked, Refused, show
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
 from rapidgen.faces.rws.handlers.tasks import find_task
 from rapidgen.faces.rws.routing import serves
 from rapidgen.rapid.syntax import nodes as n
@@ -18,7 +18,7 @@ from rapidgen.wire.rws import operations as ops
 from rapidgen.wire.rws.bodies import Item
 
 if TYPE_CHECKING:
-    from rapidgen.faces.rws.desk import Desk
+    from rapidgen.faces.rws.office import Office
 
 _ELEMENT = re.compile(r"(\w+)\{\s*(\d+(?:\s*,\s*\d+)*)\s*\}")
 _KINDS = {"PERS": ("per", "pers"), "VAR": ("var", "var"), "CONST": ("con", "constant")}
@@ -27,7 +27,7 @@ LARGEST = 16_000
 
 
 @dataclass(frozen=True, slots=True)
-class Found:
+class Datum:
     """A datum of a task, or an element of one."""
 
     task: TaskView
@@ -45,12 +45,12 @@ class Found:
         return value
 
 
-def find(desk: "Desk", path: str, asked: Asked) -> Found:
-    """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Refused: there is none."""
+def find(office: "Office", path: str, asked: Asked) -> Datum:
+    """The datum of `TASK/MODULE/NAME` or `TASK/NAME`. Denied: there is none."""
     parts = path.split("/")
     if len(parts) not in (2, 3):
         raise _unknown(asked, path)
-    task = desk.controller.tasks[find_task(desk, parts[0], asked).name]
+    task = office.controller.tasks[find_task(office, parts[0], asked).name]
     match = _ELEMENT.fullmatch(parts[-1])
     own = match[1] if match else parts[-1]
     name = ":".join((*parts[1:-1], own))
@@ -59,27 +59,27 @@ def find(desk: "Desk", path: str, asked: Asked) -> Found:
     except KeyError as error:
         raise _unknown(asked, path) from error
     if not type_.is_value:
-        raise Refused(400, "E_INVALIDARG", f"{type_.name} is no value type")
+        raise Denied(400, "E_INVALIDARG", f"{type_.name} is no value type")
     if match is None:
-        return Found(task, name, type_, dims)
+        return Datum(task, name, type_, dims)
     element = tuple(int(i) for i in match[2].split(","))
     if len(element) > len(dims) or any(
         not 1 <= i <= most for i, most in zip(element, dims, strict=False)
     ):
         raise _unknown(asked, path)
-    return Found(task, name, type_, dims[len(element) :], element)
+    return Datum(task, name, type_, dims[len(element) :], element)
 
 
-def _unknown(asked: Asked, path: str) -> Refused:
+def _unknown(asked: Asked, path: str) -> Denied:
     if asked.is_one:
-        return Refused(400, "E_UNEXPECTED", f"no symbol {path}", -517)
-    return Refused(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
+        return Denied(400, "E_UNEXPECTED", f"no symbol {path}", -517)
+    return Denied(404, "E_NO_SUCH_SYMBOL", f"no symbol {path}", -517)
 
 
 @serves(ops.SYMBOL)
-def get_symbol(desk: "Desk", asked: Asked) -> Answer:
+def get_symbol(office: "Office", asked: Asked) -> Served:
     """The value as a RAPID literal."""
-    found = find(desk, asked.names["symbol"], asked)
+    found = find(office, asked.names["symbol"], asked)
     text = literal_text(found.value, found.type)
     name = asked.names["symbol"].rpartition("/")[2]
     if len(text) > LARGEST:
@@ -89,13 +89,13 @@ def get_symbol(desk: "Desk", asked: Asked) -> Answer:
 
 
 @serves(ops.SET_SYMBOL)
-def set_symbol(desk: "Desk", asked: Asked) -> None:
+def set_symbol(office: "Office", asked: Asked) -> None:
     """Give a datum a value: at once, wherever it is read."""
     if asked.is_one:
-        desk.masters.need_mode()  # RobotWare 6 takes mastership by itself
+        office.masters.need_mode()  # RobotWare 6 takes mastership by itself
     else:
-        desk.masters.need(asked, "rapid")
-    found = find(desk, asked.names["symbol"], asked)
+        office.masters.need(asked, "rapid")
+    found = find(office, asked.names["symbol"], asked)
     text = asked.field("value")
     try:
         value = parse_value(text, found.type, found.dims)
@@ -108,18 +108,18 @@ def set_symbol(desk: "Desk", asked: Asked) -> None:
             value = whole
         found.task[found.name] = value
     except KeyError as error:
-        raise Refused(403, "E_REJECT", f"{found.name} is read only", -2) from error
+        raise Denied(403, "E_REJECT", f"{found.name} is read only", -2) from error
     except NotALiteral as error:
-        raise Refused(400, "E_INVALIDARG", f"no value of {found.type.name}: {text}") from error
+        raise Denied(400, "E_INVALIDARG", f"no value of {found.type.name}: {text}") from error
     except RapidError as error:
-        raise Refused(400, "E_INVALIDARG", error.name) from error
+        raise Denied(400, "E_INVALIDARG", error.name) from error
 
 
 @serves(ops.SYMBOL_PROPERTIES)
-def get_properties(desk: "Desk", asked: Asked) -> Answer:
+def get_properties(office: "Office", asked: Asked) -> Served:
     """What a datum is."""
     path = asked.names["symbol"]
-    found = find(desk, path, asked)
+    found = find(office, path, asked)
     for item, _ in _data(found.task, ""):
         if item.fields["name"].lower() == path.rpartition("/")[2].lower():
             return show(Item(item.kind, item.title, item.fields))
@@ -127,22 +127,22 @@ def get_properties(desk: "Desk", asked: Asked) -> Answer:
 
 
 @serves(ops.SEARCH_SYMBOLS)
-def search(desk: "Desk", asked: Asked) -> Answer:
+def search(office: "Office", asked: Asked) -> Served:
     """Data of a task or a module by kind, type and a pattern of the name."""
     form = asked.form
     if not asked.is_one and "task" in form:
-        raise Refused(400, "E_INVALIDARG", "task")  # [VC 7.21]
+        raise Denied(400, "E_INVALIDARG", "task")  # [VC 7.21]
     parts = form.get("blockurl", "RAPID").split("/")
     if parts[0].upper() != "RAPID" or len(parts) > 3:
-        raise Refused(400, "E_INVALIDARG", "blockurl")
-    tasks = list(desk.controller.tasks.values())
+        raise Denied(400, "E_INVALIDARG", "blockurl")
+    tasks = list(office.controller.tasks.values())
     if len(parts) > 1:
-        tasks = [desk.controller.tasks[find_task(desk, parts[1], asked).name]]
+        tasks = [office.controller.tasks[find_task(office, parts[1], asked).name]]
     module = parts[2] if len(parts) > 2 else ""
     try:
         pattern = re.compile(form.get("regexp") or ".*", re.IGNORECASE)
     except re.error as error:
-        raise Refused(400, "E_INVALIDARG", "regexp") from error
+        raise Denied(400, "E_INVALIDARG", "regexp") from error
     kind, type_name = form.get("symtyp", "any").lower(), form.get("dattyp", "").lower()
     found = [
         Item(f"{item.kind}-li", item.title, item.fields)
