@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from rapidgen.controller.controller import VirtualController
-from rapidgen.diagnostics import Diagnostic, Severity
+from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.runtime.compiler.missing import missing_routines
 from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
 from rapidgen.runtime.loading import LARGEST_MODULE, module_text
@@ -102,8 +102,10 @@ class Programs:
             wrong = tuple(task.program.faults[known:])
             del task.program.faults[known:]
             if wrong:
-                task.program.unload(name)
-        if wrong:
+                self._take_out(task, name)
+                here[name.lower()] = UnlinkedModule(file, wrong)
+            self.put_clashes_aside(task)
+        elif wrong:
             here[name.lower()] = UnlinkedModule(file, wrong)
         self._find_entry(task)
         return name
@@ -121,8 +123,34 @@ class Programs:
             raise CannotLoad("E_MOD_WRITE_PROTECTED")
         if any(place.module.lower() == name.lower() for place in task.stack()):
             raise CannotLoad("E_EXEC_STATE")
-        task.program.unload(name)
+        self._take_out(task, name)
         self._find_entry(task)
+
+    def _take_out(self, task: Task, name: str) -> None:
+        """Unlink a module. A persistent that nobody declares any more loses its value."""
+        gone = {
+            key
+            for key, node in task.program.modules[name.lower()].declarations.items()
+            if node.kind == "PERS" and not node.scope
+        }
+        task.program.unload(name)
+        programs = [other.program for other in self._controller.rapid_tasks.values()]
+        left = {key for p in programs for m in p.modules.values() for key in m.declarations}
+        for key in gone - left:
+            self._controller.shared.cells.pop(key, None)
+
+    def put_clashes_aside(self, task: Task) -> None:
+        """Unlink modules that declare what another one has declared: a second `main`."""
+        clashes = task.program.names.clashes
+        for _, second in clashes:
+            if second.module is None or second.module.tree.name.lower() not in task.program.modules:
+                continue
+            module = task.program.modules[second.module.tree.name.lower()]
+            at = module.span(second.node) if second.node is not None else None
+            fault = error("RG401", at, f"Global routine name {second.name} ambiguous")
+            self._take_out(task, module.name)
+            self.broken[task.name][module.name.lower()] = UnlinkedModule(module.file, (fault,))
+        clashes.clear()
 
     def faults(self, task: Task) -> list[Diagnostic]:
         """What is wrong with the program of a task: broken modules, and names that are nowhere."""

@@ -61,10 +61,11 @@ def boot(
     programs = Programs(controller)
     for task in tasks:
         name = task.spec.name
-        programs.broken[name] = {b.file.name.lower(): b for b in task.broken}
+        broken = programs.broken[name] = {b.file.name.lower(): b for b in task.broken}
+        programs.put_clashes_aside(controller.rapid_tasks[name])
         events += [
             (_PROGRAM_ERRORS, "Errors in RAPID program", f"{d.message} ({b.file.path})", name)
-            for b in task.broken
+            for b in broken.values()
             for d in b.faults
         ]
         events += [(_NOT_LOADED, "Module not loaded", file, name) for file in task.missing]

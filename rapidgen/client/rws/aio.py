@@ -50,19 +50,26 @@ class Awaiting:
     async def run(self, flow: Flow[T]) -> T:
         """The outcome of a flow. What an effect raises is thrown into it."""
         async with self._lock:
-            outcome: Response | None = None
-            failure: BaseException | None = None
-            while True:
-                try:
-                    effect = resume(flow, outcome, failure)
-                except StopIteration as end:
-                    value: T = end.value
-                    return value
-                outcome, failure = Response(0), None
-                try:
-                    outcome = await self._perform(effect)
-                except BaseException as raised:  # noqa: BLE001 - the flow cleans up and raises it
-                    failure = raised
+            try:
+                return await self._carry_out(flow)
+            finally:
+                if not self._core.connected:
+                    await self.close()
+
+    async def _carry_out(self, flow: Flow[T]) -> T:
+        outcome: Response | None = None
+        failure: BaseException | None = None
+        while True:
+            try:
+                effect = resume(flow, outcome, failure)
+            except StopIteration as end:
+                value: T = end.value
+                return value
+            outcome, failure = Response(0), None
+            try:
+                outcome = await self._perform(effect)
+            except BaseException as raised:  # noqa: BLE001 - the flow cleans up and raises it
+                failure = raised
 
     async def _perform(self, effect: Effect) -> Response:
         match effect:
@@ -73,6 +80,7 @@ class Awaiting:
             case LookAtCertificate():
                 return await self._look(effect.port)
             case Settle():
+                await self.close()
                 scheme = "https" if effect.certificate else "http"
                 self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
                 verify = pinned(effect.certificate) if effect.certificate else True

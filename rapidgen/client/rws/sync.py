@@ -51,19 +51,26 @@ class Blocking:
     def run(self, flow: Flow[T]) -> T:
         """The outcome of a flow. What an effect raises is thrown into it."""
         with self._lock:
-            outcome: Response | None = None
-            failure: BaseException | None = None
-            while True:
-                try:
-                    effect = resume(flow, outcome, failure)
-                except StopIteration as end:
-                    value: T = end.value
-                    return value
-                outcome, failure = Response(0), None
-                try:
-                    outcome = self._perform(effect)
-                except BaseException as raised:  # noqa: BLE001 - the flow cleans up and raises it
-                    failure = raised
+            try:
+                return self._carry_out(flow)
+            finally:
+                if not self._core.connected:
+                    self.close()
+
+    def _carry_out(self, flow: Flow[T]) -> T:
+        outcome: Response | None = None
+        failure: BaseException | None = None
+        while True:
+            try:
+                effect = resume(flow, outcome, failure)
+            except StopIteration as end:
+                value: T = end.value
+                return value
+            outcome, failure = Response(0), None
+            try:
+                outcome = self._perform(effect)
+            except BaseException as raised:  # noqa: BLE001 - the flow cleans up and raises it
+                failure = raised
 
     def _perform(self, effect: Effect) -> Response:
         match effect:
@@ -82,7 +89,7 @@ class Blocking:
         return Response(0)
 
     def _settle(self, effect: Settle) -> None:
-        self._forget()
+        self.close()
         scheme = "https" if effect.certificate else "http"
         self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
         verify = pinned(effect.certificate) if effect.certificate else True

@@ -17,7 +17,7 @@ from rapidgen.faces.rws.sessions import Session, Sessions
 from rapidgen.faces.rws.subscriptions import Groups
 from rapidgen.faces.rws.watching import watched
 from rapidgen.wire.rws import login as logging_in
-from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax
+from rapidgen.wire.rws.bodies import Body, Fault, Generation, Syntax, Unreadable
 from rapidgen.wire.rws.forms import FORM, read_form, split_target
 from rapidgen.wire.rws.media import CONTENT_TYPES, FILE_TYPES, WRITERS, plain, wanted
 
@@ -78,7 +78,7 @@ class Desk:
             return HttpReply(503, (("Retry-After", "1"),))
         try:
             path, suffix, query = split_target(got.target)
-        except ValueError:
+        except Unreadable:
             return HttpReply(400)
         session = self.sessions.find(_cookies(got).get(SESSION, ""))
         if session is None:
@@ -181,7 +181,7 @@ class Desk:
             raise Denied(413, "E_BUFFER_OVERFLOW", "the form is too large")
         try:
             return tuple(read_form(got.body))
-        except ValueError as error:
+        except UnicodeDecodeError as error:
             raise Denied(400, "E_INVALIDARG", "no form") from error
 
     def _connection(self, got: Received, session: Session) -> str:

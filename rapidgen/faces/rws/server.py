@@ -61,7 +61,7 @@ class _Server:
         self._connections = count(1)
         self._numbers: dict[asyncio.BaseTransport, int] = {}
         self._pending: set[asyncio.Future[HttpReply]] = set()
-        self._runner = web.AppRunner(self._app(), access_log=None, shutdown_timeout=0.5)
+        self._runner = web.AppRunner(self._app(), access_log=None, shutdown_timeout=0.05)
         self._thread: threading.Thread | None = None
         self.port = 0
         desk.office.cabinet.on_restart.append(self._restarting)

@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from urllib.parse import unquote
 
@@ -78,16 +78,8 @@ def write_events(items: Iterable[Item]) -> bytes:
 
 
 def _event(item: Item) -> str:
-    links = "".join(
-        f'<a href="{escape(to)}" rel="{escape(rel)}"/>' for rel, to in item.links.items()
-    )
-    spans = "".join(
-        f'<span class="{escape(k)}">{escape(v, quote=False)}</span>' for k, v in item.fields.items()
-    )
     kinds = (item.kind, *_TWINS.get(item.kind, ()))
-    return "".join(
-        f'<li class="{kind}" title="{escape(item.title)}">{links}{spans}</li>' for kind in kinds
-    )
+    return "".join(xhtml.write_item(replace(item, kind=kind)) for kind in kinds)
 
 
 def read_events(data: bytes) -> tuple[Item, ...]:

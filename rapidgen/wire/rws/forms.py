@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterable, Mapping
 from urllib.parse import quote, unquote, unquote_plus
 
-from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.bodies import Generation, Unreadable
 
 Fields = Mapping[str, str] | Iterable[tuple[str, str]]
 FORM = "application/x-www-form-urlencoded"
@@ -24,7 +24,7 @@ def write_form(fields: Fields) -> bytes:
 
 
 def read_form(data: bytes | str) -> list[tuple[str, str]]:
-    """Fields in order; `Attr=[v,1]` may come raw. ValueError: no text of UTF-8."""
+    """Fields in order; `Attr=[v,1]` may come raw. UnicodeDecodeError: no text of UTF-8."""
     text = data.decode() if isinstance(data, bytes) else data
     pairs = (part.partition("=") for part in text.split("&") if part)
     return [(unquote_plus(key), unquote_plus(value)) for key, _, value in pairs]
@@ -43,13 +43,16 @@ def path_of(text: str) -> str:
 def split_target(target: str) -> tuple[str, str, list[tuple[str, str]]]:
     """A request target as decoded path, what follows a `;` in it, and the query's fields.
 
-    A `;` that is written as %3B belongs to a name. ValueError: it is no path.
+    A `;` that is written as %3B belongs to a name. Unreadable: it is no path.
     """
     path, _, query = target.partition("?")
     if not path.startswith("/") or re.search(r"%(?![0-9A-Fa-f]{2})", path):
-        raise ValueError("no path")
+        raise Unreadable("no path")
     path, _, suffix = path.partition(";")
-    decoded = unquote(path, errors="strict")
+    try:
+        decoded, fields = unquote(path, errors="strict"), read_form(query)
+    except UnicodeDecodeError as error:
+        raise Unreadable("no path") from error
     if "\0" in decoded:
-        raise ValueError("no path")
-    return decoded.rstrip("/") or "/", unquote(suffix), read_form(query)
+        raise Unreadable("no path")
+    return decoded.rstrip("/") or "/", unquote(suffix), fields

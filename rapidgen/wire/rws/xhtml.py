@@ -14,6 +14,20 @@ LARGEST = 16_000_000
 """Bytes of a body that is taken apart."""
 _DEEPEST = 8
 """Items within items."""
+_FORBIDDEN = dict.fromkeys(
+    (*range(9), 11, 12, *range(14, 32), 0xFFFE, 0xFFFF), "\N{REPLACEMENT CHARACTER}"
+)
+"""What XML cannot hold; texts of RAPID may."""
+
+
+def text(value: str) -> str:
+    """A value as text of an element."""
+    return escape(value.translate(_FORBIDDEN), quote=False)
+
+
+def quoted(value: str) -> str:
+    """A value as an attribute, with its quotes."""
+    return f'"{escape(value.translate(_FORBIDDEN))}"'
 
 
 def write(body: Body) -> bytes:
@@ -21,39 +35,35 @@ def write(body: Body) -> bytes:
     if body.fault is not None:
         return write_fault(body.fault, body.title, body.base)
     links = {"self": body.here, **({"next": body.next} if body.next else {}), **body.links}
-    items = "".join(_item(item) for item in body.items)
+    items = "".join(write_item(item) for item in body.items)
     return (
-        f"{_HEAD}<title>{escape(body.title)}</title><base href={_quoted(body.base)}/></head>"
+        f"{_HEAD}<title>{text(body.title)}</title><base href={quoted(body.base)}/></head>"
         f'<body><div class="state">{_links(links)}<ul>{items}</ul></div></body></html>'
     ).encode()
 
 
 def write_fault(fault: Fault, title: str, base: str) -> bytes:
     """A refusal. Errors of RWS 2.0 carry no title [VC 7.21]: leave it empty."""
-    named = f"<title>{escape(title)}</title>" if title else ""
+    named = f"<title>{text(title)}</title>" if title else ""
     return (
-        f'{_HEAD}{named}<base href={_quoted(base)}/></head><body><div class="status">'
-        f'<span class="code">{fault.code}</span><span class="msg">{escape(fault.message)}</span>'
+        f'{_HEAD}{named}<base href={quoted(base)}/></head><body><div class="status">'
+        f'<span class="code">{fault.code}</span><span class="msg">{text(fault.message)}</span>'
         "</div></body></html>"
     ).encode()
 
 
-def _quoted(value: str) -> str:
-    return f'"{escape(value)}"'
-
-
 def _links(links: dict[str, str]) -> str:
-    return "".join(f"<a href={_quoted(to)} rel={_quoted(rel)}/>" for rel, to in links.items())
+    return "".join(f"<a href={quoted(to)} rel={quoted(rel)}/>" for rel, to in links.items())
 
 
-def _item(item: Item) -> str:
+def write_item(item: Item) -> str:
+    """One item."""
     spans = "".join(
-        f"<span class={_quoted(name)}>{escape(value, quote=False)}</span>"
-        for name, value in item.fields.items()
+        f"<span class={quoted(name)}>{text(value)}</span>" for name, value in item.fields.items()
     )
-    within = "".join(_item(one) for one in item.within)
+    within = "".join(write_item(one) for one in item.within)
     return (
-        f"<li class={_quoted(item.kind)} title={_quoted(item.title)}>{_links(dict(item.links))}"
+        f"<li class={quoted(item.kind)} title={quoted(item.title)}>{_links(dict(item.links))}"
         f"{spans}{f'<ul>{within}</ul>' if within else ''}</li>"
     )
 

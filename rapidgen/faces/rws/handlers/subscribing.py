@@ -9,6 +9,7 @@ from rapidgen.wire.rws.events import Wanted, read_wanted, write_opened
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
+    from rapidgen.faces.rws.subscriptions import EventGroup
 
 
 def _wanted(asked: Asked) -> list[Wanted]:

@@ -98,7 +98,7 @@ def set_symbol(office: "Office", asked: Asked) -> None:
     found = find(office, asked.names["symbol"], asked)
     text = asked.field("value")
     try:
-        value = parse_value(text, found.type, found.dims)
+        value = parse_value(text, found.type, found.dims, escaped=True)
         if found.element:
             whole = deepcopy(found.task[found.name])
             inner = whole
