@@ -251,6 +251,11 @@ class RobotSurface(Generic[C_co, Execution, Stream]):
     write_signal = _of_core(flows.control.write_signal)
     stop = _of_core(flows.stop.stop)
 
+    @property
+    def override(self) -> float:
+        """Share of the programmed speed (0.01 to 1) that this client last asked for."""
+        return self._core.override
+
     def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
         """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
         with self._carrier.guard:
