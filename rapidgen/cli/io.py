@@ -58,9 +58,9 @@ def _over_web_services(
         if value is not None:
             if not found.identity().is_virtual:
                 make_sure(f"set {name} to {value:g} at {host}?", yes=yes)
-            signals = (found.set_signal(name, value),)
+            signals = [found.set_signal(name, value)]
         else:
-            signals = (found.signal(name),) if name else found.signals()
+            signals = [found.signal(name)] if name else list(found.signals())
     width = max((len(signal.path) for signal in signals), default=0)
     for signal in signals:
         note = "  simulated" if signal.simulated else ""

@@ -39,6 +39,6 @@ def back_up(
             place.mkdir(parents=True, exist_ok=True)
             (place / f"{module.name}.{ending}").write_bytes(data)
     (folder / "BACKINFO" / "backinfo.txt").write_text("".join(lines), encoding="ascii")
-    for text in cfg.domains:
-        path = folder / "SYSPAR" / f"{text.domain}.cfg"
-        path.write_text(write_cfg(text), encoding="utf-8")
+    for domain in cfg.domains:
+        path = folder / "SYSPAR" / f"{domain.domain}.cfg"
+        path.write_text(write_cfg(domain), encoding="utf-8")

@@ -220,7 +220,7 @@ def test_a_subscription_is_asked_for_and_told():
     ]
     assert events.read_wanted(read_form(write_form(events.write_wanted(wanted)))) == wanted
     # Indices from 0, one `resources` for all, `;` as %3B: public clients do so.
-    odd = read_form(b"resources=0&0=/rw/iosystem/signals/a%253Bstate&0-p=2")
+    odd = read_form(b"resources=0&0=/rw/iosystem/signals/a%3Bstate&0-p=2")
     assert events.read_wanted(odd) == [wanted[1]]
     event = Item(
         "ios-signalstate-ev", "a", {"lvalue": "1"}, {"self": "/rw/iosystem/signals/a;state"}

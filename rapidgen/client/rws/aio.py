@@ -3,12 +3,17 @@
 import asyncio
 import ssl
 import time
+from collections import deque
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import AsyncExitStack, asynccontextmanager
 from typing import Self, TypeVar
 
 import httpx2
+from websockets.asyncio.client import ClientConnection
+from websockets.asyncio.client import connect as connect_socket
+from websockets.exceptions import ConnectionClosed, WebSocketException
 
+from rapidgen.client.errors import RobotTimeout
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
@@ -22,14 +27,17 @@ from rapidgen.client.rws.effects import (
     Settle,
     resume,
 )
-from rapidgen.client.rws.flows import connecting, holding
-from rapidgen.client.rws.surface import ControllerSurface
+from rapidgen.client.rws.flows import connecting, holding, subscribing
+from rapidgen.client.rws.model import ResourceEvent
+from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
+from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
     auth_of,
     no_verification,
     not_reached,
     pinned,
     response_of,
+    socket_options,
 )
 
 T = TypeVar("T")
@@ -129,11 +137,89 @@ class Awaiting:
         finally:
             writer.close()
 
+    async def open_socket(self, path: str, stack: AsyncExitStack) -> ClientConnection:
+        """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
+        client that sends."""
+        assert self._client is not None
+        try:
+            return await stack.enter_async_context(
+                connect_socket(
+                    self._base.replace("http", "ws", 1) + path,
+                    **socket_options(self._core, self._client.cookies),
+                    open_timeout=self._timeout,
+                )
+            )
+        except (OSError, WebSocketException) as error:
+            raise not_reached(self._core, error, self._timeout) from error
+
     async def close(self) -> None:
         """Close all connections."""
         if self._client is not None:
             await self._client.aclose()
             self._client = None
+
+
+class AsyncSubscription:
+    """Events of topics, those of now first. Survives a restart of the controller.
+
+    `async with controller.subscribe(topics.execution()) as events: async for event in events: ...`
+    """
+
+    def __init__(self, carrier: Awaiting, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
+        self._carrier = carrier
+        self._core = core
+        self._topics = chosen
+        self._waiting: deque[ResourceEvent] = deque()
+        self._socket: ClientConnection | None = None
+        self._group = ""
+        self._stack = AsyncExitStack()
+
+    async def _open(self, flow: Flow[subscribing.Opened]) -> None:
+        opened = await self._carrier.run(flow)
+        self._group = opened.group
+        self._waiting.extend(opened.events)
+        await self._stack.aclose()
+        self._socket = await self._carrier.open_socket(opened.path, self._stack)
+
+    async def next(self, timeout: float | None = None) -> ResourceEvent:
+        """The next event. RobotTimeout (RG602): none within s."""
+        try:
+            async with asyncio.timeout(timeout):
+                while not self._waiting:
+                    await self._hear()
+        except TimeoutError as error:
+            raise RobotTimeout.because("RG602", f"no event within {timeout:g} s") from error
+        return self._waiting.popleft()
+
+    async def _hear(self) -> None:
+        assert self._socket is not None
+        try:
+            message = await self._socket.recv()
+        except (ConnectionClosed, ConnectionError):
+            await self._open(subscribing.again(self._core, self._topics, PATIENCE))
+            return
+        data = message.encode() if isinstance(message, str) else message
+        self._waiting.extend(
+            await self._carrier.run(subscribing.events_of(self._core, self._topics, data))
+        )
+
+    async def close(self) -> None:
+        """Be told no more."""
+        if self._socket is not None:
+            await self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+            await self._stack.aclose()
+            self._socket = None
+
+    async def __aiter__(self) -> AsyncIterator[ResourceEvent]:
+        while self._socket is not None:
+            yield await self.next()
+
+    async def __aenter__(self) -> Self:
+        await self._open(subscribing.subscribe(self._core, self._topics))
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
 
 
 class AsyncController(ControllerSurface[Awaiting]):
@@ -160,6 +246,10 @@ class AsyncController(ControllerSurface[Awaiting]):
             yield self
         finally:
             await self._carrier.run(holding.give(self._core, domain))
+
+    def subscribe(self, *topics: Topic) -> AsyncSubscription:
+        """Be told of topics as they change, within `async with`: an iterator of events."""
+        return AsyncSubscription(self._carrier, self._core, topics)
 
     async def __aenter__(self) -> Self:
         return await self.connect()

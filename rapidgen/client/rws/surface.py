@@ -14,6 +14,8 @@ from rapidgen.wire.rws.bodies import Generation
 
 P = ParamSpec("P")
 T = TypeVar("T")
+PATIENCE = 180.0
+"""s that a subscription waits for a controller that restarts."""
 
 
 class RwsCarrier(Protocol):

@@ -4,12 +4,17 @@ import socket
 import ssl
 import threading
 import time
+from collections import deque
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from typing import Self, TypeVar
 
 import httpx2
+from websockets.exceptions import ConnectionClosed, WebSocketException
+from websockets.sync.client import ClientConnection
+from websockets.sync.client import connect as connect_socket
 
+from rapidgen.client.errors import RobotTimeout
 from rapidgen.client.rws.core import Pace, RwsCore
 from rapidgen.client.rws.effects import (
     Effect,
@@ -23,14 +28,17 @@ from rapidgen.client.rws.effects import (
     Settle,
     resume,
 )
-from rapidgen.client.rws.flows import connecting, holding
-from rapidgen.client.rws.surface import ControllerSurface
+from rapidgen.client.rws.flows import connecting, holding, subscribing
+from rapidgen.client.rws.model import ResourceEvent
+from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
+from rapidgen.client.rws.topics import Topic
 from rapidgen.client.rws.transport import (
     auth_of,
     no_verification,
     not_reached,
     pinned,
     response_of,
+    socket_options,
 )
 
 T = TypeVar("T")
@@ -132,11 +140,86 @@ class Blocking:
         except OSError as error:
             raise not_reached(self._core, error, self._timeout) from error
 
+    def open_socket(self, path: str, stack: ExitStack) -> ClientConnection:
+        """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
+        client that sends."""
+        assert self._client is not None
+        try:
+            return stack.enter_context(
+                connect_socket(
+                    self._base.replace("http", "ws", 1) + path,
+                    **socket_options(self._core, self._client.cookies),
+                    open_timeout=self._timeout,
+                )
+            )
+        except (OSError, WebSocketException) as error:
+            raise not_reached(self._core, error, self._timeout) from error
+
     def close(self) -> None:
         """Close all connections."""
         if self._client is not None:
             self._client.close()
             self._client = None
+
+
+class Subscription:
+    """Events of topics, those of now first. Survives a restart of the controller.
+
+    `with controller.subscribe(topics.execution()) as events: for event in events: ...`
+    """
+
+    def __init__(self, carrier: Blocking, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
+        self._carrier = carrier
+        self._core = core
+        self._topics = chosen
+        self._waiting: deque[ResourceEvent] = deque()
+        self._socket: ClientConnection | None = None
+        self._group = ""
+        self._stack = ExitStack()
+        self._open(subscribing.subscribe(core, chosen))
+
+    def _open(self, flow: Flow[subscribing.Opened]) -> None:
+        opened = self._carrier.run(flow)
+        self._group = opened.group
+        self._waiting.extend(opened.events)
+        self._stack.close()
+        self._socket = self._carrier.open_socket(opened.path, self._stack)
+
+    def next(self, timeout: float | None = None) -> ResourceEvent:
+        """The next event. RobotTimeout (RG602): none within s."""
+        until = None if timeout is None else time.monotonic() + timeout
+        while not self._waiting:
+            left = None if until is None else until - time.monotonic()
+            assert self._socket is not None
+            try:
+                message = self._socket.recv(left)
+            except TimeoutError as error:
+                raise RobotTimeout.because("RG602", f"no event within {timeout:g} s") from error
+            except (ConnectionClosed, OSError):
+                self._open(subscribing.again(self._core, self._topics, PATIENCE))
+                continue
+            data = message.encode() if isinstance(message, str) else message
+            self._waiting.extend(
+                self._carrier.run(subscribing.events_of(self._core, self._topics, data))
+            )
+        return self._waiting.popleft()
+
+    def close(self) -> None:
+        """Be told no more."""
+        if self._socket is not None:
+            self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+            self._stack.close()
+            self._socket = None
+
+    def __iter__(self) -> Iterator[ResourceEvent]:
+        while self._socket is not None:
+            yield self.next()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
 
 
 class Controller(ControllerSurface[Blocking]):
@@ -172,6 +255,13 @@ class Controller(ControllerSurface[Blocking]):
             yield self
         finally:
             self._carrier.run(holding.give(self._core, domain))
+
+    def subscribe(self, *topics: Topic) -> Subscription:
+        """Be told of topics (`rapidgen.client.rws.topics`) as they change: an iterator of events.
+
+        At most 64 signals and persistents; a second subscription is the last one of a session.
+        """
+        return Subscription(self._carrier, self._core, topics)
 
     def __enter__(self) -> Self:
         return self.connect()

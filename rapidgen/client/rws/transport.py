@@ -5,12 +5,16 @@ environment's proxies are ignored, redirects are not followed.
 """
 
 import ssl
+from typing import TypedDict
 
 import httpx2
+from websockets.typing import Subprotocol
 
 from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotError
 from rapidgen.client.rws.core import RwsCore
 from rapidgen.client.rws.effects import LogIn, Response
+from rapidgen.wire.rws.events import PROTOCOLS
+from rapidgen.wire.rws.xhtml import LARGEST
 
 _NO_CHECK_TIME = 0x200000
 """X509_V_FLAG_NO_CHECK_TIME: who agreed to a certificate did not agree to its calendar."""
@@ -39,6 +43,29 @@ def auth_of(effect: LogIn, core: RwsCore) -> httpx2.Auth:
         return httpx2.DigestAuth(core.user, core.login.password)
     assert core.certificate, "a password in clear goes over TLS only"
     return httpx2.BasicAuth(core.user, core.login.password)
+
+
+class SocketOptions(TypedDict):
+    """What a websocket is opened with."""
+
+    subprotocols: list[Subprotocol]
+    additional_headers: dict[str, str]
+    ssl: ssl.SSLContext | None
+    proxy: None
+    ping_interval: None
+    max_size: int
+
+
+def socket_options(core: RwsCore, cookies: httpx2.Cookies) -> SocketOptions:
+    """A websocket of the session with these cookies; proxies and pings are off."""
+    return SocketOptions(
+        subprotocols=[Subprotocol(PROTOCOLS[core.generation])],
+        additional_headers={"Cookie": "; ".join(f"{k}={v}" for k, v in cookies.items())},
+        ssl=pinned(core.certificate) if core.certificate else None,
+        proxy=None,
+        ping_interval=None,
+        max_size=LARGEST,
+    )
 
 
 def response_of(answer: httpx2.Response) -> Response:

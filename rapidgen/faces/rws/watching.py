@@ -3,6 +3,7 @@
 import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING
+from urllib.parse import unquote
 
 from rapidgen.faces.rws.asking import Asked, Denied
 from rapidgen.faces.rws.handlers import execution, panel, signals, symbols, tasks
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 def watched(office: "Office", asked: Asked, wanted: Wanted) -> Watched:
     """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
     path, _, suffix = wanted.resource.partition(";")
-    path = path.rstrip("/")
+    path = unquote(path).rstrip("/")
     for pattern, make in _KINDS:
         match = re.fullmatch(pattern, path)
         if match is not None:

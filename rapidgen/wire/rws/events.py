@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from html import escape
-from urllib.parse import unquote
 
 from rapidgen.wire.rws import xhtml
 from rapidgen.wire.rws.bodies import Body, Generation, Item
@@ -48,7 +47,7 @@ def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[Wanted]:
         priority = found.get(f"{number}-p", "1")
         if priority not in ("0", "1", "2"):
             raise ValueError(f"priority {priority}")
-        wanted.append(Wanted(unquote(found[str(number)]), int(priority)))
+        wanted.append(Wanted(found[str(number)], int(priority)))
     if not wanted:
         raise ValueError("no resources")
     return wanted

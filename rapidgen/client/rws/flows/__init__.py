@@ -10,6 +10,18 @@ from rapidgen.client.rws.flows import (
     panel,
     rapid,
     signals,
+    subscribing,
 )
 
-__all__ = ["cfg", "connecting", "files", "holding", "jobs", "log", "panel", "rapid", "signals"]
+__all__ = [
+    "cfg",
+    "connecting",
+    "files",
+    "holding",
+    "jobs",
+    "log",
+    "panel",
+    "rapid",
+    "signals",
+    "subscribing",
+]

@@ -4,6 +4,7 @@ from rapidgen.faces.rws.handlers import cfg as cfg
 from rapidgen.faces.rws.handlers import elog as elog
 from rapidgen.faces.rws.handlers import execution as execution
 from rapidgen.faces.rws.handlers import files as files
+from rapidgen.faces.rws.handlers import motion as motion
 from rapidgen.faces.rws.handlers import panel as panel
 from rapidgen.faces.rws.handlers import signals as signals
 from rapidgen.faces.rws.handlers import subscribing as subscribing
