@@ -151,9 +151,9 @@ class Groups:
         if listening >= MOST_SOCKETS:
             raise Denied(503, "E_MAX_LIMIT_REACHED", "19 websockets are the most")
         group.send, group.hang_up, group.spent = send, hang_up, True
-        if group.waiting:
-            self._tell(group, group.waiting)
-            group.waiting = []
+        for item in group.waiting:
+            self._tell(group, item)
+        group.waiting.clear()
 
     def leave(self, number: str) -> None:
         """Nobody listens to a group any more; RWS 2.0 has no second time."""
@@ -172,7 +172,7 @@ class Groups:
                 group.waiting.append(item)
                 del group.waiting[:-MOST_RESOURCES]
             else:
-                self._tell(group, [item])
+                self._tell(group, item)
 
         def later() -> None:
             watch.timer = None
@@ -187,6 +187,7 @@ class Groups:
 
         return changed
 
-    def _tell(self, group: EventGroup, items: Iterable[Item]) -> None:
+    def _tell(self, group: EventGroup, item: Item) -> None:
+        """One message an event: a public client looks for one in each."""
         assert group.send is not None
-        group.send(write_events(items))
+        group.send(write_events([item]))

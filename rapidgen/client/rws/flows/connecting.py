@@ -115,6 +115,8 @@ def _trust(core: RwsCore, certificate: bytes) -> Flow[None]:
     wanted = pins.plain(core.fingerprint) or pins.known(core.pins, core.where)
     core.certificate = certificate
     if wanted == fingerprint:
+        if core.fingerprint:
+            pins.remember(core.pins, core.where, fingerprint)
         return
     if wanted:
         raise LoginFailed.because(
