@@ -61,6 +61,10 @@ def sim(
     rws_port: Annotated[
         int, typer.Option(help="Port of Robot Web Services; 0: any free port.", min=0, max=65_535)
     ] = 0,
+    rws_lenient: Annotated[
+        bool,
+        typer.Option("--rws-lenient", help="Let through what real web services refuse."),
+    ] = False,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -107,7 +111,10 @@ def sim(
         _tell(cabinet.controller.diagnostics)
         if cold:
             _start_cold(cabinet.controller)
-        with _control(cabinet) as control, _faces(cabinet, host, ftp, sftp, rws, rws_port) as faces:
+        with (
+            _control(cabinet) as control,
+            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+        ):
             return _serve(cabinet, chosen, host, speed, {"control": control, **faces})
 
 
@@ -200,12 +207,17 @@ def _control(cabinet: "Cabinet") -> "Iterator[int]":
 
 @contextmanager
 def _faces(
-    cabinet: "Cabinet", host: str, ftp: int | None, sftp: int | None, rws: str | None, port: int
+    cabinet: "Cabinet",
+    host: str,
+    ftp: int | None,
+    sftp: int | None,
+    rws: tuple[str | None, int, bool],
 ) -> "Iterator[Members]":
     """HOME over FTP and SFTP, Robot Web Services; what `ready` tells of each.
 
     Raises DiagnosticError RG560, RG561.
     """
+    import os
     from contextlib import ExitStack
 
     from rapidgen.faces import serve_ftp, serve_sftp
@@ -226,13 +238,18 @@ def _faces(
             if service.host_key:
                 login["host_key"] = service.host_key
             told[name] = login
-        if rws is not None:
+        generation, port, strict = rws
+        if generation is not None:
+            from rapidgen.faces.rws.office import Accounts
             from rapidgen.faces.rws.server import serve_rws
             from rapidgen.wire.rws.bodies import Generation
 
-            service = serve_rws(cabinet, Generation(int(rws)), host, port)
+            own = os.environ.get("RAPIDGEN_PASSWORD")
+            accounts = Accounts({"Default User": own}) if own else None
+            which = Generation(int(generation))
+            service = serve_rws(cabinet, which, host, port, accounts, strict=strict)
             stack.callback(service.close)
-            scheme = "rws" if rws == "1" else "rwss"
+            scheme = "rws" if which is Generation.ONE else "rwss"
             told["rws"] = f"{scheme}://{service.host}:{service.port}"
             if service.host_key:
                 told["fingerprint"] = service.host_key

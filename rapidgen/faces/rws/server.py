@@ -19,6 +19,8 @@ from rapidgen.faces.service import Service, in_use, loopback
 from rapidgen.wire.rws.bodies import Generation
 from rapidgen.wire.rws.events import PROTOCOLS
 
+KNOWN = "robotics"
+"""The password that controllers are delivered with."""
 LARGEST_BODY = 64 * 1024 * 1024
 _RESTARTING = HttpReply(503, (("Retry-After", "1"),))
 _UNREAD = 1000
@@ -30,23 +32,22 @@ def serve_rws(
     generation: Generation,
     host: str = "127.0.0.1",
     port: int = 0,
-    login: Accounts | None = None,
+    accounts: Accounts | None = None,
     *,
     strict: bool = True,
-    beyond_loopback: bool = False,
 ) -> Service:
     """Serve Robot Web Services of a cabinet in a thread.
 
-    Without a login it is ABB's own, which everybody knows: on loopback only. `host_key` of the
+    Without accounts they are ABB's own, which everybody knows: on loopback only. `host_key` of the
     handle is the certificate's fingerprint. Raises DiagnosticError RG560 (not loopback), RG561.
     """
-    if login is None or not beyond_loopback:
+    if accounts is None or KNOWN in accounts.users.values():
         host = loopback(host)
-    login = login or Accounts({"Default User": "robotics", "Admin": "robotics"})
+    accounts = accounts or Accounts({"Default User": KNOWN, "Admin": KNOWN})
     certificate = None if generation is Generation.ONE else self_signed(host)
-    server = _Server(Desk(cabinet, generation, login, strict=strict), certificate)
+    server = _Server(Desk(cabinet, generation, accounts, strict=strict), certificate)
     server.start(host, port)
-    user, password = next(iter(login.users.items()))
+    user, password = next(iter(accounts.users.items()))
     fingerprint = certificate.fingerprint if certificate else ""
     return Service(host, server.port, user, password, fingerprint, server.stop)
 
