@@ -35,7 +35,7 @@ def finish(
         body, _ = yield from ask(core, ops.PROGRESS, {"id": number})
         told = body.first("progress")
         if told is not None and told.text("state") == "ready":
-            code = int(told.text("code", "0") or 0)
+            code = told.whole("code")
             if code < 0:
                 raise RwsError(response.status, operation.two, Fault(code, "the job failed"))
             return
