@@ -13,6 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Self, Unpack
 
+from rapidgen.controller.booting import Bootable
 from rapidgen.controller.controller import Choices, VirtualController
 from rapidgen.controller.programs import Programs
 from rapidgen.controller.rebooting import boot
@@ -59,6 +60,13 @@ class Cabinet:
         self._ended = False
         self.controller = VirtualController(system, **self._options)
         self.programs = Programs(self.controller)
+
+    @classmethod
+    def boot(cls, found: Bootable, **options: Unpack[Choices]) -> Self:
+        """What `booting.load_target` has read, as `VirtualController.boot`."""
+        options.setdefault("robots", found.groups)
+        options.setdefault("surroundings", found.surroundings)
+        return cls(found.system, cfg=found.cfg, **options)
 
     @property
     def now(self) -> float:

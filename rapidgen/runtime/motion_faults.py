@@ -50,12 +50,12 @@ class _Stop:
 
 
 _MEANINGS: dict[Refusal, _Error | _Stop] = {
-    Refusal.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "{} m"),
+    Refusal.OUT_OF_REACH: _Error("ERR_OUTSIDE_REACH", "on the way; {}"),
     Refusal.OUT_OF_REACH_IN_CORNER: _Error("ERR_OUTSIDE_REACH", "in a corner"),
     Refusal.OUT_OF_REACH_WITH_WRIST: _Error("ERR_OUTSIDE_REACH", "with SingArea \\Wrist"),
     Refusal.OUT_OF_REACH_WITH_AXIS_4: _Error("ERR_OUTSIDE_REACH", "with SingArea \\LockAxis4"),
-    Refusal.NO_POSTURE: _Error("ERR_OUTSIDE_REACH"),
-    Refusal.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT"),
+    Refusal.NO_POSTURE: _Error("ERR_OUTSIDE_REACH", "{}"),
+    Refusal.NO_POSTURE_IN_RANGE: _Error("ERR_ROBLIMIT", "{}"),
     Refusal.OUT_OF_RANGE: _Error("ERR_ROBLIMIT", "{}"),
     Refusal.TARGET_OUT_OF_RANGE: _Stop(OUT_OF_RANGE, "Joint out of range", "{}"),
     Refusal.SINGULARITY: _Stop(

@@ -83,7 +83,11 @@ class Run:
         cycles = words(text, "cycle")
         self.controller = VirtualController(
             whole,
-            [g for (name,) in words(text, "robot") for g in groups_for(whole, load_config(name))],
+            [
+                g
+                for (name,) in words(text, "robot")
+                for g in groups_for(whole, load_config(name).groups)
+            ],
             dialect=parse_switches(switches),
             cycle="forever" if cycles else "once",
             accounting=accounting,

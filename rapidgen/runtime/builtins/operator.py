@@ -130,6 +130,7 @@ def _ask(
             lambda: question.answered or _reason(given) is not None,
             on=(question.changed, *_sources(given)),
             timeout=given["MaxTime"],
+            why=lambda: operator.waits(task.name),
         )
     finally:
         operator.withdraw(question)

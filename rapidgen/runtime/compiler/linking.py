@@ -4,6 +4,8 @@ Modules are linked into one Python namespace. Persistents, data of shared module
 classes are common to all tasks.
 """
 
+from math import prod
+
 from rapidgen.diagnostics import Diagnostic, error
 from rapidgen.rapid.binding.names import (
     ModuleScope,
@@ -38,6 +40,9 @@ from rapidgen.system.model import ModuleFile
 
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
+
+MOST_ELEMENTS = 4_000_000
+"""Of an array: about 400 MB here. The program memory of a controller ends before that [mem]."""
 
 
 class Shared:
@@ -313,6 +318,11 @@ class Linker:
         if kind is None:
             raise CannotCompile(f"type {d.type} is not known", d)
         dims = tuple(_dimension(x, scope) for x in d.dimensions)
+        if prod(dims) > MOST_ELEMENTS:
+            raise CannotCompile(
+                f"{d.name} would have {prod(dims):,} elements, there is room for {MOST_ELEMENTS:,}",
+                d,
+            )
         if d.initial is not None:
             return kind, dims, evaluate(d.initial, kind, dims, scope)
         if dims:

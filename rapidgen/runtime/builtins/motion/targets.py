@@ -9,6 +9,7 @@ from rapidgen.axes.kinematics import (
     MovingFrame,
     Posture,
 )
+from rapidgen.axes.unreached import unreached
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
 from rapidgen.rapid.numbers import single
@@ -104,15 +105,14 @@ def joints_for(
         found = []
         for one in kinematics.at_arm_angle(flange, near[place], started):
             found.append(one)
-            if wanted is None or kinematics.fitting([one], wanted, check) is not None:
+            if wanted is None or kinematics.misfit(one, wanted) == 0.0:
                 return one
         near = started
     else:
         found = kinematics.solutions(flange, near)
     if not found:
-        if kinematics.reaches(flange, near):
-            raise RapidError("ERR_ROBLIMIT")
-        raise RapidError("ERR_OUTSIDE_REACH")
+        reached, why = unreached(kinematics, flange, near)
+        raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)
     if wanted is None:
         return found[0]
     posture = kinematics.fitting(found, wanted, check)
