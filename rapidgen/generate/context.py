@@ -56,6 +56,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
     x = layout.suffix(config, group)
     joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
     roles = layout.roles(config, group)
+    payload = _payload(group.payload)
     return {
         "name": config.name,
         "group": group.name,
@@ -98,6 +99,10 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "slow_down": config.trajectory.too_fast == "slow_down",
         "commissioning": config.commissioning,
         "full": config.profile == "full",
+        # The motion server asks what pose joints reach.
+        "calculates": config.profile == "full" or group.tcp_speed_limit < _DEFAULT_TCP_SPEED,
+        # Without its geometry no client can tell the joints of a pose.
+        "cartesian": bool(group.chain),
         "state_period": config.state_period,
         "belief": max(_BELIEF, _BELIEF_MESSAGES * config.state_period),
         "tcp_speed": group.tcp_speed_limit * _MM,
@@ -107,8 +112,9 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "allowed": config.allowed_clients,
         "call_main": config.call_main,
         "tool": _tool(group.tool),
-        "payload": _payload(group.payload),
+        "payload": payload,
         "wobj": _work_object(group.work_object),
+        "tload": f" \\TLoad:={payload['name']}" if payload["with_moves"] else "",
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
         # UnpackRawBytes has \ASCII no more on RobotWare 7; of PackRawBytes nobody tells.

@@ -392,6 +392,39 @@ class EventReport(NamedTuple):
 
 EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), since=2)
 
+
+class Program(NamedTuple):
+    """Instructions of a program: moves to joints and to poses. Never a topic."""
+
+    # `instructions` makes the words of one, `bulk` the frames.
+    program: Annotated[int, int32("the client's number of the program, 1 to 2^23 - 1")]
+    flags: Annotated[int, int32("bits: 1 BEGIN, 2 END, 8 WHOLE")]
+    first: Annotated[int, int32("index of the first instruction, from 0, modulo 2^23")]
+    instructions: Annotated[int, int32("how many follow, from 0")]
+    values: Annotated[
+        tuple[float, ...],
+        Field(Wire.FIXED, ANY, "s, rad, m", "the instructions, see below"),
+    ]
+    checksum: Annotated[int, int32("as of POINTS")]
+
+
+PROGRAM = MessageType(
+    "PROGRAM",
+    1309,
+    Program,
+    _CLIENT,
+    (Port.MOTION,),
+    since=3,
+    replies=(
+        Reply(ReplyCode.SUCCESS, PointsAccepted, "as to POINTS, of instructions"),
+        Reply(
+            ReplyCode.FAILURE,
+            PointsRefused,
+            "as to POINTS; with WHOLE nothing of the program is executed",
+        ),
+    ),
+)
+
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))
 """All of them, by number."""
 

@@ -108,6 +108,7 @@ class Feature(IntFlag):
     SIGNALS = 8
     EVENTS = 16
     FEEDBACK = 32
+    PROGRAMS = 64
 
 
 class StreamFlag(IntFlag):
@@ -119,6 +120,24 @@ class StreamFlag(IntFlag):
     """Nothing follows; the last point is a stop point."""
     FLUSH = 4
     """Start with what is there, though it is less than the driver likes to have."""
+    WHOLE = 8
+    """Of a program: nothing moves before its end has come and all of it was checked."""
+
+
+class Instruction(IntEnum):
+    """What one instruction of a program does: the lower eight bits of its first word."""
+
+    MOVE_ABSJ = 1
+    MOVE_J = 2
+    MOVE_L = 3
+    MOVE_C = 4
+
+
+class Modal(IntFlag):
+    """What stands before the operands of an instruction and holds from it on, in this order."""
+
+    SPEED = 256
+    ZONE = 512
 
 
 class EventType(IntEnum):
@@ -189,6 +208,11 @@ class Reason(IntEnum):
     NOT_ALLOWED = 26, "the client's address may not move this robot"
     IDLE = 27, "no trajectory is under way"
     NOT_SERVING = 28, "the program of the robot is not in ROS_run"
+    NO_INSTRUCTION = 29, "the driver does not have this instruction"
+    BAD_SPEED = 30, "a speed is missing, or outside its range"
+    BAD_ZONE = 31, "a zone is missing, or outside its range"
+    POSE_MISMATCH = 32, "the joints do not reach the pose on this controller"
+    NO_GEOMETRY = 33, "the controller does not tell what pose the joints reach"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"
