@@ -1,6 +1,6 @@
 """The paired Python client: sync and async."""
 
-from rapidgen.client.aio import AsyncExecution, AsyncRobot, AsyncStream
+from rapidgen.client.aio import AsyncExecution, AsyncProgramRun, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Timeouts
@@ -9,6 +9,7 @@ from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
     IncompatibleDriver,
+    InvalidProgram,
     InvalidTrajectory,
     MotionError,
     MotionFailed,
@@ -22,13 +23,15 @@ from rapidgen.client.errors import (
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.threads import Execution, Robot, Stream
+from rapidgen.client.program import Program, Speed, Zone
+from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
 __all__ = [
     "AsyncCell",
     "AsyncExecution",
+    "AsyncProgramRun",
     "AsyncRobot",
     "AsyncStream",
     "Cell",
@@ -40,12 +43,15 @@ __all__ = [
     "Execution",
     "Feedback",
     "IncompatibleDriver",
+    "InvalidProgram",
     "InvalidTrajectory",
     "MotionError",
     "MotionFailed",
     "MotionStopped",
     "NotReady",
     "NotSupported",
+    "Program",
+    "ProgramRun",
     "Progress",
     "ProtocolError",
     "Reason",
@@ -54,6 +60,7 @@ __all__ = [
     "Robot",
     "RobotError",
     "RobotTimeout",
+    "Speed",
     "State",
     "Status",
     "StopFailed",
@@ -62,4 +69,5 @@ __all__ = [
     "Trajectory",
     "TrajectoryRefused",
     "TrajectoryState",
+    "Zone",
 ]

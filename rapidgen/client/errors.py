@@ -11,6 +11,7 @@
     ├── NotSupported              this driver cannot do that: build another one, or do without
     ├── RequestRefused            a pause, a speed or a signal was refused; nothing else changed
     ├── InvalidTrajectory         mend the trajectory; nothing was sent
+    ├── InvalidProgram            mend the program; nothing was sent
     ├── TrajectoryRefused         the controller said no; nothing moved
     └── MotionError               the robot moved, and not to the end
         ├── MotionStopped         by a stop() or cancel()
@@ -117,9 +118,13 @@ class InvalidTrajectory(RobotError):
     """Every fault of a trajectory, found before a byte of it was sent."""
 
 
+class InvalidProgram(RobotError):
+    """Every fault of a program, found before a byte of it was sent."""
+
+
 class TrajectoryRefused(_Told):
-    """The controller refused the whole trajectory, for `reason`, at `point` and `joint`; nothing
-    moved."""
+    """The controller refused the whole trajectory or program, for `reason`, at `point` and `joint`;
+    nothing moved."""
 
 
 class MotionError(_Told):

@@ -21,6 +21,7 @@ from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Progress, State
 from rapidgen.client.flows.effects import Flow
+from rapidgen.client.program import Program
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
@@ -159,6 +160,28 @@ class ExecutionSurface(JobSurface[C_co]):
         return self._job.motion.way
 
 
+class RunSurface(JobSurface[C_co]):
+    """A program that the controller has taken: whole, or its first instructions."""
+
+    @property
+    def program(self) -> Program:
+        """What was asked for."""
+        assert self._job.program is not None
+        return self._job.program
+
+    @property
+    def warnings(self) -> Sequence[Diagnostic]:
+        """What the checks noted."""
+        assert self._job.motion is not None
+        return self._job.motion.warnings
+
+    @property
+    def way(self) -> Way:
+        """`download`: sent whole before the robot moved; `stream`: sent while it moves."""
+        assert self._job.motion is not None
+        return self._job.motion.way
+
+
 class StreamSurface(JobSurface[C_co]):
     """Points that the robot executes while more of them come."""
 
@@ -189,14 +212,16 @@ class StreamSurface(JobSurface[C_co]):
 
 Execution = TypeVar("Execution", bound=ExecutionSurface[FlowCarrier], covariant=True)
 Stream = TypeVar("Stream", bound=StreamSurface[FlowCarrier], covariant=True)
+Run = TypeVar("Run", bound=RunSurface[FlowCarrier], covariant=True)
 
 
-class RobotSurface(Generic[C_co, Execution, Stream]):
+class RobotSurface(Generic[C_co, Execution, Stream, Run]):
     """One motion group of a robot; see `Robot`."""
 
     _carrier_type: type[C_co]
     _execution_type: type[Execution]
     _stream_type: type[Stream]
+    _run_type: type[Run]
 
     def __init__(
         self,
@@ -325,3 +350,22 @@ class RobotSurface(Generic[C_co, Execution, Stream]):
         that does not stream gets the points as a whole, at the end.
         """
         return self._stream_type(self._carrier, Job(self._core, names, may_download=fallback))
+
+    def check_program(self, program: Program) -> tuple[Diagnostic, ...]:
+        """Notes about a program. Raises InvalidProgram with every fault; sends nothing."""
+        with self._carrier.guard:
+            checked, _ = self._core.check_program(program)
+        return checked.notes
+
+    @_own
+    def run(self, program: Program, *, way: Way | None = None) -> Flow[Run]:
+        """Send a program; returns when the controller has taken it and begins to move.
+
+        `way` is `download` (whole, and checked whole by the controller before anything moves) or
+        `stream` (the rest is sent while the robot moves); by default a program that the driver's
+        ring holds goes whole. Raises InvalidProgram, NotReady and NotSupported before a byte is
+        sent, TrajectoryRefused when nothing will move, RobotTimeout, ConnectionLost. Ctrl-C here,
+        or cancelling this, stops the robot.
+        """
+        job = yield from flows.program.run(self._core, program, way)
+        return self._run_type(self._carrier, job)

@@ -74,7 +74,10 @@ def roles(config: RobotConfig, group: GroupConfig) -> tuple[TaskRole, ...]:
 def modules(config: RobotConfig, group: GroupConfig) -> tuple[str, ...]:
     """Modules of a group, each once: those that several tasks load first."""
     used = dict.fromkeys(m for role in roles(config, group) for m in role.modules)
-    return (*(m for m in SYSTEM_MODULES if m in used), *(m for m in used if m not in SYSTEM_MODULES))
+    return (
+        *(m for m in SYSTEM_MODULES if m in used),
+        *(m for m in used if m not in SYSTEM_MODULES),
+    )
 
 
 FOLDER = "rapidgen"

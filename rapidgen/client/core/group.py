@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
+from rapidgen.client.core.frames import Frames
 from rapidgen.client.errors import IncompatibleDriver
 from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
 from rapidgen.wire.simple_message.mapping import mapping_hash
@@ -32,11 +33,19 @@ class Group:
     """False: neither a configuration nor the driver told the limits."""
     signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
+    frames: Frames | None = None
+    """What poses mean; None where that is not known."""
 
     @classmethod
     def of(cls, config: RobotConfig, group: GroupConfig) -> "Group":
         """The group of a configuration."""
-        return cls(group.name, JointMap.of(group), config.trajectory, signals=tuple(config.signals))
+        return cls(
+            group.name,
+            JointMap.of(group),
+            config.trajectory,
+            signals=tuple(config.signals),
+            frames=Frames.of(group),
+        )
 
     @classmethod
     def told(cls, hello: HelloReply) -> "Group":

@@ -194,7 +194,7 @@ def _batch(number: int, comm: int, head: tuple[int, int, int, int], words: Words
     """A batch without its checksum; `head` has whose it is, flags, first and how many."""
     length = messages.POINTS.length + words.nbytes
     if length > spec.MAX_LENGTH:
-        raise ValueError(f"a batch of {head[-1]} does not fit in one message")
+        raise ValueError(f"{head[-1]} points or instructions do not fit in one message")
     return _BATCH_HEAD.pack(length, number, comm, _NONE, *head) + words.tobytes()
 
 

@@ -15,7 +15,7 @@ WORDS = (MAX_LENGTH - PROGRAM.length) // 4
 """Words that one PROGRAM holds."""
 
 OPERANDS: dict[Instruction, str] = {
-    Instruction.MOVE_ABSJ: "joints",
+    Instruction.MOVE_ABSJ: "joints, in rad or m",
     Instruction.MOVE_J: "position, orientation, joints",
     Instruction.MOVE_L: "position, orientation, joints",
     Instruction.MOVE_C: "position, orientation on the way, position, orientation, joints",
@@ -23,9 +23,9 @@ OPERANDS: dict[Instruction, str] = {
 """Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
 the group's joints in rad or m."""
 MODALS: dict[Modal, str] = {
-    Modal.SPEED: "of the TCP m/s, its orientation rad/s, linear m/s and rotary external axes rad/s",
-    Modal.ZONE: "1 stop point, 0 not; radius of the TCP, of its orientation, of external axes, m; "
-    "of orientation rad, of linear m and of rotary external axes rad",
+    Modal.SPEED: "speeds of the TCP m/s, its orientation rad/s, external axes m/s and rad/s",
+    Modal.ZONE: "1 stop point, 0 not; radii of the TCP, its orientation, external axes, m; of "
+    "orientation rad, of linear m and of rotary external axes rad",
 }
 
 

@@ -393,8 +393,8 @@ class EventReport(NamedTuple):
 EVENT = MessageType("EVENT", 1308, EventReport, _CONTROLLER, (Port.STATE,), since=2)
 
 
-class Program(NamedTuple):
-    """Instructions of a program: moves to joints and to poses. Never a topic."""
+class Instructions(NamedTuple):
+    """Instructions of a program: moves to joints and to poses. As a topic it is not answered."""
 
     # `instructions` makes the words of one, `bulk` the frames.
     program: Annotated[int, int32("the client's number of the program, 1 to 2^23 - 1")]
@@ -411,7 +411,7 @@ class Program(NamedTuple):
 PROGRAM = MessageType(
     "PROGRAM",
     1309,
-    Program,
+    Instructions,
     _CLIENT,
     (Port.MOTION,),
     since=3,
