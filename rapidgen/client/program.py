@@ -64,6 +64,8 @@ class Zone:
         return (float(stops), *sizes)
 
 
+SLOW = 0.1
+"""m/s of the TCP where nobody says more."""
 FINE = Zone(stops=True)
 # RAPID's predefined zonedata: pzone_tcp, pzone_ori, pzone_eax mm, zone_ori deg, zone_leax mm,
 # zone_reax deg (S4 datasys 1-zonedata).
@@ -118,7 +120,7 @@ class Program:
     `speed` and `zone` hold until another one is given.
     """
 
-    def __init__(self, *, speed: SpeedLike = 0.1, zone: ZoneLike = "fine") -> None:
+    def __init__(self, *, speed: SpeedLike = SLOW, zone: ZoneLike = "fine") -> None:
         self.steps: list[ProgramStep] = []
         self._speed = speed_of(speed)
         self._zone = zone_of(zone)

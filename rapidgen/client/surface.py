@@ -13,6 +13,8 @@ from operator import attrgetter
 from os import PathLike
 from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar, cast, get_args, overload
 
+from rapidgen.axes.frames import Pose
+from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client import flows
 from rapidgen.client.address import Address
 from rapidgen.client.core.checks import Way
@@ -21,7 +23,7 @@ from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Progress, State
 from rapidgen.client.flows.effects import Flow
-from rapidgen.client.program import Program
+from rapidgen.client.program import Program, pose_of
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
 from rapidgen.client.trajectory import Trajectory
@@ -319,6 +321,38 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
     read_signal = _of_core(flows.control.read_signal)
     write_signal = _of_core(flows.control.write_signal)
     stop = _of_core(flows.stop.stop)
+
+    move_to = _of_core(flows.program.move_to)
+    move_linear = _of_core(flows.program.move_linear)
+
+    @property
+    def pose(self) -> Pose:
+        """The tool in the work object, m, where the robot was seen last. Raises as `pose_of`."""
+        return self.pose_of(self.state.joints)
+
+    def pose_of(self, joints: Sequence[float]) -> Pose:
+        """The pose that joints (rad, m) reach: ((x, y, z), (w, x, y, z)), m.
+
+        Raises NotSupported where the robot's geometry is not known.
+        """
+        return self.group.poses.pose(self.group.map.to_controller(joints))
+
+    def joints_for(
+        self,
+        pose: Pose,
+        *,
+        near: Sequence[float] | None = None,
+        configuration: AxisConfiguration | None = None,
+    ) -> tuple[tuple[float, ...], ...]:
+        """All joints (rad, m) within the limits that reach a pose, nearest first to `near`, by
+        default to where the robot stands; those of a configuration (cf1, cf4, cf6, cfx).
+
+        Raises NotSupported where the robot's geometry is not known.
+        """
+        group = self.group
+        here = group.map.to_controller(self.state.joints if near is None else near)
+        found = group.poses.postures(pose_of(pose), here, configuration)
+        return tuple(group.map.to_urdf(posture) for posture in found)
 
     def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
         """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.core.frames import Frames
-from rapidgen.client.errors import IncompatibleDriver
+from rapidgen.client.errors import IncompatibleDriver, NotSupported
 from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
@@ -78,6 +78,18 @@ class Group:
             for i, name in enumerate(names)
         )
         return cls("", JointMap(joints), TrajectoryPolicy(capacity=PLAIN_CAPACITY), False)
+
+    @property
+    def poses(self) -> Frames:
+        """The robot's geometry. Raises NotSupported where it is not known."""
+        if self.frames is None:
+            raise NotSupported.because(
+                "RG651",
+                "the poses of this robot are not known",
+                "connect with a configuration that has the robot's chain, its tool and its work "
+                "object",
+            )
+        return self.frames
 
     @property
     def names(self) -> tuple[str, ...]:
