@@ -33,6 +33,8 @@ from rapidgen.system.model import ModuleFile, System
 BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
 ALL = BEGIN | END | WHOLE
 _KINDS = (RawInstruction.MOVE_J, RawInstruction.MOVE_L, RawInstruction.MOVE_ABSJ)
+_BATCH = 8
+"""Instructions that fit into one message on every robot."""
 _NAMES = {
     RawInstruction.MOVE_ABSJ: "MoveAbsJ",
     RawInstruction.MOVE_J: "MoveJ",
@@ -86,15 +88,15 @@ class Programmer:
     def send(
         self, orders: Sequence[Order], flags: RawStreamFlag = ALL, start: Position | None = None
     ) -> messages.RawContent:
-        """A program in messages of ten instructions; the last reply, or the first refusal."""
+        """A program in messages of some instructions; the last reply, or the first refusal."""
         self.number += 1
         place = self.bench.position if start is None else start
-        for at in range(0, len(orders), 10):
-            some = orders[at : at + 10]
+        for at in range(0, len(orders), _BATCH):
+            some = orders[at : at + _BATCH]
             own = flags
             if at:
                 own &= ~BEGIN
-            if at + 10 < len(orders):
+            if at + _BATCH < len(orders):
                 own &= ~END
             words = [*(millionths(place) if not at else []), *(w for o in some for w in o.words)]
             told = self.say(words, len(some), own, first=at)
