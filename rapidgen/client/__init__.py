@@ -23,7 +23,7 @@ from rapidgen.client.errors import (
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.program import Program, Speed, Zone
+from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
 from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
@@ -69,5 +69,7 @@ __all__ = [
     "Trajectory",
     "TrajectoryRefused",
     "TrajectoryState",
+    "Trigger",
     "Zone",
+    "pulse",
 ]

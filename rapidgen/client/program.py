@@ -9,13 +9,13 @@ work object. `robot.check_program` and `robot.run` say whether a robot can do it
 from collections.abc import Mapping, Sequence
 from dataclasses import astuple, dataclass
 from math import radians
-from typing import Self, TypeAlias
+from typing import Self, TypeAlias, TypedDict, Unpack
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
 from rapidgen.client.errors import InvalidProgram
 from rapidgen.diagnostics import suggest
-from rapidgen.wire.simple_message.spec import Instruction
+from rapidgen.wire.simple_message.spec import Instruction, Mark
 
 _MM = 0.001
 
@@ -100,9 +100,40 @@ ZoneLike: TypeAlias = float | str | Zone
 
 
 @dataclass(frozen=True, slots=True)
+class Trigger:
+    """A signal that is set on the way of a move to a pose: `place` is m from its beginning, m
+    before its end, or s before its end, as `kind` says."""
+
+    signal: str
+    value: float
+    kind: Mark
+    place: float
+
+    @classmethod
+    def after(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
+        """So many m behind the beginning of the move."""
+        return cls(signal, value, Mark.START, metres)
+
+    @classmethod
+    def before(cls, metres: float, signal: str, value: float = 1.0) -> "Trigger":
+        """So many m before its end."""
+        return cls(signal, value, Mark.END, metres)
+
+    @classmethod
+    def ahead(cls, seconds: float, signal: str, value: float = 1.0) -> "Trigger":
+        """So many s before its end."""
+        return cls(signal, value, Mark.TIME, seconds)
+
+
+def pulse(signal: str, after: float, length: float) -> tuple[Trigger, Trigger]:
+    """A signal that is 1 from `after` m behind the beginning of a move for `length` m."""
+    return Trigger.after(after, signal), Trigger.after(after + length, signal, 0.0)
+
+
+@dataclass(frozen=True, slots=True)
 class ProgramStep:
-    """One instruction. `speed` and `zone` hold for it; a pose may say the configuration of its
-    posture, and values of external axes by name."""
+    """One instruction. `speed`, `zone`, `tool` and `work_object` (empty: the group's own) hold for
+    it; a pose may say the configuration of its posture, and values of external axes by name."""
 
     kind: Instruction
     speed: Speed
@@ -112,6 +143,26 @@ class ProgramStep:
     via: Pose | None = None
     configuration: AxisConfiguration | None = None
     external: tuple[tuple[str, float], ...] = ()
+    triggers: tuple[Trigger, ...] = ()
+    tool: str = ""
+    work_object: str = ""
+    signal: str = ""
+    value: float = 0.0
+    seconds: float = 0.0
+
+
+class _Operands(TypedDict, total=False):
+    """What an instruction may have."""
+
+    joints: tuple[float, ...]
+    pose: Pose | None
+    via: Pose | None
+    configuration: AxisConfiguration | None
+    external: tuple[tuple[str, float], ...]
+    triggers: tuple[Trigger, ...]
+    signal: str
+    value: float
+    seconds: float
 
 
 class Program:
@@ -124,6 +175,7 @@ class Program:
         self.steps: list[ProgramStep] = []
         self._speed = speed_of(speed)
         self._zone = zone_of(zone)
+        self._tool = self._work_object = ""
 
     def __len__(self) -> int:
         return len(self.steps)
@@ -147,11 +199,12 @@ class Program:
         zone: ZoneLike | None = None,
         configuration: AxisConfiguration | None = None,
         external: Mapping[str, float] | None = None,
+        triggers: Sequence[Trigger] = (),
     ) -> Self:
         """To a pose, all axes together (MoveJ): in the given configuration, else in the posture
         that is nearest to the one before."""
         self._hold(speed, zone)
-        return self._to_pose(Instruction.MOVE_J, pose, None, configuration, external)
+        return self._to_pose(Instruction.MOVE_J, pose, None, configuration, external, triggers)
 
     def move_linear(
         self,
@@ -161,10 +214,11 @@ class Program:
         zone: ZoneLike | None = None,
         configuration: AxisConfiguration | None = None,
         external: Mapping[str, float] | None = None,
+        triggers: Sequence[Trigger] = (),
     ) -> Self:
         """To a pose on a line (MoveL). A configuration is what the posture at its end must have."""
         self._hold(speed, zone)
-        return self._to_pose(Instruction.MOVE_L, pose, None, configuration, external)
+        return self._to_pose(Instruction.MOVE_L, pose, None, configuration, external, triggers)
 
     def move_circular(
         self,
@@ -175,10 +229,34 @@ class Program:
         zone: ZoneLike | None = None,
         configuration: AxisConfiguration | None = None,
         external: Mapping[str, float] | None = None,
+        triggers: Sequence[Trigger] = (),
     ) -> Self:
         """To a pose on the circle through the position of `via` (MoveC)."""
         self._hold(speed, zone)
-        return self._to_pose(Instruction.MOVE_C, pose, via, configuration, external)
+        return self._to_pose(Instruction.MOVE_C, pose, via, configuration, external, triggers)
+
+    def use(self, *, tool: str | None = None, work_object: str | None = None) -> Self:
+        """From here on poses are those of this tool in this work object of the configuration, by
+        name; empty: the group's own. The robot stops before the first move with them."""
+        self._tool = self._tool if tool is None else tool
+        self._work_object = self._work_object if work_object is None else work_object
+        return self
+
+    def wait(self, seconds: float) -> Self:
+        """Stand for so long. The move before it ends in a stop point."""
+        return self._add(Instruction.WAIT, seconds=float(seconds))
+
+    def wait_for(self, signal: str, value: float = 1.0, *, timeout: float) -> Self:
+        """Stand until a signal that the configuration exposes has a value; when it has not within
+        `timeout` s the program has failed. The move before it ends in a stop point."""
+        return self._add(
+            Instruction.WAIT_SIGNAL, signal=signal, value=float(value), seconds=float(timeout)
+        )
+
+    def set(self, signal: str, value: float = 1.0) -> Self:
+        """Set a signal, standing. The move before it ends in a stop point; `triggers` of a move set
+        signals on its way."""
+        return self._add(Instruction.SET, signal=signal, value=float(value))
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
         if speed is not None:
@@ -193,6 +271,7 @@ class Program:
         via: Pose | None,
         configuration: AxisConfiguration | None,
         external: Mapping[str, float] | None,
+        triggers: Sequence[Trigger],
     ) -> Self:
         return self._add(
             kind,
@@ -200,21 +279,12 @@ class Program:
             via=None if via is None else pose_of(via),
             configuration=configuration,
             external=tuple((external or {}).items()),
+            triggers=tuple(triggers),
         )
 
-    def _add(
-        self,
-        kind: Instruction,
-        *,
-        joints: tuple[float, ...] = (),
-        pose: Pose | None = None,
-        via: Pose | None = None,
-        configuration: AxisConfiguration | None = None,
-        external: tuple[tuple[str, float], ...] = (),
-    ) -> Self:
-        self.steps.append(
-            ProgramStep(kind, self._speed, self._zone, joints, pose, via, configuration, external)
-        )
+    def _add(self, kind: Instruction, **operands: Unpack[_Operands]) -> Self:
+        held = {"tool": self._tool, "work_object": self._work_object}
+        self.steps.append(ProgramStep(kind, self._speed, self._zone, **operands, **held))
         return self
 
 

@@ -214,6 +214,14 @@ def _group(
         tool=tool_of(keys.tool, (*path, "tool"), report),
         payload=model.Payload(keys.payload.name, keys.payload.given_by == "TLoad"),
         work_object=work_object_of(keys.work_object, (*path, "work_object"), report),
+        tools=tuple(
+            tool_of(tool, (*path, "tools", number), report)
+            for number, tool in enumerate(keys.tools)
+        ),
+        work_objects=tuple(
+            work_object_of(wobj, (*path, "work_objects", number), report)
+            for number, wobj in enumerate(keys.work_objects)
+        ),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),
         positioners=tuple(

@@ -155,6 +155,9 @@ class GroupConfig:
     external_units: tuple[str, ...] = ()
     """Mechanical units of the external axes."""
     positioners: tuple[Positioner, ...] = field(default=(), metadata=SPARSE)
+    tools: tuple[Tool, ...] = field(default=(), metadata=SPARSE)
+    """Further ones, for motion programs."""
+    work_objects: tuple[WorkObject, ...] = field(default=(), metadata=SPARSE)
     kept: tuple[KeptAxis, ...] = field(default=(), metadata=SPARSE)
     """Robot axes without a joint."""
     unit_group: str = field(default="", metadata=SPARSE)

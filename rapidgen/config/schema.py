@@ -316,6 +316,12 @@ class GroupKeys(_Part):
     work_object: Annotated[WorkObjectKeys, Rule("Work object of the moves.")] = field(
         default_factory=WorkObjectKeys
     )
+    tools: Annotated[list[ToolKeys], Rule("Further tools, for motion programs.", max_length=16)] = (
+        field(default_factory=list)
+    )
+    work_objects: Annotated[
+        list[WorkObjectKeys], Rule("Further work objects, for motion programs.", max_length=16)
+    ] = field(default_factory=list)
     tcp_speed_limit: Annotated[
         float, Rule("Ceiling of the tool's speed, mm/s.", ge=0.001, le=10000)
     ] = 5000.0

@@ -22,6 +22,7 @@ from rapidgen.generate.hello import hello_reply
 from rapidgen.generate.numbers import inward, literal
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
+from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
 from rapidgen.wire.simple_message.spec import ReplyCode
 
 # Clients that the state port serves at a time.
@@ -57,6 +58,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
     joints = [_joint(config, group, n) for n in range(1, len(group.joints) + 1)]
     roles = layout.roles(config, group)
     payload = _payload(group.payload)
+    exposed = _exposed(config)
     return {
         "name": config.name,
         "group": group.name,
@@ -114,6 +116,10 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "tool": _tool(group.tool),
         "payload": payload,
         "wobj": _work_object(group.work_object),
+        "tools": [_tool(tool, n) for n, tool in enumerate((group.tool, *group.tools))],
+        "wobjs": [
+            _work_object(wobj, n) for n, wobj in enumerate((group.work_object, *group.work_objects))
+        ],
         "tload": f" \\TLoad:={payload['name']}" if payload["with_moves"] else "",
         # A clock counts microseconds only on newer controllers [mem].
         "high_res": " \\HighRes" if config.robotware[0] >= 6 else "",
@@ -124,7 +130,9 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         "status_at": messages.JOINT_POSITION.length + spec.PREFIX_BYTES + 1,
         "hello": hello_reply(config, group, build_id),
         **_streams(config, joints),
-        "exposed": _exposed(config),
+        "exposed": exposed,
+        "marks": any(signal["is_set"] for signal in exposed),
+        "most_marks": MOST_SIGNALS,
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
     }
@@ -177,6 +185,7 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
             "name": signal.name,
             "kind": signal.kind,
             "access": signal.access,
+            "is_set": signal.access == "write" and signal.kind[1] == "O",
             "reader": signal.kind[0] + ("Input" if signal.kind[1] == "I" else "Output"),
         }
         for n, signal in enumerate(config.signals, 1)
@@ -262,21 +271,23 @@ def _kept(config: RobotConfig, axis: KeptAxis) -> dict[str, object]:
 def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
     """(type, name, value) of the data that a module of the customer's declares."""
     data = (
-        ("tooldata", _tool(group.tool)),
-        ("wobjdata", _work_object(group.work_object)),
+        *(("tooldata", _tool(tool)) for tool in (group.tool, *group.tools)),
+        *(("wobjdata", _work_object(wobj)) for wobj in (group.work_object, *group.work_objects)),
         ("loaddata", _payload(group.payload)),
     )
     return [(kind, str(d["source"]), str(d["value"])) for kind, d in data if d["source"]]
 
 
-def _tool(tool: Tool) -> dict[str, object]:
+def _tool(tool: Tool, number: int = 0) -> dict[str, object]:
     value = f"[{_bool(tool.held)},{_frame(tool.frame)},{_load(tool.load)}]"
-    return _datum(tool.name, "tool", tool.name != "tool0", value, elsewhere=tool.elsewhere)
+    kind = f"tool_{number}" if number else "tool"
+    return _datum(tool.name, kind, tool.name != "tool0", value, elsewhere=tool.elsewhere)
 
 
-def _work_object(wobj: WorkObject) -> dict[str, object]:
+def _work_object(wobj: WorkObject, number: int = 0) -> dict[str, object]:
     value = f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
-    return _datum(wobj.name, "wobj", wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
+    kind = f"wobj_{number}" if number else "wobj"
+    return _datum(wobj.name, kind, wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
 
 
 def _payload(payload: Payload) -> dict[str, object]:

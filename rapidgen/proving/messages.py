@@ -95,6 +95,9 @@ class RawInstruction(IntEnum):
     MOVE_J = 2
     MOVE_L = 3
     MOVE_C = 4
+    WAIT = 5
+    WAIT_SIGNAL = 6
+    SET = 7
 
 
 class RawModal(IntFlag):
@@ -102,6 +105,8 @@ class RawModal(IntFlag):
 
     SPEED = 256
     ZONE = 512
+    FRAMES = 1024
+    SIGNALS = 2048
 
 
 class RawTrajectoryState(IntEnum):
@@ -152,6 +157,7 @@ class RawReason(IntEnum):
     BAD_ZONE = 31
     POSE_MISMATCH = 32
     NO_GEOMETRY = 33
+    NO_FRAME = 34
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42
@@ -161,6 +167,7 @@ class RawReason(IntEnum):
     POWER_FAILURE = 46
     MODE_CHANGED = 47
     INTERNAL = 49
+    WAITED = 50
 
 
 def text_of(reason: RawReason) -> str:

@@ -44,7 +44,7 @@ _NAMES = {
 
 
 @dataclass(frozen=True, slots=True)
-class Order:
+class RawOrder:
     """A move: the joints at its end (rad, m), the pose that they reach, `via` on a circle. `speed`
     (m/s, rad/s) and `zone` (m, rad; None: a stop point) stand in every instruction."""
 
@@ -86,7 +86,7 @@ class Programmer:
         self.number = 0
 
     def send(
-        self, orders: Sequence[Order], flags: RawStreamFlag = ALL, start: Position | None = None
+        self, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL, start: Position | None = None
     ) -> messages.RawContent:
         """A program in messages of some instructions; the last reply, or the first refusal."""
         self.number += 1
@@ -111,7 +111,7 @@ class Programmer:
         self.link.send(words_frame(self.number, first, count, words, flags, number=PROGRAM))
         return self.link.reply(PROGRAM, 5)
 
-    def takes(self, what: str, orders: Sequence[Order], flags: RawStreamFlag = ALL) -> int:
+    def takes(self, what: str, orders: Sequence[RawOrder], flags: RawStreamFlag = ALL) -> int:
         """Send a program; Broken unless it is taken. Its number among the trajectories."""
         told = self.send(orders, flags)
         if not isinstance(told, messages.RawPointsAccepted) or told.accepted != len(orders):
@@ -126,17 +126,17 @@ class Programmer:
             raise Broken(f"{what}: wanted {reason.name} at {index}, the reply is {told}")
 
 
-def orders(bench: Bench, count: int, chance: random.Random) -> list[Order]:
+def orders(bench: Bench, count: int, chance: random.Random) -> list[RawOrder]:
     """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
     middle = bent(bench)
-    found = [Order(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
+    found = [RawOrder(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
     geometry = bench.motion_group.kinematics
     for number in range(1, count):
         joints = near(bench, middle, chance)
         kind = chance.choice(_KINDS) if geometry is not None else RawInstruction.MOVE_ABSJ
         pose = None if kind is RawInstruction.MOVE_ABSJ else reached(bench, joints)
         zone = chance.choice((0.002, 0.005, 0.01)) if number + 1 < count else None
-        found.append(Order(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
+        found.append(RawOrder(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
     return found
 
 
@@ -183,7 +183,7 @@ def reached(bench: Bench, joints: Position) -> Pose:
     )
 
 
-def by_hand(bench: Bench, program: Sequence[Order]) -> System:
+def by_hand(bench: Bench, program: Sequence[RawOrder]) -> System:
     """The controller of a driver within a program that makes these moves, in RAPID's own words."""
     config: RobotConfig = replace(bench.config, call_main=False)
     system = make_system(config, build(config))
@@ -199,7 +199,7 @@ def by_hand(bench: Bench, program: Sequence[Order]) -> System:
     return in_its_cell(replace(system, tasks=tasks), config)
 
 
-def _statement(bench: Bench, order: Order) -> str:
+def _statement(bench: Bench, order: RawOrder) -> str:
     degrees = 57.29577951308232
     tcp, turn, linear, rotary = order.speeds
     speed = _list((tcp * 1000, turn * degrees, linear * 1000, rotary * degrees))

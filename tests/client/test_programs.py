@@ -4,8 +4,18 @@ import numpy as np
 import pytest
 from driven import complaints, driven
 
-from rapidgen.client import InvalidProgram, MotionStopped, NotSupported, Program
-from rapidgen.wire.simple_message.spec import TrajectoryState
+from rapidgen.axes import frames
+from rapidgen.client import (
+    InvalidProgram,
+    MotionFailed,
+    MotionStopped,
+    NotSupported,
+    Program,
+    Trigger,
+    pulse,
+)
+from rapidgen.system.model import SignalSpec
+from rapidgen.wire.simple_message.spec import Reason, TrajectoryState
 
 BENT = [0.2, 0.1, 0.1, 0.3, 0.6, -0.2]
 
@@ -106,3 +116,144 @@ def test_a_stop_gives_a_prefix_with_its_index():
             execution.result()
         assert 1 <= told.value.reached < 5
         assert robot.run(square(robot)).result().deviation < 1e-4
+
+
+CELL = {
+    "signals.valve": {"kind": "DO", "access": "write"},
+    "signals.part": {"kind": "DI"},
+    "signals.level": {"kind": "GO", "access": "write"},
+    "signals.flow": {"kind": "AO", "access": "write"},
+    "tools": [
+        {
+            "name": "grip",
+            "frame": {"position": [0, 0, 100]},
+            "load": {"mass": 1, "centre": [0, 0, 50]},
+        }
+    ],
+    "work_objects": [{"name": "table", "user_frame": {"position": [300, 0, 100]}}],
+}
+WIRED = (
+    SignalSpec("valve", "DO"),
+    SignalSpec("part", "DI"),
+    SignalSpec("flow", "AO"),
+    SignalSpec("level", "GO", size=8),
+)
+
+
+def cell():
+    return driven(overrides=CELL, signals=WIRED)
+
+
+def watched(robot, controller, name):
+    """(value, TCP) at each change of a signal."""
+    signal, group = controller.io[name], controller.motion.group("rob1")
+    seen = []
+    geometry = robot.group.poses
+    signal.changed.add(lambda: seen.append((signal.value, geometry.pose(group.commanded())[0])))
+    return seen
+
+
+def test_signals_are_set_on_the_way():
+    with cell() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        start = robot.pose
+        valve, flow, level = (watched(robot, controller, n) for n in ("valve", "flow", "level"))
+        program = Program(speed=0.1, zone="z5")
+        program.move_linear(moved(start, y=0.1), triggers=pulse("valve", 0.02, 0.05))
+        marks = [Trigger.before(0.01, "flow", 0.5), Trigger.ahead(0.2, "level", 7)]
+        program.move_linear(moved(start, y=0.1, z=0.08), triggers=marks, zone="fine")
+        assert robot.run(program).result().deviation < 1e-4
+        (on, opened), (off, closed) = valve
+        assert (on, off) == (1, 0)
+        assert [opened[1] - start[0][1], closed[1] - start[0][1]] == pytest.approx(
+            [0.02, 0.07], abs=2e-3
+        )
+        ((value, there),) = flow
+        assert (value, there[2] - start[0][2]) == pytest.approx((0.5, 0.07), abs=2e-3)
+        assert [v for v, _ in level] == [7]
+        assert not complaints(controller)
+
+
+def test_waits_and_signals_stand_between_moves():
+    with cell() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        start = robot.pose
+        higher = moved(start, z=0.05)
+        valve = watched(robot, controller, "valve")
+        program = Program(speed=0.2, zone="z10").move_linear(higher).set("valve").wait(1.0)
+        program.set("valve", 0).wait_for("part", timeout=5).move_linear(start)
+        execution = robot.run(program)
+        assert [d.code for d in execution.warnings] == ["RG654"]
+        assert "instruction 0" in execution.warnings[0].message
+        part = controller.io["part"]
+        controller.scheduler.after(4_000_000_000, lambda: controller.io.set(part, 1))
+        result = execution.result()
+        assert result.seconds > 3.9
+        for _, place in valve:
+            assert place == pytest.approx(higher[0], abs=1e-5)
+        assert [v for v, _ in valve] == [1, 0]
+
+
+def test_a_signal_that_does_not_come_ends_a_program():
+    with cell() as (robot, _):
+        robot.move_to(BENT, speed=1.0)
+        program = Program().wait_for("part", timeout=0.5).move_linear(moved(robot.pose, z=0.05))
+        with pytest.raises(MotionFailed) as told:
+            robot.run(program).result()
+        assert (told.value.reason, told.value.reached) == (Reason.WAITED, 0)
+        assert np.allclose(np.hstack(robot.pose), np.hstack(robot.pose_of(BENT)), atol=1e-5)
+
+
+def test_stop_ends_a_wait():
+    with cell() as (robot, _):
+        robot.move_to(BENT, speed=1.0)
+        execution = robot.run(
+            Program().wait(100).wait_for("part", timeout=100).move_joints([0.0] * 6)
+        )
+        robot.sleep(1)
+        robot.stop()
+        with pytest.raises(MotionStopped):
+            execution.result()
+        robot.run(Program().wait(0.1).move_joints(BENT)).result()
+
+
+def test_another_tool_in_another_object():
+    with cell() as (robot, controller):
+        robot.move_to(BENT, speed=1.0)
+        (x, y, z), q = robot.pose
+        tip = frames.transform(((x, y, z), q), (0.0, 0.0, 0.1))
+        there = (tip[0] - 0.3, tip[1] + 0.05, tip[2] - 0.1), q
+        program = Program(speed=0.2, zone="z10").move_linear(moved(robot.pose, z=0.01))
+        program.use(tool="grip", work_object="table").move_linear(there)
+        execution = robot.run(program)
+        assert "another tool" in execution.warnings[0].message
+        assert execution.result().deviation < 1e-4
+        assert np.allclose(robot.pose[0], (x, y + 0.05, z), atol=1e-5)
+        assert not complaints(controller)
+        with pytest.raises(InvalidProgram, match="no tool"):
+            robot.run(Program().use(tool="gripp").move_linear(there))
+
+
+@pytest.mark.parametrize(
+    "program",
+    [
+        Program().set("part"),
+        Program().set("nobody"),
+        Program().set("valve", 2),
+        Program().wait_for("flow", timeout=1),
+        Program().wait(-1),
+        Program().wait(float("nan")),
+        Program(speed=0).move_joints(BENT),
+        Program(zone=-1).move_joints(BENT),
+        Program().move_joints([0.0] * 5),
+        Program().move_joints([float("nan")] * 6),
+        Program().move_linear(((0.3, 0, 0.5), (2, 0, 0, 0))),
+        Program().move_linear(((float("inf"), 0, 0.5), (1, 0, 0, 0))),
+        Program(),
+    ],
+)
+def test_what_cannot_be_is_told_and_nothing_is_sent(program):
+    with cell() as (robot, _):
+        with pytest.raises(InvalidProgram):
+            robot.run(program)
+        assert robot.state.trajectory in (None, TrajectoryState.NONE)

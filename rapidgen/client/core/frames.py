@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration, Kinematics, Posture
-from rapidgen.config.model import GroupConfig, Placement
+from rapidgen.config.model import GroupConfig, Placement, Tool, WorkObject
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,17 +19,6 @@ class Frames:
     kinematics: Kinematics
     tool: Pose
     work_object: Pose
-
-    @classmethod
-    def of(cls, group: GroupConfig) -> "Frames | None":
-        """Those of a group; None where its geometry, its tool or its work object is not known, or
-        the tool stands beside the robot."""
-        kinematics = Kinematics.of(group)
-        tool, wobj = group.tool, group.work_object
-        if kinematics is None or tool.elsewhere or wobj.elsewhere or wobj.held or not tool.held:
-            return None
-        placed = frames.compose(_frame(wobj.user_frame), _frame(wobj.object_frame))
-        return cls(kinematics, _frame(tool.frame), placed)
 
     def pose(self, posture: Posture) -> Pose:
         """Where the TCP is; the quaternion's scalar is not negative."""
@@ -59,6 +48,43 @@ class Frames:
     def reaches(self, pose: Pose, near: Posture) -> bool:
         """Whether any posture reaches a pose, ranges apart."""
         return self.kinematics.reaches(self._flange(pose), near)
+
+
+@dataclass(frozen=True, slots=True)
+class Geometry:
+    """What poses can mean for a group: its tools and work objects by name, its own first."""
+
+    kinematics: Kinematics
+    tools: tuple[tuple[str, Pose | None], ...]
+    work_objects: tuple[tuple[str, Pose | None], ...]
+
+    @classmethod
+    def of(cls, group: GroupConfig) -> "Geometry | None":
+        """That of a group; None where its model has none."""
+        kinematics = Kinematics.of(group)
+        if kinematics is None:
+            return None
+        tools = tuple((tool.name, _tool(tool)) for tool in (group.tool, *group.tools))
+        objects = (group.work_object, *group.work_objects)
+        return cls(kinematics, tools, tuple((wobj.name, _object(wobj)) for wobj in objects))
+
+    def frames(self, tool: int = 0, work_object: int = 0) -> Frames | None:
+        """Those of a tool and a work object; None where one of them is not known here: declared
+        elsewhere, or on the wrong side."""
+        held, placed = self.tools[tool][1], self.work_objects[work_object][1]
+        if held is None or placed is None:
+            return None
+        return Frames(self.kinematics, held, placed)
+
+
+def _tool(tool: Tool) -> Pose | None:
+    return None if tool.elsewhere or not tool.held else _frame(tool.frame)
+
+
+def _object(wobj: WorkObject) -> Pose | None:
+    if wobj.elsewhere or wobj.held:
+        return None
+    return frames.compose(_frame(wobj.user_frame), _frame(wobj.object_frame))
 
 
 def _frame(placement: Placement) -> Pose:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
-from rapidgen.client.core.frames import Frames
+from rapidgen.client.core.frames import Frames, Geometry
 from rapidgen.client.errors import IncompatibleDriver, NotSupported
 from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
 from rapidgen.wire.simple_message.mapping import mapping_hash
@@ -33,7 +33,7 @@ class Group:
     """False: neither a configuration nor the driver told the limits."""
     signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
-    frames: Frames | None = None
+    geometry: Geometry | None = None
     """What poses mean; None where that is not known."""
 
     @classmethod
@@ -44,7 +44,7 @@ class Group:
             JointMap.of(group),
             config.trajectory,
             signals=tuple(config.signals),
-            frames=Frames.of(group),
+            geometry=Geometry.of(group),
         )
 
     @classmethod
@@ -82,14 +82,15 @@ class Group:
     @property
     def poses(self) -> Frames:
         """The robot's geometry. Raises NotSupported where it is not known."""
-        if self.frames is None:
+        frames = self.geometry.frames() if self.geometry is not None else None
+        if frames is None:
             raise NotSupported.because(
                 "RG651",
                 "the poses of this robot are not known",
                 "connect with a configuration that has the robot's chain, its tool and its work "
                 "object",
             )
-        return self.frames
+        return frames
 
     @property
     def names(self) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.client.core.frames import Frames
 from rapidgen.client.core.group import Group
 from rapidgen.client.errors import InvalidProgram
-from rapidgen.client.program import Program, ProgramStep, Speed, Zone
+from rapidgen.client.program import Program, ProgramStep, Speed, Trigger, Zone
 from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
 from rapidgen.wire.simple_message import instructions
 from rapidgen.wire.simple_message.spec import Instruction
@@ -30,6 +30,11 @@ _UNIT = 1e-3
 """A quaternion's length may be off by so much."""
 _FASTEST, _WIDEST = 10.0, 1.0
 """m/s and m that the driver takes, at most; 1,000 times as much in degrees of angles."""
+_LONGEST = 3600.0
+"""s of a wait."""
+_MOVES = frozenset(
+    (Instruction.MOVE_ABSJ, Instruction.MOVE_J, Instruction.MOVE_L, Instruction.MOVE_C)
+)
 _Way = Line | Arc
 
 
@@ -52,6 +57,8 @@ class _Walk:
         self.group = group
         self.here = start
         self.index = 0
+        self.chosen = (0, 0)
+        """Numbers of the tool and of the work object."""
         self.found: list[Diagnostic] = []
 
     def say(
@@ -63,15 +70,17 @@ class _Walk:
 
     @property
     def frames(self) -> Frames | None:
-        """The robot's geometry; told where it is missing."""
-        if self.group.frames is None:
+        """The robot's geometry with tool and work object; told where it is missing."""
+        geometry = self.group.geometry
+        found = geometry.frames(*self.chosen) if geometry is not None else None
+        if found is None:
             self.say(
                 "RG651",
                 "the joints of this pose are not known",
                 "connect with a configuration that has the robot's chain, its tool and its work "
                 "object",
             )
-        return self.group.frames
+        return found
 
 
 def check_program(
@@ -99,11 +108,16 @@ def check_program(
             _speed(walk, step.speed)
         if step.zone != (last.zone if last else None):
             _zone(walk, step.zone)
+        before, walk.chosen = walk.chosen, _frames(walk, step)
         begin = walk.here
         operands, duration = _MAKERS[step.kind](walk, step)
+        marks = [_mark(walk, trigger) for trigger in step.triggers]
         seconds.append(duration)
+        if last is not None and not last.zone.stops:
+            _stopped(walk, last, step, before != walk.chosen)
         if not _failed(walk):
-            words.append(_words(step, last, operands))
+            chosen = walk.chosen if walk.chosen != before else None
+            words.append(_words(step, last, operands, chosen, marks))
             if not words[1:]:
                 words[0] = [*instructions.fixed(begin), *words[0]]
         last = step
@@ -116,13 +130,103 @@ def _failed(walk: _Walk) -> bool:
     return any(d.severity is Severity.ERROR for d in walk.found)
 
 
-def _words(step: ProgramStep, last: ProgramStep | None, operands: Sequence[float]) -> list[int]:
+def _words(
+    step: ProgramStep,
+    last: ProgramStep | None,
+    operands: Sequence[float],
+    chosen: tuple[int, int] | None,
+    marks: Sequence[Sequence[float]],
+) -> list[int]:
     return instructions.instruction(
         step.kind,
         operands,
         speed=step.speed.words if last is None or last.speed != step.speed else None,
         zone=step.zone.words if last is None or last.zone != step.zone else None,
+        frames=chosen,
+        signals=marks,
     )
+
+
+def _frames(walk: _Walk, step: ProgramStep) -> tuple[int, int]:
+    """Numbers of tool and work object."""
+    geometry = walk.group.geometry
+    found = []
+    for what, name, known in (
+        ("tool", step.tool, geometry.tools if geometry else ()),
+        ("work object", step.work_object, geometry.work_objects if geometry else ()),
+    ):
+        names = [each for each, _ in known]
+        if name and name not in names:
+            walk.say(
+                "RG650",
+                f"the configuration has no {what} '{name}'",
+                suggest(name, names) or f"it has: {', '.join(names) or 'none'}",
+            )
+            return walk.chosen
+        found.append(names.index(name) if name else 0)
+    return found[0], found[1]
+
+
+def _stopped(walk: _Walk, last: ProgramStep, step: ProgramStep, changed: bool) -> None:
+    """Say where the robot stops though a zone was given."""
+    why = "another tool or work object is next" if changed else "the next one does not move"
+    if last.kind in _MOVES and (changed or step.kind not in _MOVES):
+        place = f"instruction {walk.index - 1}: the robot stops there, in no zone: {why}"
+        walk.found.append(error("RG654", None, place, severity=Severity.INFO))
+
+
+# -- signals and waits ----------------------------------------------------------------------------
+
+
+def _signal(walk: _Walk, name: str, value: float, *, sets: bool) -> int:
+    """The number of a signal; told where it cannot be set or have this value."""
+    signals = walk.group.signals
+    names = [signal.name for signal in signals]
+    if name not in names:
+        walk.say(
+            "RG650",
+            f"the configuration exposes no signal '{name}'",
+            suggest(name, names) or f"it exposes: {', '.join(names) or 'none'}",
+        )
+        return 0
+    signal = signals[names.index(name)]
+    if sets and signal.access != "write":
+        walk.say("RG650", f"signal '{name}' is exposed for reading only", "`access: write`")
+    digital = signal.kind[0] == "D" and value not in (0, 1)
+    group = signal.kind[0] == "G" and not (value >= 0 and value == int(value))
+    if digital or group or not isfinite(value):
+        walk.say("RG650", f"signal '{name}' ({signal.kind}) cannot be {value:g}")
+    if not sets and signal.kind[0] == "A":
+        walk.say("RG650", f"signal '{name}' is analogue: nobody waits for a value of it")
+    return names.index(name)
+
+
+def _mark(walk: _Walk, trigger: Trigger) -> tuple[float, ...]:
+    """The words of a signal on the way."""
+    number = _signal(walk, trigger.signal, trigger.value, sets=True)
+    if not (isfinite(trigger.place) and 0 <= trigger.place <= _WIDEST * 10):
+        walk.say("RG650", f"signal '{trigger.signal}' at {trigger.place:g}", "m or s, 0 to 10")
+    return number, trigger.value, trigger.kind, trigger.place
+
+
+def _wait(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
+    return (_seconds(walk, step),), step.seconds
+
+
+def _wait_signal(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
+    number = _signal(walk, step.signal, step.value, sets=False)
+    return (number, step.value, _seconds(walk, step)), step.seconds
+
+
+def _set(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
+    return (_signal(walk, step.signal, step.value, sets=True), step.value), 0.0
+
+
+def _seconds(walk: _Walk, step: ProgramStep) -> float:
+    if not 0 <= step.seconds <= _LONGEST:
+        walk.say("RG650", f"a wait of {step.seconds:g} s", f"0 to {_LONGEST:g} s")
+        return 0.0
+    return step.seconds
 
 
 def _speed(walk: _Walk, speed: Speed) -> None:
@@ -197,6 +301,9 @@ _MAKERS: dict[Instruction, Callable[[_Walk, ProgramStep], tuple[Sequence[float],
     Instruction.MOVE_J: _joint_move,
     Instruction.MOVE_L: _line,
     Instruction.MOVE_C: _circle,
+    Instruction.WAIT: _wait,
+    Instruction.WAIT_SIGNAL: _wait_signal,
+    Instruction.SET: _set,
 }
 
 
@@ -264,7 +371,8 @@ def _go(walk: _Walk, target: Posture, step: ProgramStep) -> float:
     """Be there; seconds that it takes, at least."""
     pairs = zip(walk.group.joints, walk.here, target, strict=True)
     seconds = max(abs(b - a) / joint.speed for joint, a, b in pairs)
-    robot = walk.group.frames
+    geometry = walk.group.geometry
+    robot = geometry.frames(*walk.chosen) if geometry is not None else None
     if robot is not None:
         start, end = robot.pose(walk.here), robot.pose(target)
         seconds = max(seconds, frames.distance(start[0], end[0]) / max(step.speed.tcp, 1e-9))

@@ -12,8 +12,8 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.programs import (
     ALL,
     BEGIN,
-    Order,
     Programmer,
+    RawOrder,
     by_hand,
     farthest,
     movement,
@@ -50,7 +50,7 @@ def _like_rapid(bench: Bench) -> None:
                 raise Broken(f"a program is {far * 1000:.3f} mm off the way of the same in RAPID")
 
 
-def _moved(bench: Bench, program: list[Order], since: float) -> tuple[float, list[Position]]:
+def _moved(bench: Bench, program: list[RawOrder], since: float) -> tuple[float, list[Position]]:
     """s of movement and where the robot was, until it stands at the end."""
     bench.wait_until_at(program[-1].joints, 60)
     bench.run(0.3)
@@ -64,7 +64,7 @@ def _refused(bench: Bench) -> None:
     client, watcher = Programmer(bench), bench.watcher()
     joint = bench.group.joints[0]
     outside = changed(right[3].joints, 0, joint.upper + 2 * small_unit(joint))
-    wrong: list[tuple[Order, RawReason]] = [
+    wrong: list[tuple[RawOrder, RawReason]] = [
         (replace(right[3], joints=outside, pose=None, kind=MOVE_ABSJ), RawReason.JOINT_LIMIT),
         (replace(right[3], speed=0.0), RawReason.BAD_SPEED),
         (replace(right[3], speed=-1.0), RawReason.BAD_SPEED),

@@ -19,6 +19,9 @@ OPERANDS: dict[Instruction, str] = {
     Instruction.MOVE_J: "position, orientation, joints",
     Instruction.MOVE_L: "position, orientation, joints",
     Instruction.MOVE_C: "position, orientation on the way, position, orientation, joints",
+    Instruction.WAIT: "seconds",
+    Instruction.WAIT_SIGNAL: "number of the signal as of SIGNAL, its value, seconds at most",
+    Instruction.SET: "number of the signal as of SIGNAL, its value",
 }
 """Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
 the group's joints in rad or m."""
@@ -26,7 +29,12 @@ MODALS: dict[Modal, str] = {
     Modal.SPEED: "speeds of the TCP m/s, its orientation rad/s, external axes m/s and rad/s",
     Modal.ZONE: "1 stop point, 0 not; radii of the TCP, its orientation, external axes, m; of "
     "orientation rad, of linear m and of rotary external axes rad",
+    Modal.FRAMES: "numbers of tool and work object; 0 the group's own, 1 the first other one",
+    Modal.SIGNALS: "how many, 1 to 8; of each its number, its value, where it is set (0 m from the "
+    "beginning, 1 m before the end, 2 s before the end) and that distance",
 }
+MOST_SIGNALS = 8
+"""That are set on one move."""
 
 
 def fixed(values: Sequence[float]) -> list[int]:
@@ -42,8 +50,11 @@ def instruction(
     *,
     speed: Sequence[float] | None = None,
     zone: Sequence[float] | None = None,
+    frames: tuple[int, int] | None = None,
+    signals: Sequence[Sequence[float]] = (),
 ) -> list[int]:
-    """The words of one instruction; `speed` (4) and `zone` (7) where they change."""
+    """The words of one instruction; `speed` (4), `zone` (7) and `frames` where they change, of each
+    of `signals` four."""
     first = int(kind)
     values: list[float] = []
     if speed is not None:
@@ -52,4 +63,10 @@ def instruction(
     if zone is not None:
         first |= Modal.ZONE
         values += zone
+    if frames is not None:
+        first |= Modal.FRAMES
+        values += frames
+    if signals:
+        first |= Modal.SIGNALS
+        values += [len(signals), *(value for one in signals for value in one)]
     return [first, *fixed([*values, *operands])]

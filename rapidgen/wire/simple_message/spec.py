@@ -131,13 +131,30 @@ class Instruction(IntEnum):
     MOVE_J = 2
     MOVE_L = 3
     MOVE_C = 4
+    WAIT = 5
+    WAIT_SIGNAL = 6
+    SET = 7
 
 
 class Modal(IntFlag):
-    """What stands before the operands of an instruction and holds from it on, in this order."""
+    """What stands before the operands of an instruction, in this order; all but SIGNALS holds from
+    it on."""
 
     SPEED = 256
     ZONE = 512
+    FRAMES = 1024
+    SIGNALS = 2048
+
+
+class Mark(IntEnum):
+    """Where on its move a signal is set."""
+
+    START = 0
+    """m from the beginning of the move"""
+    END = 1
+    """m before its end"""
+    TIME = 2
+    """s before its end"""
 
 
 class EventType(IntEnum):
@@ -213,6 +230,7 @@ class Reason(IntEnum):
     BAD_ZONE = 31, "a zone is missing, or outside its range"
     POSE_MISMATCH = 32, "the joints do not reach the pose on this controller"
     NO_GEOMETRY = 33, "the controller does not tell what pose the joints reach"
+    NO_FRAME = 34, "the driver does not have this tool or work object"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"
@@ -223,6 +241,7 @@ class Reason(IntEnum):
     MODE_CHANGED = 47, "the operating mode changed"
     STARVED = 48, "the next point came too late"
     INTERNAL = 49, "the driver met a state that it does not know"
+    WAITED = 50, "a signal did not come in time"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:

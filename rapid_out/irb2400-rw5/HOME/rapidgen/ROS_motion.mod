@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "ab62582ff407";
+    CONST string ROS_BUILD_MOTION := "7d9f0889d2f1";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -268,7 +268,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR bool stops;
 
-        ROS_ordered := ROS_orders{ROS_tail MOD ROS_RING_SIZE + 1};
+        ROS_fetch_order ROS_tail MOD ROS_RING_SIZE + 1;
         next := ROS_next(ROS_tail);
         IF ROS_ordered.session <> ROS_session OR ROS_ordered.session = ROS_dead THEN
             ROS_tail := next;
@@ -303,6 +303,7 @@ MODULE ROS_motion
         in_move := TRUE;
         IF ROS_abort = ROS_abort_done ROS_execute stops;
         in_move := FALSE;
+        fault := ROS_order_fault;
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;

@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "ab62582ff407";
+    CONST string ROS_BUILD_PROGRAMS := "7d9f0889d2f1";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 1000;
@@ -20,6 +20,8 @@ MODULE ROS_programs
     LOCAL CONST dnum STEPS := 1000000;
     LOCAL CONST dnum DEG := 5.729577951308232E-05;
     LOCAL CONST dnum MM := 0.001;
+    ! s of a wait, at most.
+    LOCAL CONST num LONGEST := 3600;
     ! A pose is reached when it is no farther away than this (mm), and no more turned than this cosine of
     ! half an angle: 0.2 degrees.
     LOCAL CONST num NEAR := 1;
@@ -41,6 +43,8 @@ MODULE ROS_programs
     PROC ROS_begin_program()
         has_speed := FALSE;
         has_zone := FALSE;
+        order.tool := 0;
+        order.wobj := 0;
     ENDPROC
 
     ! Take `count` instructions, which fill `data` from byte `first` up to byte `last`. Those before one
@@ -135,13 +139,16 @@ MODULE ROS_programs
 
         next_word data;
         first := DnumToNum(word);
-        IF NOT (0 < first AND first < 2 * ROS_SET_ZONE) THEN
+        IF NOT (0 < first AND first < 2 * ROS_SET_SIGNALS) THEN
             ROS_object ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDIF
         IF (first DIV ROS_SET_SPEED) MOD 2 = 1 take_speed data;
         IF (first DIV ROS_SET_ZONE) MOD 2 = 1 take_zone data;
+        IF (first DIV ROS_SET_FRAMES) MOD 2 = 1 take_frames data;
         order.kind := first MOD ROS_SET_SPEED;
+        order.marks := 0;
+        IF (first DIV ROS_SET_SIGNALS) MOD 2 = 1 ROS_object ROS_REASON_NO_SIGNAL;
         TEST order.kind
         CASE ROS_DO_MOVE_ABSJ:
             take_joints data;
@@ -156,10 +163,17 @@ MODULE ROS_programs
             meet_pose;
             order.via.robconf := order.target.robconf;
             order.via.extax := order.target.extax;
+        CASE ROS_DO_WAIT:
+            order.seconds := plain(data);
+            IF NOT (0 <= order.seconds AND order.seconds <= LONGEST) ROS_object ROS_REASON_BAD_VALUE;
         DEFAULT:
             ROS_object ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDTEST
+        ! A signal on the way needs a way of the TCP.
+        IF order.marks > 0 AND (order.kind < ROS_DO_MOVE_J OR order.kind > ROS_DO_MOVE_C)
+            ROS_object ROS_REASON_NO_INSTRUCTION;
+        IF order.kind > ROS_DO_MOVE_C RETURN;
         IF NOT has_speed ROS_object ROS_REASON_BAD_SPEED;
         IF NOT has_zone ROS_object ROS_REASON_BAD_ZONE;
     ERROR
@@ -202,6 +216,16 @@ MODULE ROS_programs
     LOCAL FUNC bool is_radius(num value)
         RETURN 0 <= value AND value <= WIDEST;
     ENDFUNC
+
+    LOCAL PROC take_frames(VAR rawbytes data)
+        order.tool := plain(data);
+        order.wobj := plain(data);
+        IF NOT (0 <= order.tool AND order.tool < 1 AND order.tool = Trunc(order.tool)
+            AND 0 <= order.wobj AND order.wobj < 1 AND order.wobj = Trunc(order.wobj))
+            ROS_object ROS_REASON_NO_FRAME;
+    ERROR
+        RAISE;
+    ENDPROC
 
     ! The joints at the end, within their limits.
     LOCAL PROC take_joints(VAR rawbytes data)
@@ -259,13 +283,26 @@ MODULE ROS_programs
         RETURN a.q1 * b.q1 + a.q2 * b.q2 + a.q3 * b.q3 + a.q4 * b.q4;
     ENDFUNC
 
+    ! The pose that the joints reach.
+    LOCAL FUNC robtarget pose_with(PERS tooldata tool)
+        TEST order.wobj
+        DEFAULT:
+            RETURN CalcRobT(order.joints, tool \WObj:=table);
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDFUNC
+
     ! The joints have to reach the pose; then the target has the configuration that they have, and
     ! their external axes.
     LOCAL PROC meet_pose()
         VAR robtarget reached;
 
         IF ROS_fault <> ROS_REASON_NONE RETURN;
-        reached := CalcRobT(order.joints, torch \WObj:=table);
+        TEST order.tool
+        CASE 0:
+            reached := pose_with(torch);
+        ENDTEST
         IF NOT (VectMagn(reached.trans - order.target.trans) <= NEAR
             AND Abs(along(reached.rot, order.target.rot)) >= UNTURNED)
             ROS_object ROS_REASON_POSE_MISMATCH;

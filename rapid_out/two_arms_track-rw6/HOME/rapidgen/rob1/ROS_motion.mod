@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "783ab54af970";
+    CONST string ROS_BUILD_MOTION := "96706545372b";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -255,7 +255,7 @@ MODULE ROS_motion
         VAR num arrived;
         VAR bool stops;
 
-        ROS_ordered := ROS_orders_1{ROS_tail_1 MOD ROS_RING_SIZE + 1};
+        ROS_fetch_order ROS_tail_1 MOD ROS_RING_SIZE + 1;
         next := ROS_next(ROS_tail_1);
         IF ROS_ordered.session <> ROS_session_1 OR ROS_ordered.session = ROS_dead_1 THEN
             ROS_tail_1 := next;
@@ -290,6 +290,7 @@ MODULE ROS_motion
         in_move := TRUE;
         IF ROS_abort_1 = ROS_abort_done_1 ROS_execute stops;
         in_move := FALSE;
+        fault := ROS_order_fault;
     ERROR
         in_move := FALSE;
         fault := ROS_REASON_MOTION_ERROR;

@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "783ab54af970";
+    CONST string ROS_BUILD_PROGRAMS := "96706545372b";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;
@@ -20,6 +20,8 @@ MODULE ROS_programs
     LOCAL CONST dnum STEPS := 1000000;
     LOCAL CONST dnum DEG := 5.729577951308232E-05;
     LOCAL CONST dnum MM := 0.001;
+    ! s of a wait, at most.
+    LOCAL CONST num LONGEST := 3600;
     ! A pose is reached when it is no farther away than this (mm), and no more turned than this cosine of
     ! half an angle: 0.2 degrees.
     LOCAL CONST num NEAR := 1;
@@ -27,6 +29,7 @@ MODULE ROS_programs
 
     ! The instruction at hand, and what of it was ever given.
     LOCAL VAR ROS_order order;
+    LOCAL VAR ROS_mark mark{8};
     LOCAL VAR bool has_speed := FALSE;
     LOCAL VAR bool has_zone := FALSE;
     ! Where the robot has to stand when the program begins.
@@ -41,6 +44,8 @@ MODULE ROS_programs
     PROC ROS_begin_program()
         has_speed := FALSE;
         has_zone := FALSE;
+        order.tool := 0;
+        order.wobj := 0;
     ENDPROC
 
     ! Take `count` instructions, which fill `data` from byte `first` up to byte `last`. Those before one
@@ -88,6 +93,9 @@ MODULE ROS_programs
         order.session := ROS_trajectory_1;
         order.index := ROS_count;
         ROS_orders_1{place MOD ROS_RING_SIZE + 1} := order;
+        FOR n FROM 1 TO 8 DO
+            IF n <= order.marks ROS_marks_1{place MOD ROS_RING_SIZE + 1, n} := mark{n};
+        ENDFOR
     ENDPROC
 
     ! -- reading -------------------------------------------------------------------------------------
@@ -132,13 +140,16 @@ MODULE ROS_programs
 
         next_word data;
         first := DnumToNum(word);
-        IF NOT (0 < first AND first < 2 * ROS_SET_ZONE) THEN
+        IF NOT (0 < first AND first < 2 * ROS_SET_SIGNALS) THEN
             ROS_object ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDIF
         IF (first DIV ROS_SET_SPEED) MOD 2 = 1 take_speed data;
         IF (first DIV ROS_SET_ZONE) MOD 2 = 1 take_zone data;
+        IF (first DIV ROS_SET_FRAMES) MOD 2 = 1 take_frames data;
         order.kind := first MOD ROS_SET_SPEED;
+        order.marks := 0;
+        IF (first DIV ROS_SET_SIGNALS) MOD 2 = 1 take_marks data;
         TEST order.kind
         CASE ROS_DO_MOVE_ABSJ:
             take_joints data;
@@ -153,10 +164,27 @@ MODULE ROS_programs
             meet_pose;
             order.via.robconf := order.target.robconf;
             order.via.extax := order.target.extax;
+        CASE ROS_DO_WAIT:
+            order.seconds := plain(data);
+            IF NOT (0 <= order.seconds AND order.seconds <= LONGEST) ROS_object ROS_REASON_BAD_VALUE;
+        CASE ROS_DO_WAIT_SIGNAL:
+            order.signal := plain(data);
+            order.value := plain(data);
+            order.seconds := plain(data);
+            IF NOT (0 <= order.seconds AND order.seconds <= LONGEST) ROS_object ROS_REASON_BAD_VALUE;
+            ROS_object wait_fault(order.signal, order.value);
+        CASE ROS_DO_SET:
+            order.signal := plain(data);
+            order.value := plain(data);
+            ROS_object set_fault(order.signal, order.value);
         DEFAULT:
             ROS_object ROS_REASON_NO_INSTRUCTION;
             RETURN;
         ENDTEST
+        ! A signal on the way needs a way of the TCP.
+        IF order.marks > 0 AND (order.kind < ROS_DO_MOVE_J OR order.kind > ROS_DO_MOVE_C)
+            ROS_object ROS_REASON_NO_INSTRUCTION;
+        IF order.kind > ROS_DO_MOVE_C RETURN;
         IF NOT has_speed ROS_object ROS_REASON_BAD_SPEED;
         IF NOT has_zone ROS_object ROS_REASON_BAD_ZONE;
     ERROR
@@ -198,6 +226,68 @@ MODULE ROS_programs
 
     LOCAL FUNC bool is_radius(num value)
         RETURN 0 <= value AND value <= WIDEST;
+    ENDFUNC
+
+    LOCAL PROC take_frames(VAR rawbytes data)
+        order.tool := plain(data);
+        order.wobj := plain(data);
+        IF NOT (0 <= order.tool AND order.tool < 1 AND order.tool = Trunc(order.tool)
+            AND 0 <= order.wobj AND order.wobj < 1 AND order.wobj = Trunc(order.wobj))
+            ROS_object ROS_REASON_NO_FRAME;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! Signals that are set on the way.
+    LOCAL PROC take_marks(VAR rawbytes data)
+        VAR num count;
+
+        count := plain(data);
+        IF NOT (1 <= count AND count <= 8) THEN
+            ROS_object ROS_REASON_BAD_VALUE;
+            RETURN;
+        ENDIF
+        FOR n FROM 1 TO count DO
+            mark{n}.signal := plain(data);
+            mark{n}.value := plain(data);
+            mark{n}.kind := plain(data);
+            ! m to mm; s stay s.
+            mark{n}.place := plain(data);
+            IF mark{n}.kind <> ROS_MARK_TIME mark{n}.place := 1000 * mark{n}.place;
+            ROS_object set_fault(mark{n}.signal, mark{n}.value);
+            IF NOT (0 <= mark{n}.place AND mark{n}.place <= 10000) ROS_object ROS_REASON_BAD_VALUE;
+            IF mark{n}.kind <> ROS_MARK_START AND mark{n}.kind <> ROS_MARK_END AND mark{n}.kind <> ROS_MARK_TIME
+                ROS_object ROS_REASON_BAD_VALUE;
+        ENDFOR
+        order.marks := count;
+    ERROR
+        RAISE;
+    ENDPROC
+
+    ! Why a signal cannot be set to a value, 0: it can.
+    LOCAL FUNC num set_fault(num signal, num value)
+        TEST signal
+        CASE 0:
+            IF value <> 0 AND value <> 1 RETURN ROS_REASON_BAD_VALUE;
+        CASE 1:
+            RETURN ROS_REASON_READ_ONLY;
+        DEFAULT:
+            RETURN ROS_REASON_NO_SIGNAL;
+        ENDTEST
+        RETURN ROS_REASON_NONE;
+    ENDFUNC
+
+    ! Why nobody can wait for a value of a signal, 0: one can.
+    LOCAL FUNC num wait_fault(num signal, num value)
+        TEST signal
+        CASE 0:
+            IF value <> 0 AND value <> 1 RETURN ROS_REASON_BAD_VALUE;
+        CASE 1:
+            IF value <> 0 AND value <> 1 RETURN ROS_REASON_BAD_VALUE;
+        DEFAULT:
+            RETURN ROS_REASON_NO_SIGNAL;
+        ENDTEST
+        RETURN ROS_REASON_NONE;
     ENDFUNC
 
     ! The joints at the end, within their limits.
@@ -264,13 +354,26 @@ MODULE ROS_programs
         RETURN a.q1 * b.q1 + a.q2 * b.q2 + a.q3 * b.q3 + a.q4 * b.q4;
     ENDFUNC
 
+    ! The pose that the joints reach.
+    LOCAL FUNC robtarget pose_with(PERS tooldata tool)
+        TEST order.wobj
+        DEFAULT:
+            RETURN CalcRobT(order.joints, tool \WObj:=wobj0);
+        ENDTEST
+    ERROR
+        RAISE;
+    ENDFUNC
+
     ! The joints have to reach the pose; then the target has the configuration that they have, and
     ! their external axes.
     LOCAL PROC meet_pose()
         VAR robtarget reached;
 
         IF ROS_fault <> ROS_REASON_NONE RETURN;
-        reached := CalcRobT(order.joints, torch \WObj:=wobj0);
+        TEST order.tool
+        CASE 0:
+            reached := pose_with(torch);
+        ENDTEST
         IF NOT (VectMagn(reached.trans - order.target.trans) <= NEAR
             AND Abs(along(reached.rot, order.target.rot)) >= UNTURNED)
             ROS_object ROS_REASON_POSE_MISMATCH;
