@@ -115,6 +115,9 @@ ceiling: $(STAMP) ## 2 min: how fast the TCP is in 1,000 random trajectories und
 schedules: $(STAMP) ## 20 min: 20,000 emergency stops and power failures at 80 % of an axis' speed
 	$(BIN)/python benchmarks/fast_stops.py --jobs 2 --pairs irb120 irb6700
 
+ros-goals: $(STAMP) ## 20 min: 10,000 goals of FollowJointTrajectory by lot, with faults at any moment
+	$(BIN)/python benchmarks/ros_goals.py
+
 driver-frames: $(STAMP) ## 30 min: 100,000 hostile openings on all ports, each followed by a good client
 	$(BIN)/python benchmarks/campaign.py frames --jobs 2
 

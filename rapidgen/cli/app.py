@@ -43,6 +43,8 @@ VERBS = {
     "rollback": "Go back to the set before the last deployment, or to backup ID.",
     "uninstall": "Go back to the state before the first deployment.",
     "doctor": "Look at a controller: reach, ports, names, RobotWare, disk, what runs.",
+    "ros2": "Write a ROS 2 package: launch files, URDF, SRDF and MoveIt configuration.",
+    "ros1": "Write a catkin package for the unmodified ROS-Industrial nodes.",
     "demo": "Build a driver, boot it on a virtual controller, move it, and report.",
 }
 

@@ -354,6 +354,11 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
         found = group.poses.postures(pose_of(pose), here, configuration)
         return tuple(group.map.to_urdf(posture) for posture in found)
 
+    @property
+    def override(self) -> float:
+        """Share of the programmed speed (0.01 to 1) that this client last asked for."""
+        return self._core.override
+
     def check(self, trajectory: Trajectory) -> tuple[Diagnostic, ...]:
         """Warnings about a trajectory. Raises InvalidTrajectory with every fault; sends nothing."""
         with self._carrier.guard:

@@ -14,6 +14,8 @@ from functools import cache
 from rapidgen.runtime.values import Record
 from tests.docs.tree import PACKAGE, ROOT, circles, imports, lines_of, modules, room, tree_of
 
+_NEEDS_ROS = {"rapidgen.ros.node"}
+
 
 @dataclass(frozen=True)
 class Figure:
@@ -99,7 +101,7 @@ def classes() -> list[type]:
     found = {
         thing
         for name in modules()
-        if not name.endswith("__main__")
+        if not name.endswith("__main__") and name not in _NEEDS_ROS
         for thing in vars(importlib.import_module(name)).values()
         if inspect.isclass(thing) and thing.__module__ == name
     }
@@ -168,7 +170,7 @@ FIGURES = [
     Figure("lines of the longest file", files, 600, together=False),
     # What the product gains costs lines: an issue that lands raises this by what it needed, in the
     # open. 92,067 after the move into rooms, 4 % fewer than before it.
-    Figure("lines of package and tests", all_lines, 107_500),
+    Figure("lines of package and tests", all_lines, 125_000),
     Figure("ignore_imports", ignored_imports, 0),
     Figure("lines of rapid_out", goldens, 21_500),
 ]

@@ -1,0 +1,406 @@
+"""A goal carried out: SUCCEEDED only on the controller's DONE, everything else with its reason.
+
+One `Follower` is one motion group. It runs on the loop of its robot, also on a virtual clock.
+"""
+
+import asyncio
+import math
+from collections.abc import AsyncIterator, Callable
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import numpy as np
+
+from rapidgen.client.aio import AsyncExecution, AsyncRobot
+from rapidgen.client.core.motion import Result
+from rapidgen.client.errors import MotionError, MotionStopped, RobotError, StopFailed
+from rapidgen.client.trajectory import Array, Trajectory
+from rapidgen.ros.goals import Asked, Code, Defaults, Ending, Goal, GoalRefused, Outcome, judge
+from rapidgen.wire.simple_message.spec import Feature, TrajectoryState
+
+_APPROACH = 0.1
+"""Share of the axes' speeds at which a replacing goal's first point is gone to."""
+_GRACE = 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Policy:
+    """What the user said of goals; the defaults refuse what is in doubt."""
+
+    defaults: Defaults = field(default_factory=Defaults)
+    replace: Literal["refuse", "approach"] = "refuse"
+    """A goal while another one moves: refused, or the robot stops and goes from there to the
+    first point of the new one, on a straight way in joint space that nobody planned."""
+    dense: Literal["refuse", "resample"] = "refuse"
+    """Points nearer in time than the controller's planner follows: refused, or replaced by
+    points on the same way that are far enough apart."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class GoalFeedback:
+    """Of FollowJointTrajectory: positions rad or m and velocities (k,), `time` s since the start;
+    `error` is desired minus actual."""
+
+    names: tuple[str, ...]
+    time: float
+    desired: Array
+    desired_velocity: Array
+    actual: Array
+    actual_velocity: Array
+
+    @property
+    def error(self) -> Array:
+        """Desired minus actual positions."""
+        difference: Array = self.desired - self.actual
+        return difference
+
+
+class UnderWay:
+    """A goal from its acceptance to its end, and whether somebody wants it to end."""
+
+    def __init__(self) -> None:
+        self.ending = asyncio.Event()
+        self.over = asyncio.Event()
+        self.is_replaced = False
+
+    def cancel(self) -> None:
+        """End it, on the follower's loop; `follow` returns when the robot stands."""
+        self.ending.set()
+
+    def replace(self) -> None:
+        """End it in favour of another one."""
+        self.is_replaced = True
+        self.ending.set()
+
+
+class Follower:
+    """Carries out goals for one robot, one at a time."""
+
+    def __init__(
+        self,
+        robot: AsyncRobot,
+        policy: Policy,
+        now: Callable[[], float],
+        note: Callable[[str], None],
+    ) -> None:
+        """`now` is s of ROS time; `note` takes what the user should know of a goal."""
+        self._robot = robot
+        self._policy = policy
+        self._now = now
+        self._note = note
+        self._current: UnderWay | None = None
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether a goal is under way."""
+        return self._current is not None
+
+    async def follow(
+        self, goal: Goal, tell: Callable[[GoalFeedback], None], under: UnderWay
+    ) -> Outcome:
+        """Carry out a goal; returns when it is over and, after a stop, the robot stands.
+
+        `under` is how it is cancelled, also before this is called.
+        """
+        try:
+            asked = judge(goal, self._robot.group.names, self._policy.defaults, self._now())
+            await self._enter(under)
+        except GoalRefused as refused:
+            return refused.outcome
+        except RobotError as error:
+            return _aborted(Code.INVALID_GOAL, error)
+        try:
+            return await self._carried_out(asked, under, tell)
+        finally:
+            if self._current is under:
+                self._current = None
+            under.over.set()
+
+    async def _enter(self, under: UnderWay) -> None:
+        """Take the place of the goal under way, once nobody has it. Raises GoalRefused."""
+        while (other := self._current) is not None:
+            if self._policy.replace == "refuse":
+                raise GoalRefused(
+                    Code.INVALID_GOAL,
+                    "another goal is executed: cancel it and wait for its end "
+                    "(replace: approach would stop it)",
+                )
+            other.replace()
+            await other.over.wait()
+        self._current = under
+
+    async def _carried_out(
+        self, asked: Asked, under: UnderWay, tell: Callable[[GoalFeedback], None]
+    ) -> Outcome:
+        if await self._waited(asked.start or 0.0, under):
+            return _ended_early(under, "before it started: nothing moved")
+        try:
+            asked = self._fitted(asked)
+            execution = await self._accepted(asked.trajectory, under)
+        except GoalRefused as refused:
+            return refused.outcome
+        except MotionError as error:
+            return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
+        except RobotError as error:
+            return _aborted(Code.INVALID_GOAL, error)
+        if execution is None:
+            return _ended_early(under, "while it was sent; the robot stands")
+        for note in asked.notes:
+            self._note(note)
+        return await self._until_over(asked, execution, under, tell)
+
+    async def _waited(self, start: float, under: UnderWay) -> bool:
+        """Wait for the moment `start` s of ROS time; True when the goal is ended before it."""
+        while (left := start - self._now()) > 0:
+            ending = asyncio.ensure_future(under.ending.wait())
+            # ROS time may be simulated, at a speed of its own: it is looked at again.
+            await asyncio.wait({ending}, timeout=min(left, 0.1))
+            if under.ending.is_set():
+                break
+            await _cancelled(ending)
+        return under.ending.is_set()
+
+    def _fitted(self, asked: Asked) -> Asked:
+        """The points as the user's policy has them sent. Raises GoalRefused."""
+        if asked.watches_path and not self._measures:
+            raise GoalRefused(
+                Code.INVALID_GOAL,
+                "path_tolerance cannot be watched: this driver sends no feedback with the "
+                "controller's time (-1 asks for none)",
+            )
+        shortest = self._robot.group.policy.min_segment
+        if self._policy.dense == "resample":
+            asked = resampled(asked, shortest)
+        asked = with_time_to_stop(asked, shortest)
+        if self._policy.replace == "approach":
+            asked = self._approached(asked)
+        return asked
+
+    @property
+    def _measures(self) -> bool:
+        return Feature.FEEDBACK in self._robot.driver.features
+
+    def _approached(self, asked: Asked) -> Asked:
+        group, state, trajectory = self._robot.group, self._robot.state, asked.trajectory
+        here, first = np.array(state.joints), trajectory.positions[0]
+        # Where the controller takes it as it is, nothing is added.
+        if trajectory.times[0] > 0 or (np.abs(here - first) <= group.start_tolerance).all():
+            return asked
+        wire = np.abs(np.diff(group.to_wire(np.array([here, first])), axis=0)[0])
+        seconds = max(float((wire / (group.speed * _APPROACH)).max()), group.policy.min_segment)
+        if not math.isfinite(seconds):
+            raise GoalRefused(
+                Code.INVALID_GOAL, "the axes' speeds are not known: there is no way to the start"
+            )
+        told = (
+            f"the robot stood {np.abs(here - first).max():.3f} (rad, m) from the first point: "
+            f"a way of {seconds:.2f} s to it was put in front"
+        )
+        return asked.with_trajectory(trajectory.starting_at(state, seconds), told)
+
+    async def _accepted(self, trajectory: Trajectory, under: UnderWay) -> AsyncExecution | None:
+        """The motion; None when the goal was ended before the controller took it."""
+        sending = asyncio.ensure_future(self._robot.execute(trajectory))
+        ending = asyncio.ensure_future(under.ending.wait())
+        try:
+            await asyncio.wait({sending, ending}, return_when=asyncio.FIRST_COMPLETED)
+            if sending.done():
+                return sending.result()
+            await self._robot.stop()
+            await asyncio.gather(sending, return_exceptions=True)
+            return None
+        finally:
+            # Sending that is cancelled here stops the robot: nobody waits for it any more.
+            await _cancelled(sending, ending)
+
+    async def _until_over(
+        self,
+        asked: Asked,
+        execution: AsyncExecution,
+        under: UnderWay,
+        tell: Callable[[GoalFeedback], None],
+    ) -> Outcome:
+        result = asyncio.ensure_future(execution.result())
+        watching = asyncio.ensure_future(self._watch(asked, tell))
+        ending = asyncio.ensure_future(under.ending.wait())
+        try:
+            await asyncio.wait({result, watching, ending}, return_when=asyncio.FIRST_COMPLETED)
+            violation = _violation_of(watching)
+            wanted = violation is not None or ending.done()
+            if wanted and not result.done() and (unsure := await _stopped(execution)):
+                return unsure
+            try:
+                reached = await result
+            except MotionStopped as error:
+                if wanted:
+                    return violation or _ended_early(under, "the robot stands")
+                return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
+            except RobotError as error:
+                return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
+            # The controller may have been faster than whoever wanted it to end.
+            return violation or self._reached(asked, reached)
+        finally:
+            await _cancelled(result, watching, ending)
+
+    async def _watch(self, asked: Asked, tell: Callable[[GoalFeedback], None]) -> Outcome:
+        """Tell feedback; returns when a tolerance is violated."""
+        since: float | None = None
+        before = desired = 0.0
+        async for time, joints, velocity in self._samples():
+            if since is None:
+                since = before = time
+            passed, before = time - before, time
+            # Simulated or real, the controller's time; slower under an override, none in a pause.
+            desired += max(passed, 0.0) * self._pace
+            told = GoalFeedback(
+                asked.trajectory.names,
+                desired,
+                asked.desired(desired),
+                asked.desired_velocity(desired),
+                joints,
+                velocity,
+            )
+            tell(told)
+            found = _violation(asked, told, max(passed, 0.0))
+            if found is not None:
+                return found
+        raise AssertionError("samples have no end")
+
+    @property
+    def _pace(self) -> float:
+        """Seconds of the trajectory in a second, as this client knows it."""
+        if self._robot.state.trajectory is TrajectoryState.PAUSED:
+            return 0.0
+        return self._robot.override
+
+    async def _samples(self) -> AsyncIterator[tuple[float, Array, Array]]:
+        """Time s, joints and velocities (k,): by the controller's clock where it tells it."""
+        robot = self._robot
+        while True:
+            if self._measures:
+                fed = await robot.next_feedback(math.inf)
+                yield fed.time, np.array(fed.joints), np.array(fed.velocity)
+            else:
+                state = await robot.next_state(math.inf)
+                yield state.time, np.array(state.joints), np.array(state.velocity)
+
+    def _reached(self, asked: Asked, result: Result) -> Outcome:
+        """DONE, and whether the robot stands where it was asked to."""
+        off = np.abs(np.array(result.state.joints) - asked.trajectory.positions[-1])
+        worst = int(np.argmax(off - asked.goal))
+        if off[worst] > asked.goal[worst]:
+            return Outcome(
+                Ending.ABORTED,
+                Code.GOAL_TOLERANCE_VIOLATED,
+                f"the controller ended the motion {off[worst]:.4f} from the last point at "
+                f"{asked.trajectory.names[worst]}, and {asked.goal[worst]:g} was allowed",
+            )
+        told = f"done in {result.seconds:.2f} s, {asked.trajectory.duration:.2f} s were asked for"
+        return Outcome(Ending.SUCCEEDED, Code.SUCCESSFUL, "; ".join((told, *asked.notes)))
+
+
+def resampled(asked: Asked, shortest: float) -> Asked:
+    """Points at least `shortest` s apart, where some are nearer; how far off is noted."""
+    trajectory = asked.trajectory
+    times = trajectory.times
+    if len(times) < 3 or np.diff(times).min() >= shortest - _GRACE:
+        return asked
+    span = float(times[-1] - times[0])
+    count = max(int((span + _GRACE) / shortest), 1)
+    fresh = trajectory.resampled(span / count)
+    back = [np.interp(times, fresh.times, column) for column in fresh.positions.T]
+    off = float(np.abs(np.stack(back, axis=1) - trajectory.positions).max())
+    note = (
+        f"{len(times)} points, some nearer than {shortest:g} s, became {len(fresh)}: "
+        f"off by up to {off:.5f} (rad, m)"
+    )
+    return asked.with_trajectory(fresh, note)
+
+
+def with_time_to_stop(asked: Asked, shortest: float) -> Asked:
+    """A last segment below `shortest` s is given that time; the way is the same.
+
+    Planners that sample at a period leave such a rest at the end of nearly every path.
+    """
+    times = asked.trajectory.times
+    if len(times) < 2 or times[-1] - times[-2] >= shortest - _GRACE:
+        return asked
+    rest = float(times[-1] - times[-2])
+    later = np.append(times[:-1], times[-2] + shortest)
+    fresh = Trajectory(later, asked.trajectory.positions, asked.trajectory.names)
+    note = f"the last segment of {rest:.3f} s was given {shortest:g} s"
+    return asked.with_trajectory(fresh, note)
+
+
+def _violation(asked: Asked, told: GoalFeedback, window: float) -> Outcome | None:
+    """What of the tolerances does not hold, or None.
+
+    When the robot began to move is known to one sample: it is compared with all that was asked
+    for within `window` s, and has to fit none of it.
+    """
+    if told.time > asked.trajectory.duration + asked.goal_time + window:
+        return Outcome(
+            Ending.ABORTED,
+            Code.GOAL_TOLERANCE_VIOLATED,
+            f"not at the goal {told.time - asked.trajectory.duration:.2f} s after its time, and "
+            f"{asked.goal_time:g} s were allowed",
+        )
+    moments = np.linspace(told.time - window, told.time + window, 9)
+    for what, actual, desired, allowed in (
+        ("", told.actual, asked.desired, asked.path),
+        ("velocity of ", told.actual_velocity, asked.desired_velocity, asked.path_velocity),
+    ):
+        if not np.isfinite(allowed).any():
+            continue
+        off = np.abs(np.array([desired(moment) for moment in moments]) - actual).min(axis=0)
+        worst = int(np.argmax(off - allowed))
+        if off[worst] > allowed[worst]:
+            return Outcome(
+                Ending.ABORTED,
+                Code.PATH_TOLERANCE_VIOLATED,
+                f"{what}{told.names[worst]} was {off[worst]:.4f} off its path "
+                f"{told.time:.2f} s after the start, and {allowed[worst]:g} was allowed",
+            )
+    return None
+
+
+def _violation_of(watching: "asyncio.Future[Outcome]") -> Outcome | None:
+    """What was watched and does not hold; the loss of the link is told by the motion's end."""
+    if not watching.done() or isinstance(watching.exception(), RobotError):
+        return None
+    return watching.result()
+
+
+async def _cancelled(*tasks: "asyncio.Future[Any]") -> None:
+    for task in tasks:
+        task.cancel()
+    await asyncio.gather(*tasks, return_exceptions=True)
+
+
+async def _stopped(execution: AsyncExecution) -> Outcome | None:
+    """Stop it; an outcome where nobody confirmed that the robot stands."""
+    try:
+        await execution.cancel()
+    except StopFailed as error:
+        return _aborted(Code.PATH_TOLERANCE_VIOLATED, error)
+    except RobotError:
+        # Why it ended is told by its result.
+        return None
+    return None
+
+
+def _ended_early(under: UnderWay, where: str) -> Outcome:
+    if under.is_replaced:
+        return Outcome(Ending.ABORTED, Code.INVALID_GOAL, f"replaced by a newer goal {where}")
+    return Outcome(Ending.CANCELED, Code.SUCCESSFUL, f"cancelled {where}")
+
+
+def _aborted(code: Code, error: RobotError) -> Outcome:
+    return Outcome(Ending.ABORTED, code, reason(error))
+
+
+def reason(error: RobotError) -> str:
+    """What went wrong and what to do about it, as one line."""
+    first, *others = error.diagnostics
+    told = first.message + (f" (and {len(others)} more faults)" if others else "")
+    return f"{told}; {first.help}" if first.help else told

@@ -1,0 +1,395 @@
+"""The ROS 2 node: the only file that imports rclpy. Messages in, `RobotLink` asked, messages out.
+
+The links run on one asyncio loop in a thread; rclpy's callbacks wait for what they asked of it.
+QoS: everything that is told is reliable, volatile, depth 10, as joint_state_broadcaster has it.
+"""
+
+import asyncio
+import threading
+from collections.abc import Callable, Coroutine
+from concurrent.futures import Future
+from typing import Any, TypeVar
+
+import rclpy
+from builtin_interfaces.msg import Duration, Time
+from control_msgs.action import FollowJointTrajectory
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus, KeyValue
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor
+from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
+from rclpy.qos import QoSProfile
+from rclpy.qos_overriding_options import QoSOverridingOptions
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import JointState
+from std_srvs.srv import Trigger
+from trajectory_msgs.msg import JointTrajectoryPoint
+
+from rapidgen.client.aio import AsyncRobot
+from rapidgen.client.errors import RobotError
+from rapidgen.config import load_config
+from rapidgen.config.model import RobotConfig
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.ros.following import GoalFeedback, UnderWay, reason
+from rapidgen.ros.goals import Ending, Goal, Outcome, Point, Tolerance
+from rapidgen.ros.keeping import RobotLink
+from rapidgen.ros.parameters import DECLARED, Parameters, read
+from rapidgen.ros.telling import Health, JointStates, RobotStatus
+
+try:  # A package that not every distribution has.
+    from industrial_msgs.msg import RobotStatus as RobotStatusMessage
+except ImportError:
+    RobotStatusMessage = None
+
+T = TypeVar("T")
+_QOS = QoSProfile(depth=10)
+
+
+class RobotNode(LifecycleNode):  # type: ignore[misc]
+    """One robot, each of its groups with topics, services and an action of its own."""
+
+    def __init__(self, **options: Any) -> None:  # noqa: ANN401
+        super().__init__("rapidgen", **options)
+        for name, value, told in DECLARED:
+            self.declare_parameter(name, value, _described(told))
+        self._loop = asyncio.new_event_loop()
+        self._thread = threading.Thread(target=self._loop.run_forever, name="rapidgen", daemon=True)
+        self._thread.start()
+        self._doors: list[Door] = []
+        self._running: list[Future[None]] = []
+        self.add_on_set_parameters_callback(self._parameters_set)
+        if self.get_parameter("autostart").value:
+            self._start()
+
+    # Life cycle
+
+    def _start(self) -> None:
+        if self.trigger_configure() is TransitionCallbackReturn.SUCCESS:
+            self.trigger_activate()
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Read the configuration; topics, services and actions are there from now on."""
+        try:
+            parameters = read({name: self.get_parameter(name).value for name, _, _ in DECLARED})
+            config = load_config(parameters.config)
+        except DiagnosticError as error:
+            self.get_logger().error(str(error))
+            return TransitionCallbackReturn.FAILURE
+        several = len(config.groups) > 1
+        for group in config.groups:
+            make = _maker(config, parameters, group.name)
+            space = f"{group.name}/" if several else ""
+            self._doors.append(Door(self, make, parameters, space, f"{group.name}_controller"))
+        return super().on_configure(state)
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Reach for the robot, and keep at it."""
+        self._running = [self.ask(door.link.run()) for door in self._doors]
+        return super().on_activate(state)
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop what moves for a goal, and let the robot go."""
+        self._let_go()
+        return super().on_deactivate(state)
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """No topics, services and actions any more."""
+        for door in self._doors:
+            door.destroy()
+        self._doors = []
+        return super().on_cleanup(state)
+
+    def destroy_node(self) -> None:
+        """Stop what moves for a goal, end the loop."""
+        self._let_go()
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        self._thread.join()
+        self._loop.close()
+        super().destroy_node()
+
+    def _let_go(self) -> None:
+        for running in self._running:
+            running.cancel()
+        self.ask(_ended(len(self._running))).result()
+        self._running = []
+
+    def _parameters_set(self, parameters: list[Any]) -> SetParametersResult:
+        """`speed` acts at once; the others are read when the node is configured."""
+        for parameter in parameters:
+            if parameter.name != "speed":
+                continue
+            for door in self._doors:
+                done, told = door.asked(door.link.set_speed(float(parameter.value)))
+                if not done:
+                    return SetParametersResult(successful=False, reason=told)
+        return SetParametersResult(successful=True)
+
+    def ask(self, coroutine: Coroutine[Any, Any, T]) -> "Future[T]":
+        """Carry out on the links' loop."""
+        return asyncio.run_coroutine_threadsafe(coroutine, self._loop)
+
+    def soon(self, act: Callable[[], None]) -> None:
+        """Do something on the links' loop, and do not wait for it."""
+        self._loop.call_soon_threadsafe(act)
+
+    def now(self) -> float:
+        """s of ROS time, simulated where use_sim_time says so."""
+        return float(self.get_clock().now().nanoseconds) * 1e-9
+
+
+class Door:
+    """What one motion group shows to ROS; the `Public` of its link."""
+
+    def __init__(
+        self,
+        node: RobotNode,
+        make: Callable[[], AsyncRobot],
+        parameters: Parameters,
+        space: str,
+        controller: str,
+    ) -> None:
+        self.link = RobotLink(make, parameters.policy, node.now, self)
+        self._node = node
+        self._prefix = parameters.tf_prefix
+        self._name = controller
+        self._lock = threading.Lock()
+        self._goals: dict[bytes, UnderWay] = {}
+        self._callbacks = ReentrantCallbackGroup()
+        self._joint_states = self._publisher(JointState, "joint_states")
+        self._diagnostics = self._publisher(DiagnosticArray, "/diagnostics")
+        self._status = (
+            self._publisher(RobotStatusMessage, f"{space}robot_status")
+            if RobotStatusMessage is not None
+            else None
+        )
+        self._clock = self._publisher(Clock, "/clock") if parameters.publish_clock else None
+        self._services = [
+            node.create_service(
+                Trigger, f"{space}{name}", self._serving(act), callback_group=self._callbacks
+            )
+            for name, act in (
+                ("stop", self.link.stop),
+                ("pause", self.link.pause),
+                ("resume", self.link.resume),
+            )
+        ]
+        self._action = ActionServer(
+            node,
+            FollowJointTrajectory,
+            f"{controller}/follow_joint_trajectory",
+            execute_callback=self._execute,
+            callback_group=self._callbacks,
+            # A rejection carries no reason: goals are accepted, and aborted with one.
+            goal_callback=lambda _: GoalResponse.ACCEPT,
+            cancel_callback=self._cancel,
+        )
+
+    def destroy(self) -> None:
+        """Take everything from ROS again."""
+        self._action.destroy()
+        for service in self._services:
+            self._node.destroy_service(service)
+        for publisher in (self._joint_states, self._diagnostics, self._status, self._clock):
+            if publisher is not None:
+                self._node.destroy_publisher(publisher)
+
+    def _publisher(self, kind: type, topic: str) -> Any:  # noqa: ANN401
+        return self._node.create_publisher(
+            kind, topic, _QOS, qos_overriding_options=QoSOverridingOptions.with_default_policies()
+        )
+
+    # What the link tells
+
+    def joint_states(self, states: JointStates) -> None:
+        """As `Public`."""
+        message = JointState()
+        message.header.stamp = _time(states.stamp)
+        message.name = [self._prefix + name for name in states.names]
+        message.position = list(states.positions)
+        message.velocity = list(states.velocities)
+        if self._clock is not None:
+            self._clock.publish(Clock(clock=message.header.stamp))
+        self._joint_states.publish(message)
+
+    def status(self, status: RobotStatus, health: Health) -> None:
+        """As `Public`."""
+        stamp = self._node.get_clock().now().to_msg()
+        diagnostics = DiagnosticArray()
+        diagnostics.header.stamp = stamp
+        diagnostics.status = [
+            DiagnosticStatus(
+                level=bytes([health.level]),
+                name=f"{self._node.get_name()}: {self._name}",
+                message=health.message,
+                hardware_id=health.values.get("address", ""),
+                values=[KeyValue(key=key, value=value) for key, value in health.values.items()],
+            )
+        ]
+        self._diagnostics.publish(diagnostics)
+        if self._status is None:
+            return
+        message = RobotStatusMessage()
+        message.header.stamp = stamp
+        message.mode.val = status.mode
+        for name in ("e_stopped", "drives_powered", "motion_possible", "in_motion", "in_error"):
+            getattr(message, name).val = getattr(status, name)
+        message.error_code = status.error_code
+        self._status.publish(message)
+
+    def note(self, text: str) -> None:
+        """As `Public`."""
+        self._node.get_logger().info(f"{self._name}: {text}")
+
+    # What ROS asks for
+
+    def _serving(self, act: Callable[[], Coroutine[Any, Any, object]]) -> Callable[[Any, Any], Any]:
+        def serve(_: Any, response: Any) -> Any:  # noqa: ANN401
+            response.success, response.message = self.asked(act())
+            return response
+
+        return serve
+
+    def asked(self, coroutine: Coroutine[Any, Any, object]) -> tuple[bool, str]:
+        """Whether the robot did it, and why not."""
+        try:
+            self._node.ask(coroutine).result()
+        except RobotError as error:
+            return False, reason(error)
+        except ValueError as error:
+            return False, str(error)
+        return True, "done"
+
+    def _cancel(self, handle: Any) -> CancelResponse:  # noqa: ANN401
+        self._node.soon(self._under_way(handle).cancel)
+        return CancelResponse.ACCEPT
+
+    def _under_way(self, handle: Any) -> UnderWay:  # noqa: ANN401
+        """Of this goal, whose cancellation may come before it is executed."""
+        with self._lock:
+            return self._goals.setdefault(bytes(handle.goal_id.uuid), UnderWay())
+
+    def _execute(self, handle: Any) -> Any:  # noqa: ANN401
+        """A goal, until the robot stands: in a thread of the executor."""
+
+        def tell(feedback: GoalFeedback) -> None:
+            if handle.is_active:
+                handle.publish_feedback(self._feedback(feedback))
+
+        under = self._under_way(handle)
+        goal = self._goal(handle.request)
+        outcome = self._node.ask(self.link.follow(goal, tell, under)).result()
+        with self._lock:
+            del self._goals[bytes(handle.goal_id.uuid)]
+        log = self._node.get_logger()
+        (log.info if outcome.status is Ending.SUCCEEDED else log.warning)(
+            f"{self._name}: goal {outcome.status.value}: {outcome.text}"
+        )
+        return _ending(handle, outcome)
+
+    def _goal(self, request: Any) -> Goal:  # noqa: ANN401
+        trajectory = request.trajectory
+        return Goal(
+            names=[name.removeprefix(self._prefix) for name in trajectory.joint_names],
+            points=[
+                Point(
+                    _seconds(point.time_from_start),
+                    point.positions,
+                    point.velocities,
+                    point.accelerations,
+                    point.effort,
+                )
+                for point in trajectory.points
+            ],
+            stamp=_seconds(trajectory.header.stamp),
+            path_tolerance=[self._tolerance(told) for told in request.path_tolerance],
+            goal_tolerance=[self._tolerance(told) for told in request.goal_tolerance],
+            goal_time_tolerance=_seconds(request.goal_time_tolerance),
+            has_multi_dof=bool(request.multi_dof_trajectory.points),
+        )
+
+    def _tolerance(self, told: Any) -> Tolerance:  # noqa: ANN401
+        name = told.name.removeprefix(self._prefix)
+        return Tolerance(name, told.position, told.velocity, told.acceleration)
+
+    def _feedback(self, feedback: GoalFeedback) -> Any:  # noqa: ANN401
+        message = FollowJointTrajectory.Feedback()
+        message.header.stamp = self._node.get_clock().now().to_msg()
+        message.joint_names = [self._prefix + name for name in feedback.names]
+        at = _duration(feedback.time)
+        for name, positions, velocities in (
+            ("desired", feedback.desired, feedback.desired_velocity),
+            ("actual", feedback.actual, feedback.actual_velocity),
+            ("error", feedback.error, feedback.desired_velocity - feedback.actual_velocity),
+        ):
+            point = JointTrajectoryPoint(
+                positions=positions.tolist(), velocities=velocities.tolist(), time_from_start=at
+            )
+            setattr(message, name, point)
+        return message
+
+
+def _ending(handle: Any, outcome: Outcome) -> Any:  # noqa: ANN401
+    """The result, and the goal in its last state. A cancelled goal that was done is done."""
+    if outcome.status is Ending.SUCCEEDED:
+        handle.succeed()
+    elif outcome.status is Ending.CANCELED and handle.is_cancel_requested:
+        handle.canceled()
+    else:
+        handle.abort()
+    result = FollowJointTrajectory.Result()
+    result.error_code = int(outcome.code)
+    result.error_string = outcome.text
+    return result
+
+
+def _maker(config: RobotConfig, parameters: Parameters, group: str) -> Callable[[], AsyncRobot]:
+    def make() -> AsyncRobot:
+        address = parameters.address or None
+        return AsyncRobot(config, address=address, group=group, feedback=True)
+
+    return make
+
+
+def _described(text: str) -> ParameterDescriptor:
+    return ParameterDescriptor(description=text)
+
+
+async def _ended(count: int) -> None:
+    """Until all other tasks of this loop, `count` links among them, are over."""
+    others = asyncio.all_tasks() - {asyncio.current_task()}
+    if count and others:
+        await asyncio.gather(*others, return_exceptions=True)
+
+
+def _seconds(told: Any) -> float:  # noqa: ANN401
+    """A Time or Duration in s."""
+    return float(told.sec) + float(told.nanosec) * 1e-9
+
+
+def _time(stamp: int) -> Time:
+    """ns as a Time."""
+    seconds, nanoseconds = divmod(stamp, 10**9)
+    return Time(sec=seconds, nanosec=nanoseconds)
+
+
+def _duration(seconds: float) -> Duration:
+    whole, rest = divmod(round(seconds * 1e9), 10**9)
+    return Duration(sec=whole, nanosec=rest)
+
+
+def run(arguments: list[str]) -> int:
+    """The node, until Ctrl-C; `arguments` as ROS 2 has them (`--ros-args -p config:=...`)."""
+    rclpy.init(args=arguments)
+    node = RobotNode()
+    # A goal holds a thread while it is carried out, a service while it is asked.
+    executor = MultiThreadedExecutor(num_threads=8)
+    executor.add_node(node)
+    try:
+        executor.spin()
+    except (KeyboardInterrupt, ExternalShutdownException):
+        node.get_logger().info("ending: what moves for a goal is stopped")
+    finally:
+        node.destroy_node()
+        rclpy.try_shutdown()
+    return 0

@@ -1,0 +1,190 @@
+"""A URDF of a configuration's own chain: joints have the names that goals and joint_states have.
+
+Links are cylinders along the chain where the robot has no meshes here: enough to see it move, and
+larger than nothing for planning, but not the robot's shape.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import acos, atan2, sqrt
+from xml.etree import ElementTree as ET
+
+from rapidgen.config.model import ChainLink, GroupConfig, Joint, RobotConfig
+
+ROOT = "world"
+_EFFORT = "1000"
+"""N m, N: URDF wants one, and the controller does not tell it."""
+_THICKNESS = 0.12
+"""Radius of a drawn link, as a share of its length."""
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """A chain of links from the root: of an arm (with its tool0) or of a positioner."""
+
+    links: tuple[str, ...]
+    joints: tuple[str, ...]
+    """Joints that goals name, from the root on."""
+
+    @property
+    def tip(self) -> str:
+        """The last link."""
+        return self.links[-1]
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """A URDF and what of it others need to name."""
+
+    root: ET.Element
+    arms: dict[str, Branch]
+    """By motion group."""
+    positioners: dict[str, tuple[Branch, ...]]
+
+    @property
+    def text(self) -> str:
+        """As a file."""
+        ET.indent(self.root)
+        return ET.tostring(self.root, encoding="unicode", xml_declaration=True) + "\n"
+
+    @property
+    def adjacent(self) -> Iterator[tuple[str, str]]:
+        """Links that a joint connects."""
+        for joint in self.root.iter("joint"):
+            parent, child = joint.find("parent"), joint.find("child")
+            assert parent is not None
+            assert child is not None
+            yield parent.attrib["link"], child.attrib["link"]
+
+
+def draw(config: RobotConfig, name: str) -> Drawn:
+    """The URDF of all groups of a configuration, in m and rad."""
+    root = ET.Element("robot", name=name)
+    ET.SubElement(root, "link", name=ROOT)
+    arms, positioners = {}, {}
+    several = len(config.groups) > 1
+    for group in config.groups:
+        prefix = f"{group.name}_" if several else ""
+        joints = {joint.name: joint for joint in group.joints}
+        drawer = _Drawer(root, joints, _coupled(group))
+        arms[group.name] = drawer.branch(f"{prefix}base_link", group.chain, f"{prefix}tool0")
+        positioners[group.name] = tuple(
+            drawer.branch(f"{prefix}{unit.unit}_base", unit.chain, f"{prefix}{unit.unit}_table")
+            for unit in group.positioners
+        )
+    return Drawn(root, arms, positioners)
+
+
+def urdf_range(joint: Joint) -> tuple[float, float]:
+    """Limits of a joint in URDF's sense, rad or m; of a coupled one where axis 2 stands at 0."""
+    ends = sorted((value - joint.offset) * joint.sign for value in (joint.lower, joint.upper))
+    return ends[0], ends[1]
+
+
+def _coupled(group: GroupConfig) -> str:
+    if not group.coupling:
+        return ""
+    return next(joint.name for joint in group.joints if joint.axis == "rax_3")
+
+
+@dataclass(frozen=True, slots=True)
+class _Drawer:
+    root: ET.Element
+    joints: dict[str, Joint]
+    coupled: str
+
+    def branch(self, base: str, chain: Sequence[ChainLink], tip: str) -> Branch:
+        ET.SubElement(self.root, "link", name=base)
+        self._joint(f"{base}_joint", "fixed", ROOT, base, (0, 0, 0), (0, 0, 0))
+        links, joints = [base], []
+        for number, step in enumerate(chain, 1):
+            end = tip if number == len(chain) and not (step.joint or step.follows) else ""
+            if step.joint:
+                joints.append(step.joint)
+            links += self._step(links[-1], step, end or f"{base}_{number}")
+        if links[-1] != tip:
+            ET.SubElement(self.root, "link", name=tip)
+            self._joint(f"{tip}_joint", "fixed", links[-1], tip, (0, 0, 0), (0, 0, 0))
+            links.append(tip)
+        return Branch(tuple(links), tuple(joints))
+
+    def _step(self, parent: str, step: ChainLink, child: str) -> list[str]:
+        """Links behind `parent`; it is drawn as a bar to where the next one begins."""
+        self._bar(parent, step.xyz)
+        if step.joint:
+            child = f"{step.joint}_link"
+            self._link(child)
+            joint = self.joints[step.joint]
+            self._joint(step.joint, joint.kind, parent, child, step.xyz, step.rpy, step.axis)
+            return [child]
+        if not step.follows:
+            self._link(child)
+            self._joint(f"{child}_joint", "fixed", parent, child, step.xyz, step.rpy)
+            return [child]
+        # A passive joint may follow several: one mimicking joint for each, about one axis.
+        made = []
+        xyz, rpy = step.xyz, step.rpy
+        for number, (followed, factor) in enumerate(step.follows, 1):
+            link = f"{child}_{number}"
+            self._link(link)
+            at = made[-1] if made else parent
+            name = f"{link}_joint"
+            element = self._joint(name, "continuous", at, link, xyz, rpy, step.axis)
+            ET.SubElement(element, "mimic", joint=followed, multiplier=_number(factor))
+            made.append(link)
+            xyz = rpy = (0.0, 0.0, 0.0)
+        return made
+
+    def _link(self, name: str) -> None:
+        ET.SubElement(self.root, "link", name=name)
+
+    def _joint(
+        self,
+        name: str,
+        kind: str,
+        parent: str,
+        child: str,
+        xyz: Sequence[float],
+        rpy: Sequence[float],
+        axis: Sequence[float] | None = None,
+    ) -> ET.Element:
+        element = ET.SubElement(self.root, "joint", name=name, type=kind)
+        ET.SubElement(element, "parent", link=parent)
+        ET.SubElement(element, "child", link=child)
+        ET.SubElement(element, "origin", xyz=_numbers(xyz), rpy=_numbers(rpy))
+        if axis is not None:
+            ET.SubElement(element, "axis", xyz=_numbers(axis))
+        if name in self.joints:
+            joint = self.joints[name]
+            lower, upper = urdf_range(joint)
+            ET.SubElement(
+                element,
+                "limit",
+                lower=_number(lower),
+                upper=_number(upper),
+                velocity=_number(joint.speed),
+                effort=_EFFORT,
+            )
+        return element
+
+    def _bar(self, link: str, to: Sequence[float]) -> None:
+        x, y, z = to
+        length = sqrt(x * x + y * y + z * z)
+        if length < 0.02:
+            return
+        element = next(e for e in self.root.iter("link") if e.get("name") == link)
+        rpy = (0.0, acos(z / length), atan2(y, x))
+        for what in ("visual", "collision"):
+            shape = ET.SubElement(element, what)
+            ET.SubElement(shape, "origin", xyz=_numbers([c / 2 for c in to]), rpy=_numbers(rpy))
+            geometry = ET.SubElement(shape, "geometry")
+            radius = _number(min(length * _THICKNESS, 0.12))
+            ET.SubElement(geometry, "cylinder", radius=radius, length=_number(length))
+
+
+def _number(value: float) -> str:
+    return f"{value:.9g}"
+
+
+def _numbers(values: Sequence[float]) -> str:
+    return " ".join(_number(value) for value in values)

@@ -1,0 +1,73 @@
+"""The node's parameters: their names, defaults and descriptions, and what they mean together."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal, cast
+
+from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
+from rapidgen.ros.following import Policy
+from rapidgen.ros.goals import Defaults
+
+DECLARED: tuple[tuple[str, str | bool | float, str], ...] = (
+    ("config", "", "robot YAML, or the name of a shipped model"),
+    ("address", "", "HOST, or HOST:MOTION,STATE,CONTROL; empty: a simulator on this machine"),
+    ("autostart", True, "configure and activate without being asked"),
+    ("tf_prefix", "", "put in front of joint names"),
+    ("publish_clock", False, "/clock from the controller's time, for a simulator"),
+    ("speed", 100.0, "speed override of the motion under way, 1 to 100 %"),
+    ("replace", "refuse", "a goal while another one moves: refuse, or approach (stop, go there)"),
+    ("dense", "refuse", "points nearer than the planner follows: refuse, or resample"),
+    ("path_tolerance", 0.0, "default of a goal's path tolerances, rad or m; 0: none"),
+    ("goal_tolerance", 0.01, "default of a goal's end, rad or m; 0: none"),
+    ("goal_time_tolerance", 0.0, "default of goal_time_tolerance, s; 0: none"),
+    ("stamp_tolerance", 0.2, "s by which header.stamp may be past"),
+)
+"""Name, default, description."""
+
+
+@dataclass(frozen=True, slots=True)
+class Parameters:
+    """What the user said."""
+
+    config: str
+    address: str
+    tf_prefix: str
+    publish_clock: bool
+    policy: Policy
+
+
+def read(values: Mapping[str, Any]) -> Parameters:
+    """Parameters by name. Raises DiagnosticError with every fault."""
+    found = []
+    if not values["config"]:
+        found.append(_fault("config is not set", "-p config:=robot.yaml"))
+    for name, words in (("replace", ("refuse", "approach")), ("dense", ("refuse", "resample"))):
+        if values[name] not in words:
+            told = f"{name} is '{values[name]}'"
+            found.append(_fault(told, f"it is {' or '.join(words)}"))
+    for name in ("path_tolerance", "goal_tolerance", "goal_time_tolerance", "stamp_tolerance"):
+        if not 0 <= values[name] < math.inf:
+            found.append(_fault(f"{name} is {values[name]:g}", "it is 0 or more"))
+    if found:
+        raise DiagnosticError(found)
+    return Parameters(
+        values["config"],
+        values["address"],
+        values["tf_prefix"],
+        values["publish_clock"],
+        Policy(
+            Defaults(
+                path=values["path_tolerance"] or math.inf,
+                goal=values["goal_tolerance"] or math.inf,
+                goal_time=values["goal_time_tolerance"] or math.inf,
+                late=values["stamp_tolerance"],
+            ),
+            cast("Literal['refuse', 'approach']", values["replace"]),
+            cast("Literal['refuse', 'resample']", values["dense"]),
+        ),
+    )
+
+
+def _fault(message: str, mend: str) -> Diagnostic:
+    return error("RG690", None, f"parameter {message}", mend)

@@ -1,0 +1,118 @@
+"""What is published of a robot: joint_states, its status, and diagnostics in words.
+
+industrial_msgs/RobotStatus and diagnostic_msgs/DiagnosticStatus as plain values; `node` puts them
+into messages.
+"""
+
+from dataclasses import dataclass, field
+from enum import IntEnum
+
+from rapidgen.client.core.state import Driver, State, Status
+from rapidgen.wire.simple_message.spec import Mode, TrajectoryState, TriState
+
+
+class Level(IntEnum):
+    """level of diagnostic_msgs/DiagnosticStatus."""
+
+    OK = 0
+    WARN = 1
+    ERROR = 2
+    STALE = 3
+
+
+@dataclass(frozen=True, slots=True)
+class JointStates:
+    """sensor_msgs/JointState: `stamp` ns of ROS time, rad or m (per s), in the robot's order."""
+
+    stamp: int
+    names: tuple[str, ...]
+    positions: tuple[float, ...]
+    velocities: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RobotStatus:
+    """industrial_msgs/RobotStatus: tri-states are 1, 0, -1 unknown; mode 1 manual, 2 automatic."""
+
+    mode: int
+    e_stopped: int
+    drives_powered: int
+    motion_possible: int
+    in_motion: int
+    in_error: int
+    error_code: int
+
+
+@dataclass(frozen=True, slots=True)
+class Health:
+    """A diagnostic_msgs/DiagnosticStatus without its name: why the robot would not move now."""
+
+    level: Level
+    message: str
+    values: dict[str, str] = field(default_factory=dict)
+
+
+_UNKNOWN = Status()
+_MODES = {Mode.MANUAL: "manual", Mode.AUTO: "automatic", Mode.UNKNOWN: "unknown"}
+
+
+def robot_status(status: Status) -> RobotStatus:
+    """The driver's STATUS, one to one."""
+    return RobotStatus(
+        mode=int(status.mode),
+        e_stopped=int(status.e_stopped),
+        drives_powered=int(status.drives),
+        motion_possible=int(status.motion_possible),
+        in_motion=int(status.in_motion),
+        in_error=int(status.in_error),
+        error_code=status.error_code,
+    )
+
+
+def unknown_status() -> RobotStatus:
+    """While there is no link: nothing is known, nothing is possible."""
+    return robot_status(_UNKNOWN)
+
+
+def health(state: State, driver: Driver, address: str) -> Health:
+    """What hinders the robot, the worst first."""
+    status = state.status
+    values = {
+        "address": address,
+        "driver": driver.hello.build_id if driver.hello else "plain simple_message",
+        "mode": _MODES[status.mode],
+        "drives": _word(status.drives),
+        "emergency stop": _word(status.e_stopped),
+        "motion possible": _word(status.motion_possible),
+        "in motion": _word(status.in_motion),
+        "state messages per s": f"{state.rate:.1f}",
+    }
+    if state.trajectory is not None:
+        values["trajectory"] = state.trajectory.name
+    if status.error:
+        values["last refusal"] = status.error.text
+    level, message = _worst(status, state.trajectory)
+    return Health(level, message, values)
+
+
+def no_link(why: str, address: str) -> Health:
+    """The robot is not there: what was seen last says nothing of now."""
+    return Health(Level.STALE, f"no link to the robot: {why}", {"address": address})
+
+
+def _worst(status: Status, trajectory: TrajectoryState | None) -> tuple[Level, str]:
+    if status.e_stopped is TriState.TRUE:
+        return Level.ERROR, "an emergency stop is active"
+    if status.drives is TriState.FALSE:
+        return Level.WARN, "the motors are off"
+    if status.mode is Mode.MANUAL:
+        return Level.WARN, "manual mode: the robot moves while the enabling device is held"
+    if status.motion_possible is TriState.FALSE:
+        return Level.WARN, "the motion task is not executing"
+    if trajectory is TrajectoryState.PAUSED:
+        return Level.WARN, "paused"
+    return Level.OK, "ready" if status.in_motion is not TriState.TRUE else "moving"
+
+
+def _word(value: TriState) -> str:
+    return {TriState.TRUE: "yes", TriState.FALSE: "no", TriState.UNKNOWN: "unknown"}[value]

@@ -1,0 +1,420 @@
+"""A stand-in for what a sourced ROS 2 brings, as far as the node uses it, and as strict.
+
+Signatures are those of rclpy in Humble, Jazzy and Rolling (rclpy/node.py, action/server.py,
+lifecycle/node.py): keyword-only arguments are, unknown ones raise, messages take values of their
+types only (rosidl's generated `assert`s), a goal takes only the transitions of rcl_action.
+"""
+
+import sys
+import threading
+from enum import Enum
+from types import MappingProxyType, ModuleType, SimpleNamespace
+
+
+class Message:
+    """As rosidl generates it: named fields, each with a type; nothing else can be set."""
+
+    FIELDS = MappingProxyType({})
+
+    def __init__(self, **given):
+        unknown = set(given) - set(self.FIELDS)
+        assert not unknown, f"Invalid arguments passed to constructor: {sorted(unknown)}"
+        for name, kind in self.FIELDS.items():
+            object.__setattr__(self, name, [] if isinstance(kind, list) else kind())
+        for name, value in given.items():
+            setattr(self, name, value)
+
+    def __setattr__(self, name, value):
+        kind = self.FIELDS.get(name)
+        if kind is None:
+            raise AttributeError(f"'{type(self).__name__}' object has no attribute '{name}'")
+        told = f"The '{name}' field must be of type {kind}"
+        if isinstance(kind, list):
+            assert not isinstance(value, str), told
+            assert all(isinstance(item, kind[0]) for item in value), told
+        else:
+            assert isinstance(value, kind), told
+            if kind is int:
+                assert -(2**31) <= value < 2**32, told
+        object.__setattr__(self, name, value)
+
+
+def message(_, /, **fields):
+    return type(_, (Message,), {"FIELDS": fields})
+
+
+Time = message("Time", sec=int, nanosec=int)
+Duration = message("Duration", sec=int, nanosec=int)
+Header = message("Header", stamp=Time, frame_id=str)
+JointState = message(
+    "JointState", header=Header, name=[str], position=[float], velocity=[float], effort=[float]
+)
+JointTrajectoryPoint = message(
+    "JointTrajectoryPoint",
+    positions=[float],
+    velocities=[float],
+    accelerations=[float],
+    effort=[float],
+    time_from_start=Duration,
+)
+JointTrajectory = message(
+    "JointTrajectory", header=Header, joint_names=[str], points=[JointTrajectoryPoint]
+)
+MultiDOF = message("MultiDOFJointTrajectory", header=Header, joint_names=[str], points=[object])
+JointTolerance = message(
+    "JointTolerance", name=str, position=float, velocity=float, acceleration=float
+)
+KeyValue = message("KeyValue", key=str, value=str)
+DiagnosticStatus = message(
+    "DiagnosticStatus", level=bytes, name=str, message=str, hardware_id=str, values=[KeyValue]
+)
+DiagnosticArray = message("DiagnosticArray", header=Header, status=[DiagnosticStatus])
+Clock = message("Clock", clock=Time)
+ParameterDescriptor = message("ParameterDescriptor", name=str, description=str)
+SetParametersResult = message("SetParametersResult", successful=bool, reason=str)
+TriState = message("TriState", val=int)
+RobotMode = message("RobotMode", val=int)
+RobotStatus = message(
+    "RobotStatus",
+    header=Header,
+    mode=RobotMode,
+    e_stopped=TriState,
+    drives_powered=TriState,
+    motion_possible=TriState,
+    in_motion=TriState,
+    in_error=TriState,
+    error_code=int,
+)
+
+
+class FollowJointTrajectory:
+    Goal = message(
+        "FollowJointTrajectory_Goal",
+        trajectory=JointTrajectory,
+        multi_dof_trajectory=MultiDOF,
+        path_tolerance=[JointTolerance],
+        component_path_tolerance=[object],
+        goal_tolerance=[JointTolerance],
+        component_goal_tolerance=[object],
+        goal_time_tolerance=Duration,
+    )
+    Result = message("FollowJointTrajectory_Result", error_code=int, error_string=str)
+    Feedback = message(
+        "FollowJointTrajectory_Feedback",
+        header=Header,
+        joint_names=[str],
+        desired=JointTrajectoryPoint,
+        actual=JointTrajectoryPoint,
+        error=JointTrajectoryPoint,
+    )
+
+
+class Trigger:
+    Request = message("Trigger_Request")
+    Response = message("Trigger_Response", success=bool, message=str)
+
+
+class ReentrantCallbackGroup:
+    pass
+
+
+class QoSProfile:
+    def __init__(self, *, depth):
+        self.depth = depth
+
+
+class QoSOverridingOptions:
+    @classmethod
+    def with_default_policies(cls, *, callback=None, entity_id=None):
+        return cls()
+
+
+class GoalResponse(Enum):
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(Enum):
+    REJECT = 1
+    ACCEPT = 2
+
+
+class RCLError(RuntimeError):
+    pass
+
+
+class Handle:
+    """rcl_action's state machine: executing, canceling, then one of three ends."""
+
+    _ALLOWED = frozenset(
+        {
+            ("executing", "succeeded"),
+            ("executing", "aborted"),
+            ("executing", "canceling"),
+            ("canceling", "succeeded"),
+            ("canceling", "aborted"),
+            ("canceling", "canceled"),
+        }
+    )
+
+    def __init__(self, number, request):
+        self.goal_id = SimpleNamespace(uuid=number.to_bytes(16, "big"))
+        self.request = request
+        self.status = "executing"
+        self.feedback = []
+        self.fed = threading.Event()
+        self.result = None
+        self.over = threading.Event()
+
+    def to(self, status):
+        if (self.status, status) not in self._ALLOWED:
+            raise RCLError(f"goal_handle attempted invalid transition {self.status} -> {status}")
+        self.status = status
+
+    @property
+    def is_active(self):
+        return self.status in ("executing", "canceling")
+
+    @property
+    def is_cancel_requested(self):
+        return self.status == "canceling"
+
+    def succeed(self):
+        self.to("succeeded")
+
+    def abort(self):
+        self.to("aborted")
+
+    def canceled(self):
+        self.to("canceled")
+
+    def publish_feedback(self, feedback):
+        if not isinstance(feedback, FollowJointTrajectory.Feedback):
+            raise TypeError
+        self.feedback.append(feedback)
+        self.fed.set()
+
+
+class ActionServer:
+    def __init__(
+        self,
+        node,
+        action_type,
+        action_name,
+        execute_callback,
+        *,
+        callback_group=None,
+        goal_callback=None,
+        handle_accepted_callback=None,
+        cancel_callback=None,
+        result_timeout=900,
+    ):
+        self.name, self._execute, self._cancel, self._goal = (
+            action_name,
+            execute_callback,
+            cancel_callback,
+            goal_callback,
+        )
+        self._count = 0
+        node.actions[action_name] = self
+
+    def destroy(self):
+        self.name = None
+
+    # As an action client
+
+    def send(self, goal):
+        assert self._goal(goal) is GoalResponse.ACCEPT
+        self._count += 1
+        handle = Handle(self._count, goal)
+
+        def execute():
+            handle.result = self._execute(handle)
+            assert not handle.is_active, "Goal state not set"
+            handle.over.set()
+
+        threading.Thread(target=execute, daemon=True).start()
+        return handle
+
+    def cancel(self, handle):
+        assert self._cancel(handle) is CancelResponse.ACCEPT
+        if handle.is_active:
+            handle.to("canceling")
+
+
+class Publisher:
+    def __init__(self, kind):
+        self.kind, self.sent = kind, []
+        self.came = threading.Condition()
+
+    def publish(self, sent):
+        if not isinstance(sent, self.kind):
+            raise TypeError
+        with self.came:
+            self.sent.append(sent)
+            self.came.notify_all()
+
+    def wait(self, condition):
+        with self.came:
+            assert self.came.wait_for(lambda: self.sent and condition(self.sent[-1]), 60)
+            return self.sent[-1]
+
+
+class TransitionCallbackReturn(Enum):
+    SUCCESS = 1
+    FAILURE = 2
+    ERROR = 3
+
+
+class _Moment:
+    def __init__(self, nanoseconds):
+        self.nanoseconds = nanoseconds
+
+    def to_msg(self):
+        return Time(sec=self.nanoseconds // 10**9, nanosec=self.nanoseconds % 10**9)
+
+
+class _Logger:
+    def __init__(self):
+        self.lines = []
+
+    def info(self, text):
+        self.lines.append(text)
+
+    warning = error = info
+
+
+class LifecycleNode:
+    """As rclpy's: what a transition raises is swallowed there, so it is an error here."""
+
+    clock = None
+
+    def __init__(
+        self, node_name, *, context=None, cli_args=None, namespace=None, parameter_overrides=None
+    ):
+        self._name = node_name
+        self._parameters = {}
+        self._given = dict(parameter_overrides or {})
+        self._logger = _Logger()
+        self.state = "unconfigured"
+        self.topics, self.services, self.actions = {}, {}, {}
+
+    def get_name(self):
+        return self._name
+
+    def get_logger(self):
+        return self._logger
+
+    def get_clock(self):
+        return SimpleNamespace(now=lambda: _Moment(self.clock()))
+
+    def declare_parameter(self, name, value=None, descriptor=None, ignore_override=False):
+        assert name not in self._parameters
+        assert isinstance(descriptor, ParameterDescriptor)
+        self._parameters[name] = self._given.get(name, value)
+        assert type(self._parameters[name]) is type(value), name
+
+    def get_parameter(self, name):
+        return SimpleNamespace(name=name, value=self._parameters[name])
+
+    def add_on_set_parameters_callback(self, callback):
+        self._on_set = callback
+
+    def set(self, name, value):
+        result = self._on_set([SimpleNamespace(name=name, value=value)])
+        if result.successful:
+            self._parameters[name] = value
+        return result
+
+    def create_publisher(
+        self,
+        msg_type,
+        topic,
+        qos_profile,
+        *,
+        callback_group=None,
+        event_callbacks=None,
+        qos_overriding_options=None,
+    ):
+        assert isinstance(qos_profile, QoSProfile)
+        return self.topics.setdefault(topic, Publisher(msg_type))
+
+    def destroy_publisher(self, publisher):
+        self.topics = {t: p for t, p in self.topics.items() if p is not publisher}
+
+    def create_service(
+        self, srv_type, srv_name, callback, *, qos_profile=None, callback_group=None
+    ):
+        self.services[srv_name] = lambda: callback(srv_type.Request(), srv_type.Response())
+        return srv_name
+
+    def destroy_service(self, service):
+        del self.services[service]
+
+    def _go(self, before, callback, after):
+        assert self.state == before, (self.state, before)
+        found = callback(SimpleNamespace(label=before))
+        if found is TransitionCallbackReturn.SUCCESS:
+            self.state = after
+        return found
+
+    def trigger_configure(self):
+        return self._go("unconfigured", self.on_configure, "inactive")
+
+    def trigger_activate(self):
+        return self._go("inactive", self.on_activate, "active")
+
+    def trigger_deactivate(self):
+        return self._go("active", self.on_deactivate, "inactive")
+
+    def trigger_cleanup(self):
+        return self._go("inactive", self.on_cleanup, "unconfigured")
+
+    def on_configure(self, state):
+        return TransitionCallbackReturn.SUCCESS
+
+    on_activate = on_deactivate = on_cleanup = on_configure
+
+    def destroy_node(self):
+        self.state = "finalized"
+
+
+def modules():
+    """The modules by name."""
+    here = {name: value for name, value in globals().items() if isinstance(value, type)}
+    found = {}
+    for module, names in {
+        "rclpy": "",
+        "rclpy.action": "ActionServer CancelResponse GoalResponse",
+        "rclpy.callback_groups": "ReentrantCallbackGroup",
+        "rclpy.lifecycle": "LifecycleNode TransitionCallbackReturn",
+        "rclpy.qos": "QoSProfile",
+        "rclpy.qos_overriding_options": "QoSOverridingOptions",
+        "builtin_interfaces.msg": "Duration Time",
+        "control_msgs.action": "FollowJointTrajectory",
+        "diagnostic_msgs.msg": "DiagnosticArray DiagnosticStatus KeyValue",
+        "industrial_msgs.msg": "RobotStatus",
+        "rcl_interfaces.msg": "ParameterDescriptor SetParametersResult",
+        "rosgraph_msgs.msg": "Clock",
+        "sensor_msgs.msg": "JointState",
+        "std_srvs.srv": "Trigger",
+        "trajectory_msgs.msg": "JointTrajectoryPoint",
+    }.items():
+        made = ModuleType(module)
+        for name in names.split():
+            setattr(made, name, here[name])
+        found[module] = made
+        package = module.split(".")[0]
+        found.setdefault(package, ModuleType(package))
+    found["rclpy.lifecycle"].LifecycleState = SimpleNamespace
+    executors = found["rclpy.executors"] = ModuleType("rclpy.executors")
+    executors.MultiThreadedExecutor = executors.ExternalShutdownException = type(
+        "E", (Exception,), {}
+    )
+    return found
+
+
+def install(monkeypatch):
+    """As if ROS 2 were sourced."""
+    for name, made in modules().items():
+        monkeypatch.setitem(sys.modules, name, made)

@@ -1,0 +1,278 @@
+"""Goals on the virtual clock, against our own driver: how each ends, and where the robot is then.
+
+What a goal means is joint_trajectory_controller's (control_msgs/action/FollowJointTrajectory);
+the rows in which ROS 1 nodes lied or hung are named at their test.
+"""
+
+import asyncio
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from ready import NAMES, goal, station
+
+from rapidgen.ros.following import Policy, UnderWay
+from rapidgen.ros.goals import Code, Defaults, Ending, Point, Tolerance
+
+THERE = goal(0.0, 0.1, 0.2)
+APPROACH = Policy(replace="approach")
+
+
+def test_succeeded_only_where_the_controller_is_done():
+    with station() as s:
+        outcome = s.outcome(THERE)
+        assert outcome.status is Ending.SUCCEEDED
+        assert outcome.code is Code.SUCCESSFUL
+        assert s.stands
+        assert s.joints == pytest.approx([0.2] * 6, abs=1e-4)
+        assert len(s.fed) > 10
+        assert s.fed[-1].names == NAMES
+        times = [fed.time for fed in s.fed]
+        assert times == sorted(times)
+
+
+def test_names_in_any_order():
+    with station() as s:
+        rows = [[0.0] * 6, [0.1, 0.2, -0.1, 0.3, 0.05, -0.2]]
+        backwards = goal(*(row[::-1] for row in rows), names=NAMES[::-1])
+        assert s.outcome(backwards).status is Ending.SUCCEEDED
+        assert s.joints == pytest.approx(rows[1], abs=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("asked", "code", "text"),
+    [
+        (goal(0.0, names=NAMES[:5]), Code.INVALID_JOINTS, "missing: joint_6"),
+        (goal(0.0, 0.1, names=(*NAMES[:5], "elbow")), Code.INVALID_JOINTS, "unknown: elbow"),
+        (goal(0.0, names=(*NAMES, "joint_1")), Code.INVALID_JOINTS, "twice: joint_1"),
+        (goal(), Code.INVALID_GOAL, "no points"),
+        (goal(0.0, float("nan")), Code.INVALID_GOAL, "no numbers"),
+        (goal(0.0, 0.1, has_multi_dof=True), Code.INVALID_GOAL, "multi_dof"),
+        (goal(0.0, 0.1, 0.2, seconds=0.0), Code.INVALID_GOAL, "does not increase at point 1"),
+        (goal(0.0, [0.1] * 5), Code.INVALID_GOAL, "point 1 has 5 positions for 6 joints"),
+        # What a ROS-Industrial action answers with SUCCEEDED: a closed path that is refused.
+        (goal(0.0, 9.0, 0.0), Code.INVALID_GOAL, "outside its limits at point 1"),
+        (goal(0.0, 0.001, 0.0, seconds=0.05), Code.INVALID_GOAL, "shorter than the path planner"),
+        (goal(0.0, 0.001, 0.002, 0.0, seconds=0.02), Code.INVALID_GOAL, "and 1 more"),
+        (goal(0.0, 1.0, seconds=0.1), Code.INVALID_GOAL, "too fast"),
+        (goal(0.5, 0.6), Code.INVALID_GOAL, "start"),
+    ],
+    ids=lambda value: value if isinstance(value, str) else "",
+)
+def test_refused_is_aborted_with_a_reason_and_nothing_moves(asked, code, text):
+    with station() as s:
+        outcome = s.outcome(asked)
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, code)
+        assert text in outcome.text
+        assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
+        assert s.outcome(THERE).status is Ending.SUCCEEDED
+
+
+def test_a_velocity_at_the_end_is_refused_and_effort_is_said():
+    last = Point(1.0, [0.1] * 6, velocities=[0.0, 0, 0, 0.2, 0, 0])
+    moving = replace(THERE, points=[Point(0.0, [0.0] * 6, velocities=[0.0] * 6), last])
+    pushed = replace(THERE, points=[replace(point, effort=[1.0] * 6) for point in THERE.points])
+    with station() as s:
+        refused = s.outcome(moving)
+        assert refused.code is Code.INVALID_GOAL
+        assert "joint_4 0.2" in refused.text
+        done = s.outcome(pushed)
+        assert done.status is Ending.SUCCEEDED
+        assert "effort was ignored" in done.text
+        assert any("effort" in note for note in s.notes)
+
+
+def test_a_stamp_in_the_future_is_waited_for():
+    with station() as s:
+        start = s.loop.time() + 3.0
+        asked = replace(THERE, stamp=start)
+        began = []
+        s.follower._robot.execute = _noting(s, s.robot.execute, began)
+        assert s.outcome(asked).status is Ending.SUCCEEDED
+        assert began == [pytest.approx(start, abs=1e-6)]
+
+
+def _noting(s, execute, began):
+    def noted(trajectory):
+        began.append(s.loop.time())
+        return execute(trajectory)
+
+    return noted
+
+
+def test_a_stamp_in_the_past_is_refused_and_one_under_way_is_not():
+    with station() as s:
+        late = s.outcome(replace(THERE, stamp=s.loop.time() - 0.5))
+        assert (late.status, late.code) == (Ending.ABORTED, Code.OLD_HEADER_TIMESTAMP)
+        assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
+        assert s.outcome(replace(THERE, stamp=s.loop.time() - 0.1)).status is Ending.SUCCEEDED
+
+
+@pytest.mark.parametrize("after", [0.0, 0.05, 0.4, 1.2])
+def test_cancel_ends_when_the_robot_stands(after):
+    with station() as s:
+        under = UnderWay()
+        outcome = s.run(_after(s, after, s.follow(goal(0.0, 0.5, 1.0), under), under.cancel))
+        assert outcome.status is Ending.CANCELED
+        assert s.stands
+        stood = s.joints
+        assert stood.max() < 1.0
+        s.controller.run_for(2.0)
+        assert s.joints == pytest.approx(stood, abs=1e-9)
+
+
+async def _after(s, seconds, following, act):
+    under = asyncio.ensure_future(following)
+    await asyncio.sleep(0)
+    await asyncio.sleep(seconds)
+    act()
+    return await under
+
+
+def test_cancel_before_the_stamp():
+    with station() as s:
+        asked = replace(THERE, stamp=s.loop.time() + 5)
+        under = UnderWay()
+        outcome = s.run(_after(s, 1.0, s.follow(asked, under), under.cancel))
+        assert outcome.status is Ending.CANCELED
+        assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
+
+
+def test_cancelled_before_it_was_begun():
+    with station() as s:
+        under = UnderWay()
+        under.cancel()
+        assert s.run(s.follow(goal(0.0, 0.5), under)).status is Ending.CANCELED
+        assert s.joints == pytest.approx([0.0] * 6, abs=1e-9)
+
+
+def test_a_second_goal_is_refused_and_the_first_goes_on():
+    with station() as s:
+        first, second = s.run(_two(s, THERE, goal(0.2, 0.0)))
+        assert first.status is Ending.SUCCEEDED
+        assert second.status is Ending.ABORTED
+        assert "another goal" in second.text
+        assert s.joints == pytest.approx([0.2] * 6, abs=1e-4)
+
+
+async def _two(s, one, other):
+    first = asyncio.ensure_future(s.follow(one))
+    await asyncio.sleep(1.0)
+    second = await s.follow(other)
+    return await first, second
+
+
+def test_a_second_goal_replaces_where_the_user_said_so():
+    with station(APPROACH) as s:
+        first, second = s.run(_two(s, goal(0.0, 0.5, 1.0), goal(0.0, 0.3)))
+        assert first.status is Ending.ABORTED
+        assert "replaced" in first.text
+        assert second.status is Ending.SUCCEEDED
+        assert "put in front" in second.text
+        assert s.joints == pytest.approx([0.3] * 6, abs=1e-4)
+
+
+def test_dense_points_are_resampled_where_the_user_said_so():
+    rows = [0.2 * np.sin(n * 0.05) for n in range(41)]
+    dense = goal(*rows, seconds=0.03)
+    with station() as s:
+        assert "shorter" in s.outcome(dense).text
+    with station(Policy(dense="resample")) as s:
+        outcome = s.outcome(dense)
+        assert outcome.status is Ending.SUCCEEDED
+        assert "off by up to" in outcome.text
+        assert s.joints == pytest.approx([rows[-1]] * 6, abs=1e-4)
+
+
+def test_the_rest_that_a_planner_leaves_at_the_end():
+    """As MoveIt's time-optimal parametrisation samples: every 0.1 s, and what is left."""
+    times = [*np.arange(21) * 0.1, 2.03]
+    points = [Point(t, [0.15 * (1 - np.cos(np.pi * t / 2.03))] * 6) for t in times]
+    with station() as s:
+        outcome = s.outcome(replace(THERE, points=points))
+        assert outcome.status is Ending.SUCCEEDED
+        assert "last segment of 0.030 s was given 0.1 s" in outcome.text
+        assert s.joints == pytest.approx([0.3] * 6, abs=1e-4)
+
+
+# e-stop, program stop: an action of ROS 1 stays ACTIVE for ever.
+@pytest.mark.parametrize(
+    ("fault", "text"),
+    [
+        (lambda c: c.set_e_stop(True), "emergency stop"),
+        (lambda c: c.stop_program(), "stopped"),
+        (lambda c: c.set_mode("manual_reduced"), ""),
+    ],
+)
+def test_what_the_controller_ends_is_aborted_and_the_next_goal_runs(fault, text):
+    with station() as s:
+        outcome = s.run(_after(s, 1.0, s.follow(goal(0.0, 0.5, 1.0)), lambda: fault(s.controller)))
+        assert outcome.status is Ending.ABORTED
+        assert outcome.code is Code.PATH_TOLERANCE_VIOLATED
+        assert text in outcome.text
+        s.controller.run_for(1.0)
+        assert s.stands
+
+
+def test_a_controller_that_is_gone_aborts():
+    with station() as s:
+        outcome = s.run(_after(s, 1.0, s.follow(goal(0.0, 0.5, 1.0)), s.controller.power_loss))
+        assert outcome.status is Ending.ABORTED
+
+
+def test_path_tolerance_is_against_the_controllers_time():
+    wide = replace(THERE, path_tolerance=[Tolerance("joint_1", position=0.15)])
+    with station() as s:
+        assert s.outcome(wide).status is Ending.SUCCEEDED
+    with station() as s:
+        # Nobody holds a robot to its path better than by stopping it from outside.
+        s.controller.run_for(0.1)
+        tight = replace(goal(0.0, 0.5, 1.0), path_tolerance=[Tolerance("joint_1", position=1e-4)])
+        slow = s.run(_after(s, 0.6, s.follow(tight), lambda: s.slow_down(0.1)))
+        assert (slow.status, slow.code) == (Ending.ABORTED, Code.PATH_TOLERANCE_VIOLATED)
+        assert "joint_1" in slow.text
+        assert s.stands
+
+
+def test_goal_time_counts_the_override_that_was_asked_for():
+    timed = replace(goal(0.0, 0.2), goal_time_tolerance=1.0)
+    with station() as s:
+        under = s.follow(timed)
+
+        async def slower():
+            following = asyncio.ensure_future(under)
+            await asyncio.sleep(0.4)
+            await s.robot.set_speed(20)
+            return await following
+
+        assert s.run(slower()).status is Ending.SUCCEEDED
+    with station() as s:
+        late = s.run(_after(s, 0.4, s.follow(timed), lambda: s.slow_down(0.05)))
+        assert (late.status, late.code) == (Ending.ABORTED, Code.GOAL_TOLERANCE_VIOLATED)
+        assert "s were allowed" in late.text
+        assert s.stands
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "text"),
+    [
+        (Tolerance("joint_1", position=-2.0), "-1 for none"),
+        (Tolerance("joint_1", velocity=float("nan")), "velocity"),
+        (Tolerance("elbow", position=0.1), "no joint here"),
+    ],
+)
+def test_tolerances_that_mean_nothing_are_refused(tolerance, text):
+    with station() as s:
+        outcome = s.outcome(replace(THERE, path_tolerance=[tolerance]))
+        assert outcome.code is Code.INVALID_GOAL
+        assert text in outcome.text or "-1 for none" in outcome.text
+
+
+def test_goal_tolerance_of_the_user_counts():
+    strict = Policy(defaults=Defaults(goal=1e-12))
+    with station(strict) as s:
+        outcome = s.outcome(THERE)
+        assert (outcome.status, outcome.code) == (Ending.ABORTED, Code.GOAL_TOLERANCE_VIOLATED)
+        none = replace(THERE, points=goal(0.2, 0.1).points)
+        none = replace(none, goal_tolerance=[Tolerance(n, position=-1.0) for n in NAMES])
+        assert s.outcome(none).status is Ending.SUCCEEDED

@@ -1,0 +1,169 @@
+"""The node against a stand-in of rclpy, with a controller in real time."""
+
+import sys
+import time
+
+import pytest
+import standin
+from standin import Duration, FollowJointTrajectory, JointTolerance, JointTrajectoryPoint, Time
+
+from rapidgen.config import load_config
+from rapidgen.controller.controller import VirtualController
+from rapidgen.generate import build, make_system
+
+NAMES = [f"joint_{n}" for n in range(1, 7)]
+SPEED = 10.0
+
+
+@pytest.fixture
+def driver_type(monkeypatch):
+    standin.install(monkeypatch)
+    monkeypatch.delitem(sys.modules, "rapidgen.ros.node", raising=False)
+    from rapidgen.ros.node import RobotNode
+
+    monkeypatch.setattr(standin.LifecycleNode, "clock", staticmethod(time.monotonic_ns))
+    yield RobotNode
+    sys.modules.pop("rapidgen.ros.node", None)
+
+
+@pytest.fixture
+def sim():
+    config = load_config("irb120")
+    system = make_system(config, build(config))
+    with VirtualController(
+        system, config.groups, clock="real", speed=SPEED, ports="auto"
+    ) as controller:
+        controller.start()
+        yield controller
+
+
+@pytest.fixture
+def node(driver_type, sim):
+    made = []
+
+    def make(**parameters):
+        address = str(sim.address("rob1", timeout=60))
+        made.append(
+            driver_type(parameter_overrides={"config": "irb120", "address": address, **parameters})
+        )
+        return made[-1]
+
+    yield make
+    for one in made:
+        one.destroy_node()
+
+
+@pytest.fixture
+def up(node):
+    def make(**parameters):
+        one = node(**parameters)
+        one.topics["robot_status"].wait(lambda told: told.motion_possible.val == 1)
+        return one
+
+    return make
+
+
+def goal(*rows, seconds=1.0, **told):
+    points = [
+        JointTrajectoryPoint(
+            positions=[float(row)] * 6,
+            time_from_start=Duration(sec=int(n * seconds), nanosec=int(n * seconds % 1 * 1e9)),
+        )
+        for n, row in enumerate(rows)
+    ]
+    asked = FollowJointTrajectory.Goal(**told)
+    asked.trajectory.joint_names = NAMES
+    asked.trajectory.points = points
+    return asked
+
+
+def ended(handle):
+    assert handle.over.wait(60)
+    return handle.status, handle.result.error_code, handle.result.error_string
+
+
+def action(node):
+    return node.actions["rob1_controller/follow_joint_trajectory"]
+
+
+def test_a_goal_from_end_to_end(up):
+    node = up()
+    handle = action(node).send(goal(0.0, 0.1, 0.2))
+    status, code, text = ended(handle)
+    assert (status, code) == ("succeeded", 0)
+    assert "done in" in text
+    assert handle.feedback[-1].joint_names == NAMES
+    assert len(handle.feedback[-1].error.positions) == 6
+    states = node.topics["joint_states"].wait(lambda told: told.position[0] > 0.1999)
+    assert states.name == NAMES
+    assert len(states.velocity) == 6
+    assert states.header.stamp.sec > 0
+
+
+def test_refused_is_aborted_with_its_reason(up):
+    node = up()
+    status, code, text = ended(action(node).send(goal(0.0, 9.0, 0.0)))
+    assert (status, code) == ("aborted", -1)
+    assert "outside its limits" in text
+    stamped = goal(0.0, 0.1)
+    stamped.trajectory.header.stamp = Time(sec=0, nanosec=5)
+    status, code, text = ended(action(node).send(stamped))
+    assert (status, code) == ("aborted", -3)
+    toleranced = goal(0.0, 0.1, path_tolerance=[JointTolerance(name="elbow", position=1.0)])
+    assert "no joint here" in ended(action(node).send(toleranced))[2]
+
+
+def test_cancel_is_canceled_and_of_a_second_goal_leaves_the_first(up):
+    node = up()
+    first = action(node).send(goal(0.0, 0.5, 1.0, seconds=20.0))
+    assert first.fed.wait(60)
+    second = action(node).send(goal(0.5, 0.0))
+    assert ended(second)[0] == "aborted"
+    assert first.status == "executing"
+    action(node).cancel(first)
+    assert ended(first)[:2] == ("canceled", 0)
+
+
+def test_services_and_speed(up):
+    node = up()
+    told = node.services["resume"]()
+    assert (told.success, "nothing was paused" in told.message) == (False, True)
+    handle = action(node).send(goal(0.0, 0.5, seconds=5.0))
+    assert handle.fed.wait(60)
+    assert node.services["pause"]().success
+    assert node.services["resume"]().success
+    assert node.set("speed", 50.0).successful
+    refused = node.set("speed", 500.0)
+    assert (refused.successful, "1 to 100" in refused.reason) == (False, True)
+    assert node.services["stop"]().success
+    assert ended(handle)[0] == "aborted"
+
+
+def test_up_before_the_robot_and_says_why_it_waits(driver_type):
+    overrides = {"config": "irb120", "address": "127.0.0.1:1,1"}
+    node = driver_type(parameter_overrides=overrides)
+    told = node.topics["/diagnostics"].wait(lambda told: told.status[0].level == b"\x03")
+    assert "no link to the robot: cannot connect" in told.status[0].message
+    assert node.topics["joint_states"].sent == []
+    assert "no link" in ended(action(node).send(goal(0.0, 0.1)))[2]
+    assert not node.services["stop"]().success
+    node.destroy_node()
+
+
+def test_ends_with_a_goal_under_way_and_the_robot_stands(up, sim):
+    node = up()
+    handle = action(node).send(goal(0.0, 0.5, seconds=20.0))
+    assert handle.fed.wait(60)
+    node.trigger_deactivate()
+    assert ended(handle)[0] == "aborted"
+    group = next(iter(sim.motion.groups.values()))
+    assert group.is_standing
+    node.trigger_cleanup()
+    assert not node.topics
+
+
+def test_a_configuration_that_is_none_is_said(driver_type):
+    node = driver_type(parameter_overrides={"config": "irb12o"})
+    assert node.state == "unconfigured"
+    assert any("irb12o" in line for line in node.get_logger().lines)
+    node.destroy_node()

@@ -1,0 +1,127 @@
+"""Generated ROS packages: names that match, frames that are where the kinematics says."""
+
+import ast
+import random
+import xml.etree.ElementTree as ET
+from io import BytesIO
+
+import numpy as np
+import pytest
+import yourdfpy
+from ruamel.yaml import YAML
+
+from rapidgen.axes.frames import to_matrix
+from rapidgen.axes.kinematics import Kinematics
+from rapidgen.axes.mapping import JointMap
+from rapidgen.cli.app import main
+from rapidgen.config import load_config, shipped_names
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.ros.package import ros1_package, ros2_package, write
+from rapidgen.ros.package.urdf import draw
+
+
+def package(name):
+    return ros2_package(load_config(name), name)
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_tool0_of_the_urdf_is_where_the_kinematics_says(name):
+    """The URDF read by yourdfpy, against `axes`."""
+    config = load_config(name)
+    drawn = draw(config, name)
+    robot = yourdfpy.URDF.load(BytesIO(drawn.text.encode()), load_meshes=False)
+    number = random.Random(3)
+    for group in config.groups:
+        kinematics, joints = Kinematics.of(group), JointMap.of(group)
+        for _ in range(20):
+            wire = tuple(number.uniform(joint.lower, joint.upper) for joint in group.joints)
+            robot.update_cfg(dict(zip(joints.names, joints.to_urdf(wire), strict=True)))
+            matrix = robot.get_transform(drawn.arms[group.name].tip, "world")
+            position, orientation = kinematics.forward(wire)
+            assert matrix[:3, 3] == pytest.approx(position, abs=1e-6)
+            assert matrix[:3, :3] == pytest.approx(np.array(to_matrix(orientation)), abs=1e-6)
+
+
+@pytest.mark.parametrize("name", shipped_names())
+def test_every_file_is_what_its_name_says(name):
+    config, files = load_config(name), package(name)
+    for path, text in files.items():
+        if path.endswith(".py"):
+            ast.parse(text)
+        elif path.endswith(".yaml"):
+            YAML(typ="safe").load(text)
+        elif path.endswith((".xml", ".urdf", ".srdf", ".launch")):
+            ET.fromstring(text)
+    joints = {joint.name for group in config.groups for joint in group.joints}
+    urdf = ET.fromstring(next(text for path, text in files.items() if path.endswith(".urdf")))
+    assert joints <= {joint.attrib["name"] for joint in urdf.iter("joint")}
+    limits = YAML(typ="safe").load(files["config/joint_limits.yaml"])["joint_limits"]
+    assert set(limits) == joints
+
+
+def test_moveit_waits_for_the_controller_and_complains_before_the_driver():
+    config = load_config("irb120")
+    told = YAML(typ="safe").load(package("irb120")["config/moveit_controllers.yaml"])
+    execution = told["trajectory_execution"]
+    assert execution["execution_duration_monitoring"] is False
+    assert 0 < execution["allowed_start_tolerance"] < config.trajectory.start_tolerance
+    controllers = told["moveit_simple_controller_manager"]
+    assert controllers["controller_names"] == ["rob1_controller"]
+    assert controllers["rob1_controller"]["joints"] == [f"joint_{n}" for n in range(1, 7)]
+
+
+def test_srdf_names_links_and_joints_that_the_urdf_has():
+    files = package("irb14000")
+    name = "irb14000_rapidgen"
+    urdf = ET.fromstring(files[f"config/{name}.urdf"])
+    srdf = ET.fromstring(files[f"config/{name}.srdf"])
+    links = {link.attrib["name"] for link in urdf.iter("link")}
+    pairs = list(srdf.iter("disable_collisions"))
+    assert {pair.attrib[key] for pair in pairs for key in ("link1", "link2")} <= links
+    assert {group.attrib["name"] for group in srdf.findall("group")} == {
+        "rob_l", "rob_l_arm", "rob_r", "rob_r_arm"
+    }  # fmt: skip
+
+
+def test_ros1_says_names_coupling_and_ports():
+    config = load_config("irb2400")
+    files = ros1_package(config, "irb2400")
+    launch = ET.fromstring(files["launch/robot.launch"])
+    told = {e.attrib.get("name"): e.attrib.get("value") for e in launch.iter("param")}
+    assert told["J23_coupled"] == "true"
+    names = next(launch.iter("rosparam")).text
+    assert names == "[joint_1, joint_2, joint_3, joint_4, joint_5, joint_6]"
+    ast.parse(files["scripts/watcher.py"])
+
+
+def test_written_whole_again_and_not_over_somebody_elses(tmp_path):
+    files = package("irb120")
+    write(files, tmp_path / "a")
+    write(files, tmp_path / "a")
+    (tmp_path / "a" / "mine.txt").write_text("mine")
+    with pytest.raises(DiagnosticError, match=r"mine\.txt"):
+        write(files, tmp_path / "a")
+
+
+@pytest.mark.parametrize("verb", ["ros1", "ros2"])
+def test_the_command(verb, tmp_path, capsys):
+    assert main([verb, "irb120", "-o", str(tmp_path / "p")]) == 0
+    assert "files in" in capsys.readouterr().out
+    assert (tmp_path / "p" / "package.xml").is_file()
+    assert main([verb, "irb12o", "-o", str(tmp_path / "q")]) == 2
+    assert not (tmp_path / "q").exists()
+
+
+def test_a_hostile_name_stays_text(tmp_path):
+    yaml = tmp_path / "robot.yaml"
+    yaml.write_text('name: "it\'s <b>"\nbase: irb120\n')
+    try:
+        config = load_config(str(yaml))
+    except DiagnosticError:
+        return
+    for path, text in ros2_package(config, str(yaml)).items():
+        if path.endswith(".py"):
+            ast.parse(text)
+        elif path.endswith((".xml", ".urdf", ".srdf")):
+            ET.fromstring(text)
+    assert np.isfinite(config.state_period)
