@@ -27,7 +27,7 @@ from rapidgen.proving.model import Broken
 from rapidgen.proving.track import Position
 from rapidgen.runtime.builtins.motion.targets import rob_target
 from rapidgen.runtime.robot_data import NO_OFFSETS
-from rapidgen.runtime.values import RobTarget, Value
+from rapidgen.runtime.values import Value
 from rapidgen.system.model import ModuleFile, System
 
 BEGIN, END, WHOLE = RawStreamFlag.BEGIN, RawStreamFlag.END, RawStreamFlag.WHOLE
@@ -130,14 +130,20 @@ def orders(bench: Bench, count: int, chance: random.Random) -> list[RawOrder]:
     """Moves in the neighbourhood of a place that no robot finds singular, the last a stop point."""
     middle = bent(bench)
     found = [RawOrder(RawInstruction.MOVE_ABSJ, middle, None, zone=None)]
-    geometry = bench.motion_group.kinematics
+    poses = computes(bench)
     for number in range(1, count):
         joints = near(bench, middle, chance)
-        kind = chance.choice(_KINDS) if geometry is not None else RawInstruction.MOVE_ABSJ
+        kind = chance.choice(_KINDS) if poses else RawInstruction.MOVE_ABSJ
         pose = None if kind is RawInstruction.MOVE_ABSJ else reached(bench, joints)
         zone = chance.choice((0.002, 0.005, 0.01)) if number + 1 < count else None
         found.append(RawOrder(kind, joints, pose, None, chance.choice((0.1, 0.15)), zone))
     return found
+
+
+def computes(bench: Bench) -> bool:
+    """Whether the controller tells the motion server what pose joints reach."""
+    known = bench.motion_group.kinematics is not None
+    return known and bench.setting.dialect.calc_in_background
 
 
 def bent(bench: Bench) -> Position:
@@ -215,7 +221,7 @@ def _statement(bench: Bench, order: RawOrder) -> str:
     return f"{_NAMES[order.kind]} {','.join(places)},{tail}"
 
 
-def _target(pose: Pose, like: RobTarget) -> str:
+def _target(pose: Pose, like: Value) -> str:
     place = _list([1000 * value for value in pose[0]])
     conf, external = like.robconf, like.extax
     turned = _list((conf.cf1, conf.cf4, conf.cf6, conf.cfx))
@@ -235,10 +241,11 @@ def movement(track: Sequence[tuple[float, Position]]) -> tuple[float, list[Posit
 def farthest(bench: Bench, places: Sequence[Position], way: Sequence[Position]) -> float:
     """The largest distance of a place from the way through others, in their order: of the TCP in m,
     of an axis where the robot's geometry is not known."""
-    of = bench.tcp if bench.motion_group.kinematics is not None else tuple
-    line = [of(place) for place in way]
+    line, seen = list(way), list(places)
+    if bench.motion_group.kinematics is not None:
+        line, seen = [bench.tcp(place) for place in way], [bench.tcp(place) for place in places]
     at, worst = 0, 0.0
-    for place in map(of, places):
+    for place in seen:
         # The way is followed from one to the next, not left out.
         near = range(max(0, at - 3), min(at + 40, len(line) - 1))
         away, at = min((_apart(place, line[i], line[i + 1]), i) for i in near)

@@ -51,7 +51,7 @@ class Frames:
 
 
 @dataclass(frozen=True, slots=True)
-class Geometry:
+class GroupFrames:
     """What poses can mean for a group: its tools and work objects by name, its own first."""
 
     kinematics: Kinematics
@@ -59,7 +59,7 @@ class Geometry:
     work_objects: tuple[tuple[str, Pose | None], ...]
 
     @classmethod
-    def of(cls, group: GroupConfig) -> "Geometry | None":
+    def of(cls, group: GroupConfig) -> "GroupFrames | None":
         """That of a group; None where its model has none."""
         kinematics = Kinematics.of(group)
         if kinematics is None:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from rapidgen.axes.mapping import JointMap
-from rapidgen.client.core.frames import Frames, Geometry
+from rapidgen.client.core.frames import Frames, GroupFrames
 from rapidgen.client.errors import IncompatibleDriver, NotSupported
 from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
 from rapidgen.wire.simple_message.mapping import mapping_hash
@@ -33,7 +33,7 @@ class Group:
     """False: neither a configuration nor the driver told the limits."""
     signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
-    geometry: Geometry | None = None
+    geometry: GroupFrames | None = None
     """What poses mean; None where that is not known."""
 
     @classmethod
@@ -44,7 +44,7 @@ class Group:
             JointMap.of(group),
             config.trajectory,
             signals=tuple(config.signals),
-            geometry=Geometry.of(group),
+            geometry=GroupFrames.of(group),
         )
 
     @classmethod

@@ -23,7 +23,7 @@ from rapidgen.client.core.motion import place_of, refused
 from rapidgen.client.core.program_checks import CheckedProgram, check_program
 from rapidgen.client.core.request_port import PendingReply, RequestPort
 from rapidgen.client.core.state_port import Evidence, StatePort
-from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, Queue
+from rapidgen.client.core.stream import InstructionQueue, PointQueue, PointStream, SendQueue
 from rapidgen.client.errors import (
     ConnectionLost,
     NotReady,
@@ -484,7 +484,7 @@ class Core:
         motion.end()
         return motion
 
-    def _begin(self, queue: Queue) -> PointStream:
+    def _begin(self, queue: SendQueue) -> PointStream:
         hello = self.state_port.driver.hello
         assert hello is not None
         self._streams = self._streams % (INDEX_WRAP - 1) + 1

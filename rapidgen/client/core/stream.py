@@ -40,7 +40,7 @@ class _Flight:
     sent: float
 
 
-class Queue(Protocol):
+class SendQueue(Protocol):
     """What waits to be sent, and how it goes into messages."""
 
     number: int
@@ -73,11 +73,11 @@ class PointQueue:
         self._queue.append(words)
 
     def size(self, most: int) -> int:
-        """See Queue."""
+        """See SendQueue."""
         return min(most, self.batch)
 
     def frame(self, stream: int, first: int, size: int, flags: StreamFlag) -> bytes:
-        """See Queue."""
+        """See SendQueue."""
         return points_frame(stream, first, self._take(size), flags=flags)
 
     def _take(self, size: int) -> Words:
@@ -103,7 +103,7 @@ class InstructionQueue:
         self._queue = deque(instructions)
 
     def size(self, most: int) -> int:
-        """See Queue."""
+        """See SendQueue."""
         words = count = 0
         for one in islice(self._queue, most):
             words += len(one)
@@ -113,7 +113,7 @@ class InstructionQueue:
         return count
 
     def frame(self, stream: int, first: int, size: int, flags: StreamFlag) -> bytes:
-        """See Queue."""
+        """See SendQueue."""
         some = [self._queue.popleft() for _ in range(size)]
         return program_frame(stream, first, some, flags=flags)
 
@@ -126,7 +126,7 @@ class PointStream(CommandedMotion):
     def __init__(
         self,
         number: int,
-        queue: Queue,
+        queue: SendQueue,
         hello: messages.HelloReply,
         group: Group,
         state_port: StatePort,

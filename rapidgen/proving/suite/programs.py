@@ -15,9 +15,11 @@ from rapidgen.proving.programs import (
     Programmer,
     RawOrder,
     by_hand,
+    computes,
     farthest,
     movement,
     orders,
+    reached,
 )
 from rapidgen.proving.suite.control import done, stop
 from rapidgen.proving.track import Position, changed, inward, small_unit
@@ -83,7 +85,7 @@ def _refused(bench: Bench) -> None:
     for order, reason in wrong:
         told = client.send([*right[:3], order, *right[3:]])
         client.refused(told, reason, 3, f"a program with {order}")
-    for words in ([99, 0], [0], [-1], [1024 + MOVE_ABSJ, 0], [4096]):
+    for words in ([99, 0], [0], [-1], [4096 + MOVE_ABSJ, 0], [4096]):
         client.number += 1
         start = millionths(bench.position)
         told = client.say([*start, *words], 1, ALL)
@@ -100,6 +102,11 @@ def _refused(bench: Bench) -> None:
     told = client.send(many)
     if not isinstance(told, messages.RawPointsRefused) or told.reason != RawReason.OVERRUN:
         raise Broken(f"more instructions than the ring holds: the reply is {told}")
+    if bench.motion_group.kinematics is not None and not computes(bench):
+        pose = reached(bench, right[3].joints)
+        untold = replace(right[3], kind=RawInstruction.MOVE_L, pose=pose)
+        told = client.send([*right[:3], untold])
+        client.refused(told, RawReason.NO_GEOMETRY, 3, "a pose of which nobody knows the joints")
     bench.stays(1, "no program was right")
     told = bench.progress(watcher)
     if (told.state, told.planned) != (RawTrajectoryState.REFUSED, 0):
@@ -226,10 +233,10 @@ def _superseded(bench: Bench) -> None:
     bench.stays(1, "the program has ended")
     points = bench.wave(20)
     bench.sets_off(client.link, points, 0.5)
-    told = client.send(program)
-    if isinstance(told, messages.RawPointsRefused):
+    reply = client.send(program)
+    if isinstance(reply, messages.RawPointsRefused):
         # It began where the robot was when it was sent.
-        client.refused(told, RawReason.START_TOO_FAR, 0, "a program into a trajectory")
+        client.refused(reply, RawReason.START_TOO_FAR, 0, "a program into a trajectory")
         bench.rests(5, 1, "neither is under way")
         client.takes("a program", program)
     bench.wait_until_at(program[-1].joints, 60)
