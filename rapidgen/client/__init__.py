@@ -20,6 +20,7 @@ from rapidgen.client.errors import (
     RequestRefused,
     RobotError,
     RobotTimeout,
+    RoutineFailed,
     StopFailed,
     TrajectoryRefused,
 )
@@ -60,6 +61,7 @@ __all__ = [
     "Robot",
     "RobotError",
     "RobotTimeout",
+    "RoutineFailed",
     "Speed",
     "State",
     "Status",

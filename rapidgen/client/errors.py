@@ -9,6 +9,7 @@
     ├── IncompatibleDriver        another version or joint map: build and deploy again
     ├── NotReady                  motors, mode, e-stop, or a motion under way: mend that, try again
     ├── NotSupported              this driver cannot do that: build another one, or do without
+    ├── RoutineFailed             a routine that was called has raised an error: `number`
     ├── RequestRefused            a pause, a speed or a signal was refused; nothing else changed
     ├── InvalidTrajectory         mend the trajectory; nothing was sent
     ├── InvalidProgram            mend the program; nothing was sent
@@ -112,6 +113,21 @@ class _Told(RobotError):
 
 class RequestRefused(_Told):
     """The controller did not do what was asked over the control port; `reason` says why."""
+
+
+class RoutineFailed(RobotError):
+    """A procedure that was called has raised an error: `number` is its ERRNO."""
+
+    def __init__(
+        self,
+        diagnostic: Diagnostic,
+        *,
+        number: int,
+        messages: Iterable[tuple[float, str]] = (),
+        states: "Iterable[State]" = (),
+    ) -> None:
+        super().__init__(diagnostic, messages=messages, states=states)
+        self.number = number
 
 
 class InvalidTrajectory(RobotError):

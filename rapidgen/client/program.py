@@ -149,6 +149,8 @@ class ProgramStep:
     signal: str = ""
     value: float = 0.0
     seconds: float = 0.0
+    routine: str = ""
+    arguments: tuple[float | bool | str, ...] = ()
 
 
 class _Operands(TypedDict, total=False):
@@ -163,6 +165,8 @@ class _Operands(TypedDict, total=False):
     signal: str
     value: float
     seconds: float
+    routine: str
+    arguments: tuple[float | bool | str, ...]
 
 
 class Program:
@@ -257,6 +261,13 @@ class Program:
         """Set a signal, standing. The move before it ends in a stop point; `triggers` of a move set
         signals on its way."""
         return self._add(Instruction.SET, signal=signal, value=float(value))
+
+    def call(self, routine: str, *arguments: float | bool | str) -> Self:
+        """Call a procedure of the controller's program, by its name in the configuration, with a
+        value for each of its parameters. It runs in the motion task, while the robot stands
+        and nothing of this program is left to move. What it raises ends the program; a STOP leaves
+        it, wherever it is."""
+        return self._add(Instruction.CALL, routine=routine, arguments=arguments)
 
     def _hold(self, speed: SpeedLike | None, zone: ZoneLike | None) -> None:
         if speed is not None:

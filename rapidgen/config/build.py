@@ -9,7 +9,7 @@ from rapidgen.config.draft import DraftFindings, GroupDraft
 from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
-from rapidgen.config.tooling import tool_of, work_object_of
+from rapidgen.config.tooling import routine_of, tool_of, work_object_of
 from rapidgen.diagnostics import Severity
 
 GENERATIONS = {
@@ -221,6 +221,10 @@ def _group(
         work_objects=tuple(
             work_object_of(wobj, (*path, "work_objects", number), report)
             for number, wobj in enumerate(keys.work_objects)
+        ),
+        routines=tuple(
+            routine_of(name, routine, (*path, "routines", name), report)
+            for name, routine in keys.routines.items()
         ),
         tcp_speed_limit=keys.tcp_speed_limit / 1000,
         external_units=tuple(keys.external_units),

@@ -23,7 +23,7 @@ from rapidgen.generate.numbers import inward, literal
 from rapidgen.generate.status import STATUS_SIGNALS
 from rapidgen.wire.simple_message import messages, rapid, spec
 from rapidgen.wire.simple_message.instructions import MOST_SIGNALS
-from rapidgen.wire.simple_message.spec import ReplyCode
+from rapidgen.wire.simple_message.spec import MOST_ARGUMENTS, ReplyCode
 
 # Clients that the state port serves at a time.
 STATE_CLIENTS = 3
@@ -132,6 +132,9 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
         **_streams(config, joints),
         "exposed": exposed,
         "marks": any(signal["is_set"] for signal in exposed),
+        "routines": _routines(group),
+        "most_arguments": MOST_ARGUMENTS,
+        "result_reply": messages.RESULT.reply(ReplyCode.SUCCESS).length,
         "most_marks": MOST_SIGNALS,
         "heartbeat_reply": messages.HEARTBEAT.reply(ReplyCode.SUCCESS).length,
         "signal_reply": messages.SIGNAL.reply(ReplyCode.SUCCESS).length,
@@ -189,6 +192,28 @@ def _exposed(config: RobotConfig) -> list[dict[str, object]]:
             "reader": signal.kind[0] + ("Input" if signal.kind[1] == "I" else "Output"),
         }
         for n, signal in enumerate(config.signals, 1)
+    ]
+
+
+def _routines(group: GroupConfig) -> list[dict[str, object]]:
+    """The customer's procedures, by number."""
+    forms = {"num": "numbers{{{}}}", "string": "texts{{{}}}", "bool": "yes_{}"}
+    return [
+        {
+            "n": n,
+            "name": routine.name,
+            "call": routine.call,
+            "parameters": [
+                {
+                    "n": k,
+                    "type": parameter.type,
+                    "inout": parameter.inout,
+                    "argument": forms[parameter.type].format(k),
+                }
+                for k, parameter in enumerate(routine.parameters, 1)
+            ],
+        }
+        for n, routine in enumerate(group.routines, 1)
     ]
 
 

@@ -23,7 +23,7 @@ INDEX_WRAP = 2**23
 
 PING, JOINT_POSITION, JOINT_TRAJ_PT, STATUS, JOINT_FEEDBACK = 1, 10, 11, 13, 15
 HELLO, PROGRESS, POINTS, STOPPED, PAUSE, SPEED, HEARTBEAT, SIGNAL, EVENT = range(1300, 1309)
-PROGRAM = 1309
+PROGRAM, RESULT = 1309, 1310
 POINT_BYTES, STATE_BYTES = 68, 60 + 44
 """Bytes of a JOINT_TRAJ_PT, and of what every state client gets: JOINT and STATUS."""
 
@@ -98,6 +98,7 @@ class RawInstruction(IntEnum):
     WAIT = 5
     WAIT_SIGNAL = 6
     SET = 7
+    CALL = 8
 
 
 class RawModal(IntFlag):
@@ -158,6 +159,7 @@ class RawReason(IntEnum):
     POSE_MISMATCH = 32
     NO_GEOMETRY = 33
     NO_FRAME = 34
+    NO_ROUTINE = 35
     STOPPED = 40
     SUPERSEDED = 41
     CLIENT_LOST = 42
@@ -168,6 +170,7 @@ class RawReason(IntEnum):
     MODE_CHANGED = 47
     INTERNAL = 49
     WAITED = 50
+    ROUTINE = 51
 
 
 def text_of(reason: RawReason) -> str:
@@ -367,6 +370,20 @@ class RawSignalReply(NamedTuple):
     value: float
 
 
+class RawResult(NamedTuple):
+    """RESULT of the routine that a program called last."""
+
+    trajectory: int
+
+
+class RawResultReply(NamedTuple):
+    """What it left in its parameters, or its error."""
+
+    trajectory: int
+    error: int
+    values: tuple[float, ...]
+
+
 class RawAccepted(NamedTuple):
     """Reply to an end frame: the trajectory was taken under this number."""
 
@@ -390,8 +407,12 @@ class RawFailure(NamedTuple):
 
 
 _Told: TypeAlias = RawJointPosition | RawStatus | RawJointFeedback | RawProgress | RawStopped
-_Asked: TypeAlias = RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal
-_Done: TypeAlias = RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted
+_Asked: TypeAlias = (
+    RawTrajectoryPoint | RawHello | RawPause | RawSpeed | RawHeartbeat | RawSignal | RawResult
+)
+_Done: TypeAlias = (
+    RawHelloReply | RawHeartbeatReply | RawSignalReply | RawPointsAccepted | RawResultReply
+)
 _Refused: TypeAlias = RawHelloRefusal | RawPointsRefused | RawNotDone | RawRefused | RawFailure
 RawContent: TypeAlias = (
     _Told | _Asked | _Done | _Refused | RawEvent | RawPing | RawAccepted | RawAcknowledged
@@ -413,6 +434,8 @@ _LAYOUTS: tuple[tuple[int, int, type[RawContent], str], ...] = (
     (POINTS, 2, RawPointsRefused, "i i i i i i"),
     (PROGRAM, 1, RawPointsAccepted, "i i i i i i i"),
     (PROGRAM, 2, RawPointsRefused, "i i i i i i"),
+    (RESULT, 0, RawResult, "i"),
+    (RESULT, 1, RawResultReply, "i i 8f"),
     (STOPPED, 0, RawStopped, "i i i 10f"),
     (PAUSE, 0, RawPause, "i"),
     (PAUSE, 2, RawNotDone, "i"),

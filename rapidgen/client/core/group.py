@@ -11,7 +11,14 @@ import numpy.typing as npt
 from rapidgen.axes.mapping import JointMap
 from rapidgen.client.core.frames import Frames, GroupFrames
 from rapidgen.client.errors import IncompatibleDriver, NotSupported
-from rapidgen.config.model import ExposedSignal, GroupConfig, Joint, RobotConfig, TrajectoryPolicy
+from rapidgen.config.model import (
+    ExposedSignal,
+    GroupConfig,
+    Joint,
+    OwnRoutine,
+    RobotConfig,
+    TrajectoryPolicy,
+)
 from rapidgen.wire.simple_message.mapping import mapping_hash
 from rapidgen.wire.simple_message.messages import HelloReply
 
@@ -33,6 +40,8 @@ class Group:
     """False: neither a configuration nor the driver told the limits."""
     signals: tuple[ExposedSignal, ...] = ()
     """What the configuration exposes, in the order of their numbers."""
+    routines: tuple[OwnRoutine, ...] = ()
+    """Procedures that a program may call, in the order of their numbers."""
     geometry: GroupFrames | None = None
     """What poses mean; None where that is not known."""
 
@@ -44,6 +53,7 @@ class Group:
             JointMap.of(group),
             config.trajectory,
             signals=tuple(config.signals),
+            routines=group.routines,
             geometry=GroupFrames.of(group),
         )
 

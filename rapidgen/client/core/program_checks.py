@@ -20,7 +20,7 @@ from rapidgen.client.errors import InvalidProgram
 from rapidgen.client.program import Program, ProgramStep, Speed, Trigger, Zone
 from rapidgen.diagnostics import Diagnostic, Severity, error, suggest
 from rapidgen.wire.simple_message import instructions
-from rapidgen.wire.simple_message.spec import Instruction
+from rapidgen.wire.simple_message.spec import LONGEST_TEXT, Instruction
 
 _STEP, _TURN = 0.02, 0.1
 """m and rad of the TCP between two looks at a way."""
@@ -30,6 +30,8 @@ _UNIT = 1e-3
 """A quaternion's length may be off by so much."""
 _FASTEST, _WIDEST = 10.0, 1.0
 """m/s and m that the driver takes, at most; 1,000 times as much in degrees of angles."""
+_LARGEST = 3.4e38
+"""Of a RAPID num."""
 _LONGEST = 3600.0
 """s of a wait."""
 _MOVES = frozenset(
@@ -144,6 +146,7 @@ def _words(
         zone=step.zone.words if last is None or last.zone != step.zone else None,
         frames=chosen,
         signals=marks,
+        arguments=step.arguments,
     )
 
 
@@ -220,6 +223,44 @@ def _wait_signal(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float
 
 def _set(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     return (_signal(walk, step.signal, step.value, sets=True), step.value), 0.0
+
+
+def _call(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
+    names = [routine.name for routine in walk.group.routines]
+    if step.routine not in names:
+        walk.say(
+            "RG650",
+            f"the configuration has no routine '{step.routine}'",
+            suggest(step.routine, names) or f"it has: {', '.join(names) or 'none'}",
+        )
+        return (), 0.0
+    number = names.index(step.routine)
+    wanted = walk.group.routines[number].parameters
+    if len(wanted) != len(step.arguments):
+        given = f"{len(step.arguments)} of {len(wanted)} parameters"
+        walk.say("RG650", f"routine '{step.routine}' is called with {given}")
+    for parameter, value in zip(wanted, step.arguments, strict=False):
+        if not _fits(parameter.type, value):
+            walk.say(
+                "RG650",
+                f"{parameter.name} of '{step.routine}' is a {parameter.type}, not {value!r}",
+                "a finite number, True or False, or a text of at most 80 characters",
+            )
+    return (number,), 0.0
+
+
+def _fits(kind: str, value: float | bool | str) -> bool:
+    if kind == "string":
+        return (
+            isinstance(value, str)
+            and len(value) <= LONGEST_TEXT
+            and value.isprintable()
+            and (max(map(ord, value), default=0) < 256)
+        )
+    if kind == "bool":
+        return isinstance(value, bool)
+    number = isinstance(value, int | float) and not isinstance(value, bool)
+    return number and abs(value) <= _LARGEST
 
 
 def _seconds(walk: _Walk, step: ProgramStep) -> float:
@@ -304,6 +345,7 @@ _MAKERS: dict[Instruction, Callable[[_Walk, ProgramStep], tuple[Sequence[float],
     Instruction.WAIT: _wait,
     Instruction.WAIT_SIGNAL: _wait_signal,
     Instruction.SET: _set,
+    Instruction.CALL: _call,
 }
 
 

@@ -7,10 +7,17 @@ from rapidgen.client.core.checks import Way
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
-from rapidgen.client.flows.effects import Flow
+from rapidgen.client.errors import MotionFailed, RobotTimeout, RoutineFailed, fault
+from rapidgen.client.flows.effects import Flow, Send, Wait
 from rapidgen.client.flows.job import result, taken
 from rapidgen.client.flows.motion import ready
+from rapidgen.client.flows.stop import stop
 from rapidgen.client.program import SLOW, Program, SpeedLike
+from rapidgen.wire.simple_message import encode, messages
+from rapidgen.wire.simple_message.spec import Comm, Port, Reason
+
+_ANY = 1e6
+"""s that a routine without a time-out may take."""
 
 
 def run(core: Core, program: Program, way: Way | None) -> Flow[Job]:
@@ -43,3 +50,49 @@ def move_linear(
 def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:
     job = yield from run(core, program, None)
     return (yield from result(job, timeout))
+
+
+def call(
+    core: Core, routine: str, *arguments: float | bool | str, timeout: float | None = None
+) -> Flow[tuple[float | bool, ...]]:
+    """Call a procedure of the controller's program and wait for its end: what it left in its
+    parameters that are `inout`, in their order.
+
+    Without a time-out it may take as long as it likes; when it does not end in time it is left by a
+    STOP, and its state is unknown. Raises RoutineFailed with the number of the error that it has
+    raised, otherwise as `run`.
+    """
+    job = yield from run(core, Program().call(routine, *arguments), None)
+    job.motion.longest = _ANY if timeout is None else timeout
+    try:
+        yield from result(job, timeout)
+    except MotionFailed as failed:
+        if failed.reason is not Reason.ROUTINE:
+            raise
+        told = yield from _told(core)
+        raise RoutineFailed(
+            fault("RG655", f"routine '{routine}' has raised error {told.error}"),
+            number=told.error,
+            **core.evidence(),
+        ) from failed
+    except RobotTimeout:
+        yield from stop(core)
+        raise
+    told = yield from _told(core)
+    (own,) = (r for r in core.known_group.routines if r.name == routine)
+    values = zip(own.parameters, told.values, strict=False)
+    return tuple(v == 1 if p.type == "bool" else v for p, v in values if p.inout)
+
+
+def _told(core: Core) -> Flow[messages.ResultReply]:
+    """What the driver says of the newest call."""
+    port = core.ports[Port.MOTION]
+    assert core.motion is not None
+    asked = encode(messages.ResultRequest(core.motion.number or 0), Comm.REQUEST)
+    pending = port.request(messages.RESULT.number)
+    yield Send(Port.MOTION, asked, core.timeouts.send)
+    yield Wait(lambda: pending.reply is not None or not port.is_open, core.timeouts.reply)
+    reply = pending.reply
+    if not isinstance(reply, messages.ResultReply) or reply.trajectory != core.motion.number:
+        raise core.state_port.late("the controller did not tell what has come of a routine")
+    return reply

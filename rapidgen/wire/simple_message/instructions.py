@@ -1,11 +1,13 @@
 """The instructions of a PROGRAM as words: what stands where, for client and page."""
 
 from collections.abc import Sequence
+from struct import pack, unpack
 
 from rapidgen.wire.simple_message.messages import PROGRAM
 from rapidgen.wire.simple_message.spec import (
     FIXED_LIMIT,
     FIXED_SCALE,
+    LONGEST_TEXT,
     MAX_LENGTH,
     Instruction,
     Modal,
@@ -22,6 +24,8 @@ OPERANDS: dict[Instruction, str] = {
     Instruction.WAIT: "seconds",
     Instruction.WAIT_SIGNAL: "number of the signal as of SIGNAL, its value, seconds at most",
     Instruction.SET: "number of the signal as of SIGNAL, its value",
+    Instruction.CALL: "number of the routine, from 0; of each parameter a num as float32, a bool "
+    "as 1 or 0, a string as its length and its characters, four in a word",
 }
 """Of each instruction the operands: position x, y, z in m, orientation w, x, y, z, a word each of
 the group's joints in rad or m."""
@@ -52,9 +56,10 @@ def instruction(
     zone: Sequence[float] | None = None,
     frames: tuple[int, int] | None = None,
     signals: Sequence[Sequence[float]] = (),
+    arguments: Sequence[float | bool | str] = (),
 ) -> list[int]:
     """The words of one instruction; `speed` (4), `zone` (7) and `frames` where they change, of each
-    of `signals` four."""
+    of `signals` four. `arguments` are those of a routine."""
     first = int(kind)
     values: list[float] = []
     if speed is not None:
@@ -69,4 +74,17 @@ def instruction(
     if signals:
         first |= Modal.SIGNALS
         values += [len(signals), *(value for one in signals for value in one)]
-    return [first, *fixed([*values, *operands])]
+    return [first, *fixed([*values, *operands]), *(w for a in arguments for w in _argument(a))]
+
+
+def _argument(value: float | bool | str) -> tuple[int, ...]:
+    """The words of an argument. ValueError: it does not fit."""
+    if isinstance(value, bool):
+        return (FIXED_SCALE * value,)
+    if isinstance(value, str):
+        data = value.encode("latin-1")
+        if len(data) > LONGEST_TEXT:
+            raise ValueError(f"{value!r} has more than {LONGEST_TEXT} characters")
+        filled = data + bytes(-len(data) % 4)
+        return FIXED_SCALE * len(data), *unpack(f"<{len(filled) // 4}i", filled)
+    return unpack("<i", pack("<f", value))

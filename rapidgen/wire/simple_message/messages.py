@@ -15,7 +15,13 @@ from rapidgen.wire.simple_message.declaration import (
     float32,
     int32,
 )
-from rapidgen.wire.simple_message.spec import MAX_JOINTS, MAX_LENGTH, Port, ReplyCode
+from rapidgen.wire.simple_message.spec import (
+    MAX_JOINTS,
+    MAX_LENGTH,
+    MOST_ARGUMENTS,
+    Port,
+    ReplyCode,
+)
 
 Joints = tuple[float, ...]
 """Ten controller axis values in wire order, rad or m, padded with zeros."""
@@ -423,6 +429,34 @@ PROGRAM = MessageType(
             "as to POINTS; with WHOLE nothing of the program is executed",
         ),
     ),
+)
+
+
+class ResultRequest(NamedTuple):
+    """What has come of the routine that a program called last?"""
+
+    trajectory: Annotated[int, int32("number of the program, as in PROGRESS")]
+
+
+class ResultReply(NamedTuple):
+    """Reply to RESULT: what the routine left in its parameters, or its error."""
+
+    trajectory: Annotated[int, int32()]
+    error: Annotated[int, int32("ERRNO of the error that it raised, 0: none")]
+    values: Annotated[
+        tuple[float, ...],
+        float32("1", "of its parameters num and bool (0, 1) in their order", MOST_ARGUMENTS),
+    ]
+
+
+RESULT = MessageType(
+    "RESULT",
+    1310,
+    ResultRequest,
+    _CLIENT,
+    (Port.MOTION,),
+    since=3,
+    replies=(Reply(ReplyCode.SUCCESS, ResultReply),),
 )
 
 MESSAGES = tuple(row for row in tuple(globals().values()) if isinstance(row, MessageType))

@@ -20,6 +20,10 @@ MAX_MESSAGE_BYTES = 1024
 MAX_LENGTH = MAX_MESSAGE_BYTES - PREFIX_BYTES
 MAX_JOINTS = 10
 
+MOST_ARGUMENTS = 8
+"""Parameters of a routine."""
+LONGEST_TEXT = 80
+"""Characters of a RAPID string."""
 INDEX_WRAP = 2**23
 """Streams, trajectories and the points of a stream count modulo this: a num holds it exactly."""
 FIXED_SCALE = 1_000_000
@@ -134,6 +138,7 @@ class Instruction(IntEnum):
     WAIT = 5
     WAIT_SIGNAL = 6
     SET = 7
+    CALL = 8
 
 
 class Modal(IntFlag):
@@ -231,6 +236,7 @@ class Reason(IntEnum):
     POSE_MISMATCH = 32, "the joints do not reach the pose on this controller"
     NO_GEOMETRY = 33, "the controller does not tell what pose the joints reach"
     NO_FRAME = 34, "the driver does not have this tool or work object"
+    NO_ROUTINE = 35, "there is no such routine, or not with these parameters"
     STOPPED = 40, "stopped on request"
     SUPERSEDED = 41, "a newer trajectory took its place"
     CLIENT_LOST = 42, "the connection to the client was lost"
@@ -242,6 +248,7 @@ class Reason(IntEnum):
     STARVED = 48, "the next point came too late"
     INTERNAL = 49, "the driver met a state that it does not know"
     WAITED = 50, "a signal did not come in time"
+    ROUTINE = 51, "a routine has raised an error"
 
 
 def error_code(reason: Reason, joint: int = 0) -> int:
