@@ -104,7 +104,7 @@ def joints_for(
         found = []
         for one in kinematics.at_arm_angle(flange, near[place], started):
             found.append(one)
-            if wanted is None or kinematics.fitting([one], wanted, check) is not None:
+            if wanted is None or kinematics.misfit(one, wanted) == 0.0:
                 return one
         near = started
     else:
