@@ -259,8 +259,9 @@ def _fits(kind: str, value: float | bool | str) -> bool:
         )
     if kind == "bool":
         return isinstance(value, bool)
-    number = isinstance(value, int | float) and not isinstance(value, bool)
-    return number and abs(value) <= _LARGEST
+    if isinstance(value, bool | str):
+        return False
+    return abs(value) <= _LARGEST
 
 
 def _seconds(walk: _Walk, step: ProgramStep) -> float:

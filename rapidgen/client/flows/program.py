@@ -63,6 +63,7 @@ def call(
     raised, otherwise as `run`.
     """
     job = yield from run(core, Program().call(routine, *arguments), None)
+    assert job.motion is not None
     job.motion.longest = _ANY if timeout is None else timeout
     try:
         yield from result(job, timeout)
