@@ -122,6 +122,11 @@ class CommandedMotion(ABC):
         """A STOP was confirmed and the robot stands."""
         self._end(MotionStopped, fault("RG631", "stopped on request"), Reason.STOPPED)
 
+    def done(self) -> None:
+        """The controller said in another way that all of it was executed."""
+        if not self.is_over:
+            self._succeed()
+
     def step(self) -> None:
         """Look at the newest state. Call after each message, and now and then without one."""
         if self.phase is not Phase.MOVING or self._is_silent():

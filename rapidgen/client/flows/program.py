@@ -10,12 +10,14 @@ from rapidgen.client.core.robot import Core
 from rapidgen.client.errors import MotionFailed, RobotTimeout, RoutineFailed, fault
 from rapidgen.client.flows.effects import Flow, Send, Wait
 from rapidgen.client.flows.job import result, taken
-from rapidgen.client.flows.motion import ready
+from rapidgen.client.flows.motion import ready, until
 from rapidgen.client.flows.stop import stop
 from rapidgen.client.program import SLOW, Program, SpeedLike
 from rapidgen.wire.simple_message import encode, messages
 from rapidgen.wire.simple_message.spec import Comm, Port, Reason
 
+_LOOK = 0.01
+"""s between two looks whether a routine has ended."""
 _ANY = 1e6
 """s that a routine without a time-out may take."""
 
@@ -63,10 +65,20 @@ def call(
     raised, otherwise as `run`.
     """
     job = yield from run(core, Program().call(routine, *arguments), None)
-    assert job.motion is not None
-    job.motion.longest = _ANY if timeout is None else timeout
+    motion = job.motion
+    assert motion is not None
+    motion.longest = _ANY if timeout is None else timeout
+    deadline = core.clock() + motion.longest
+    told = yield from _told(core)
+    while told.trajectory != motion.number and core.clock() < deadline:
+        # PROGRESS comes too seldom to wait for it.
+        if (yield from until(core, motion, lambda: False, _LOOK)):
+            break
+        told = yield from _told(core)
+    if told.trajectory == motion.number and told.error == 0:
+        motion.done()
     try:
-        yield from result(job, timeout)
+        yield from result(job, max(0.0, deadline - core.clock()))
     except MotionFailed as failed:
         if failed.reason is not Reason.ROUTINE:
             raise
@@ -79,21 +91,18 @@ def call(
     except RobotTimeout:
         yield from stop(core)
         raise
-    told = yield from _told(core)
     (own,) = (r for r in core.known_group.routines if r.name == routine)
     values = zip(own.parameters, told.values, strict=False)
     return tuple(v == 1 if p.type == "bool" else v for p, v in values if p.inout)
 
 
 def _told(core: Core) -> Flow[messages.ResultReply]:
-    """What the driver says of the newest call."""
+    """What the driver says of the newest call that has ended."""
     port = core.ports[Port.MOTION]
-    assert core.motion is not None
-    asked = encode(messages.ResultRequest(core.motion.number or 0), Comm.REQUEST)
     pending = port.request(messages.RESULT.number)
+    asked = encode(messages.ResultRequest(0), Comm.REQUEST)
     yield Send(Port.MOTION, asked, core.timeouts.send)
     yield Wait(lambda: pending.reply is not None or not port.is_open, core.timeouts.reply)
-    reply = pending.reply
-    if not isinstance(reply, messages.ResultReply) or reply.trajectory != core.motion.number:
+    if not isinstance(pending.reply, messages.ResultReply):
         raise core.state_port.late("the controller did not tell what has come of a routine")
-    return reply
+    return pending.reply

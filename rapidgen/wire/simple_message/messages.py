@@ -433,15 +433,16 @@ PROGRAM = MessageType(
 
 
 class ResultRequest(NamedTuple):
-    """What has come of the routine that a program called last?"""
+    """What has come of the routine that a program called? The answer is that of the newest call
+    that has ended."""
 
-    trajectory: Annotated[int, int32("number of the program, as in PROGRESS")]
+    trajectory: Annotated[int, int32("not used")]
 
 
 class ResultReply(NamedTuple):
     """Reply to RESULT: what the routine left in its parameters, or its error."""
 
-    trajectory: Annotated[int, int32()]
+    trajectory: Annotated[int, int32("whose call it was")]
     error: Annotated[int, int32("ERRNO of the error that it raised, 0: none")]
     values: Annotated[
         tuple[float, ...],

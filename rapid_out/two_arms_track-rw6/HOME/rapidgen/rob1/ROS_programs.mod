@@ -10,7 +10,7 @@ MODULE ROS_programs
     ! pose. So the limits are those of the joints, the configuration is the one that the controller
     ! gives, and a client whose robot is another one is refused before anything moves.
 
-    CONST string ROS_BUILD_PROGRAMS := "2c4babaf4008";
+    CONST string ROS_BUILD_PROGRAMS := "a7d2535da2d0";
 
     ! mm/s and deg/s of a speed, mm and deg of a zone, at most.
     LOCAL CONST num TCP_SPEED := 5000;
@@ -301,28 +301,36 @@ MODULE ROS_programs
         VAR num joint_7;
         VAR num joint_8;
 
-        joint_1 := in_deg(data);
+        next_word data;
+        joint_1 := DnumToNum(word * DEG);
         IF NOT (ROS_low{1} <= joint_1 AND joint_1 <= ROS_high{1})
             joint_1 := ROS_judged(joint_1, 0, 1);
-        joint_2 := in_deg(data);
+        next_word data;
+        joint_2 := DnumToNum(word * DEG);
         IF NOT (ROS_low{2} <= joint_2 AND joint_2 <= ROS_high{2})
             joint_2 := ROS_judged(joint_2, 0, 2);
-        joint_3 := in_deg(data);
+        next_word data;
+        joint_3 := DnumToNum(word * DEG);
         IF NOT (ROS_low{3} <= joint_3 AND joint_3 <= ROS_high{3})
             joint_3 := ROS_judged(joint_3, 0, 3);
-        joint_4 := in_deg(data);
+        next_word data;
+        joint_4 := DnumToNum(word * DEG);
         IF NOT (ROS_low{4} <= joint_4 AND joint_4 <= ROS_high{4})
             joint_4 := ROS_judged(joint_4, 0, 4);
-        joint_5 := in_deg(data);
+        next_word data;
+        joint_5 := DnumToNum(word * DEG);
         IF NOT (ROS_low{5} <= joint_5 AND joint_5 <= ROS_high{5})
             joint_5 := ROS_judged(joint_5, 0, 5);
-        joint_6 := in_deg(data);
+        next_word data;
+        joint_6 := DnumToNum(word * DEG);
         IF NOT (ROS_low{6} <= joint_6 AND joint_6 <= ROS_high{6})
             joint_6 := ROS_judged(joint_6, 0, 6);
-        joint_7 := in_mm(data);
+        next_word data;
+        joint_7 := DnumToNum(word * MM);
         IF NOT (ROS_low{7} <= joint_7 AND joint_7 <= ROS_high{7})
             joint_7 := ROS_judged(joint_7, 0, 7);
-        joint_8 := in_deg(data);
+        next_word data;
+        joint_8 := DnumToNum(word * DEG);
         IF NOT (ROS_low{8} <= joint_8 AND joint_8 <= ROS_high{8})
             joint_8 := ROS_judged(joint_8, 0, 8);
         order.joints := [[joint_1,joint_2,joint_3,joint_4,joint_5,joint_6],[joint_7,joint_8,9E9,9E9,9E9,9E9]];
@@ -333,13 +341,20 @@ MODULE ROS_programs
     LOCAL PROC take_pose(VAR rawbytes data, INOUT robtarget target)
         VAR num size;
 
-        target.trans.x := in_mm(data);
-        target.trans.y := in_mm(data);
-        target.trans.z := in_mm(data);
-        target.rot.q1 := plain(data);
-        target.rot.q2 := plain(data);
-        target.rot.q3 := plain(data);
-        target.rot.q4 := plain(data);
+        next_word data;
+        target.trans.x := DnumToNum(word * MM);
+        next_word data;
+        target.trans.y := DnumToNum(word * MM);
+        next_word data;
+        target.trans.z := DnumToNum(word * MM);
+        next_word data;
+        target.rot.q1 := DnumToNum(word / STEPS);
+        next_word data;
+        target.rot.q2 := DnumToNum(word / STEPS);
+        next_word data;
+        target.rot.q3 := DnumToNum(word / STEPS);
+        next_word data;
+        target.rot.q4 := DnumToNum(word / STEPS);
         size := along(target.rot, target.rot);
         IF 0.99 < size AND size < 1.01 THEN
             target.rot := NOrient(target.rot);

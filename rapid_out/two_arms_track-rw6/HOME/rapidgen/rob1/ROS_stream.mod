@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "2c4babaf4008";
+    CONST string ROS_BUILD_STREAM := "a7d2535da2d0";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -272,7 +272,7 @@ MODULE ROS_stream
             cut_if_intact ROS_REASON_SEQUENCE_GAP, data, at;
             RETURN;
         ENDIF
-        IF points > 0 AND (NOT handed_over) THEN
+        IF points > 0 AND (NOT handed_over) AND (accepted = 0 OR (NOT whole)) THEN
             ! This also waits until nothing is left in the ring of what this stream has ended.
             obstacle := ROS_what_hinders();
             IF obstacle <> ROS_REASON_NONE THEN
