@@ -324,6 +324,7 @@ class RobotSurface(Generic[C_co, Execution, Stream, Run]):
 
     move_to = _of_core(flows.program.move_to)
     move_linear = _of_core(flows.program.move_linear)
+    jog = _of_core(flows.program.jog)
     call = _of_core(flows.program.call)
 
     @property

@@ -352,3 +352,24 @@ def test_a_stop_leaves_a_routine_wherever_it_is():
 def test_arguments_that_do_not_fit_are_told(given):
     with with_routines() as (robot, _), pytest.raises(InvalidProgram):
         robot.call("weld", *given)
+
+
+def test_a_jog_is_small_and_stands_soon_after_a_lost_client():
+    with driven() as (robot, controller):
+        robot.jog(joint_1=0.1, joint_5=-0.05)
+        assert robot.state.joints[0] == pytest.approx(0.1, abs=1e-4)
+        assert robot.state.joints[4] == pytest.approx(-0.05, abs=1e-4)
+        for wrong in ({"joint_1": 0.3}, {"joint_9": 0.1}, {"joint_1": float("nan")}):
+            with pytest.raises(InvalidProgram):
+                robot.jog(**wrong)
+        jogging = robot.later.jog(joint_1=-0.2, speed=0.02)
+        robot.sleep(1.0)
+        group = controller.motion.group("rob1")
+        assert not group.is_standing
+        # The client says nothing any more, though its connections stand.
+        robot._core.heartbeat.due = lambda *_, **__: None
+        since = controller.now
+        assert controller.run_until(lambda: group.is_standing, timeout=2)
+        assert controller.now - since < 0.3
+        with pytest.raises((MotionFailed, MotionStopped)):
+            jogging.result()

@@ -7,15 +7,27 @@ from rapidgen.client.core.checks import Way
 from rapidgen.client.core.job import Job
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Core
-from rapidgen.client.errors import MotionFailed, RobotTimeout, RoutineFailed, fault
+from rapidgen.client.errors import (
+    InvalidProgram,
+    MotionFailed,
+    NotSupported,
+    RobotTimeout,
+    RoutineFailed,
+    fault,
+)
 from rapidgen.client.flows.effects import Flow, Send, Wait
 from rapidgen.client.flows.job import result, taken
 from rapidgen.client.flows.motion import ready, until
 from rapidgen.client.flows.stop import stop
 from rapidgen.client.program import SLOW, Program, SpeedLike
+from rapidgen.diagnostics import suggest
 from rapidgen.wire.simple_message import encode, messages
 from rapidgen.wire.simple_message.spec import Comm, Port, Reason
 
+_STEP = {"revolute": 0.2, "prismatic": 0.1}
+"""rad and m of one jog."""
+_DEAD_MAN = 0.2
+"""s without a word of the client after which a jogged robot is stopped."""
 _LOOK = 0.01
 """s between two looks whether a routine has ended."""
 _ANY = 1e6
@@ -47,6 +59,36 @@ def move_linear(
 ) -> Flow[Result]:
     """Go to a pose on a line, and wait for the end. Raises as `run`."""
     return (yield from _go(core, Program(speed=speed).move_linear(pose), timeout))
+
+
+def jog(core: Core, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
+    """Move joints, by name, a little (at most 0.2 rad or 0.1 m), and wait for the end.
+
+    While it moves the controller stops the robot when it does not hear of this client for 0.2 s. Raises NotSupported without a control connection, otherwise as
+    `run`.
+    """
+    yield from ready(core)
+    if not core.ports[Port.CONTROL].is_open:
+        raise NotSupported.because(
+            "RG624", "nobody jogs without a control connection", "`ports.control`"
+        )
+    state, group = core.state_port.state, core.known_group
+    assert state is not None
+    target = dict(zip(group.names, state.joints, strict=True))
+    for name, step in by.items():
+        most = _STEP.get(group.joints[group.names.index(name)].kind if name in target else "", 0.0)
+        if not abs(step) <= most:
+            raise InvalidProgram.because(
+                "RG650",
+                f"'{name}' cannot be jogged by {step}",
+                suggest(name, group.names) or "by at most 0.2 rad or 0.1 m, by the joint's name",
+            )
+        target[name] += step
+    patience, core.heartbeat.timeout = core.heartbeat.timeout, _DEAD_MAN
+    try:
+        return (yield from move_to(core, list(target.values()), speed=speed))
+    finally:
+        core.heartbeat.timeout = patience
 
 
 def _go(core: Core, program: Program, timeout: float | None) -> Flow[Result]:
