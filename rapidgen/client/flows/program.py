@@ -64,8 +64,8 @@ def move_linear(
 def jog(core: Core, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     """Move joints, by name, a little (at most 0.2 rad or 0.1 m), and wait for the end.
 
-    While it moves the controller stops the robot when it does not hear of this client for 0.2 s. Raises NotSupported without a control connection, otherwise as
-    `run`.
+    While it moves the controller stops the robot when it does not hear of this client for 0.2 s.
+    Raises NotSupported without a control connection, otherwise as `run`.
     """
     yield from ready(core)
     if not core.ports[Port.CONTROL].is_open:
