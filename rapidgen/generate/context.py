@@ -305,15 +305,29 @@ def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
     return [(kind, str(d["source"]), str(d["value"])) for kind, d in data if d["source"]]
 
 
+def tool_literal(tool: Tool) -> str:
+    """A tool as RAPID's tooldata."""
+    return f"[{_bool(tool.held)},{_frame(tool.frame)},{load_literal(tool.load)}]"
+
+
+def work_object_literal(wobj: WorkObject) -> str:
+    """A work object as RAPID's wobjdata."""
+    return f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
+
+
+def load_literal(load: Load) -> str:
+    """A load as RAPID's loaddata."""
+    inertia = ",".join(literal(v) for v in load.inertia)
+    return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"
+
+
 def _tool(tool: Tool, number: int = 0) -> dict[str, object]:
-    value = f"[{_bool(tool.held)},{_frame(tool.frame)},{_load(tool.load)}]"
-    kind = f"tool_{number}" if number else "tool"
+    kind, value = f"tool_{number}" if number else "tool", tool_literal(tool)
     return _datum(tool.name, kind, tool.name != "tool0", value, elsewhere=tool.elsewhere)
 
 
 def _work_object(wobj: WorkObject, number: int = 0) -> dict[str, object]:
-    value = f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
-    kind = f"wobj_{number}" if number else "wobj"
+    kind, value = f"wobj_{number}" if number else "wobj", work_object_literal(wobj)
     return _datum(wobj.name, kind, wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
 
 
@@ -346,8 +360,3 @@ def _list(values: tuple[float, ...], factor: float = 1.0) -> str:
 
 def _frame(frame: Placement) -> str:
     return f"[{_list(frame.position, _MM)},{_list(frame.orientation)}]"
-
-
-def _load(load: Load) -> str:
-    inertia = ",".join(literal(v) for v in load.inertia)
-    return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"

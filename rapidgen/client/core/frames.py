@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration, Kinematics, Posture
+from rapidgen.axes.unreached import unreached
 from rapidgen.config.model import GroupConfig, Placement, Tool, WorkObject
 
 
@@ -45,9 +46,9 @@ class Frames:
             return found
         return [p for p in found if self.kinematics.matches(p, configuration)]
 
-    def reaches(self, pose: Pose, near: Posture) -> bool:
-        """Whether any posture reaches a pose, ranges apart."""
-        return self.kinematics.reaches(self._flange(pose), near)
+    def why_not(self, pose: Pose, near: Posture) -> str:
+        """Why no posture reaches a pose, in a sentence."""
+        return unreached(self.kinematics, self._flange(pose), near)[1]
 
 
 @dataclass(frozen=True, slots=True)

@@ -397,10 +397,12 @@ def _unreached(walk: _Walk, robot: Frames, pose: Pose, near: Posture, step: Prog
             f"the pose is not reached with configuration {list(step.configuration)}",
             f"there are {', '.join(str(list(other)) for other in others[:4])}",
         )
-    elif robot.reaches(pose, near):
-        walk.say("RG651", "the pose is reached only outside the joints' limits")
     else:
-        walk.say("RG651", "the pose is out of reach", "m, of the tool in the work object")
+        walk.say(
+            "RG651",
+            f"the pose is not reached; {robot.why_not(pose, near)}",
+            "poses are in m, of the tool in the work object",
+        )
 
 
 def _within(walk: _Walk, posture: Posture) -> bool:
