@@ -208,12 +208,19 @@ class MotionGroup:
 
     @property
     def refresh(self) -> float:
-        """Speed override of the program (SpeedRefresh), 0 to 1."""
+        """Speed override of the program (SpeedRefresh), 0 to 1.
+
+        Set while the robot stands it has an effect by `refresh_standing` only.
+        """
         return self._drive.refresh
 
     @refresh.setter
     def refresh(self, value: float) -> None:
-        self._drive.refresh = value
+        held = "override" in self._stops
+        if self.is_standing and not held and not self.settings.refresh_standing:
+            return
+        self._execution.settle()
+        self._execution.refresh(value)
         self._change_speed()
 
     @property
@@ -423,6 +430,7 @@ class MotionGroup:
         self.planner.modal = ModalSettings()
         for listener in self.on_reset:
             listener()
-        self._drive.refresh, self._drive.tcp_limit = 1.0, inf
+        self._execution.refresh(1.0)
+        self._drive.tcp_limit = inf
         self._concurrent = 0
         self._change_speed()

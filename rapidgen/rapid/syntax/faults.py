@@ -118,11 +118,17 @@ def unexpected(
         "RG201",
         span,
         f"met {met(source, kinds, at)}, expected {expected}",
-        help,
+        help or _mend(expected),
         label=f"expected {expected}",
         notes=(note,) if note else (),
         related=related,
     )
+
+
+def _mend(expected: str) -> str:
+    if "';'" in expected:
+        return "a statement or declaration ends with ';': perhaps the one before has none"
+    return f"write {expected} here, or take out what stands here"
 
 
 def unclosed(

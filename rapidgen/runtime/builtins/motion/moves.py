@@ -84,7 +84,7 @@ def _to_joints(
         target=target,
         speed=speed,
         zone=zone_of(given["Zone"], given.get("Z"), stop),
-        time=time_of(given["T"], group.modal),
+        time=time_of(given["T"], group),
         concurrent=bool(given["Conc"]),
         dwell=dwell_of(stop),
         carrier=carrier,

@@ -31,7 +31,7 @@ def _common(task: Task, group: MotionGroup, given: Arguments) -> dict[str, Value
     return {
         "speed": speed_of(given["Speed"], given.get("V"), group.modal),
         "zone": zone_of(given["Zone"], given.get("Z"), stop) if "Zone" in given else FINE,
-        "time": time_of(given["T"], group.modal),
+        "time": time_of(given["T"], group),
         "concurrent": bool(given.get("Conc")),
         "dwell": dwell_of(stop),
         "carrier": carrier,
