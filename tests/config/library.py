@@ -1,7 +1,7 @@
 """Write the shipped models into robots/variants.json: `python -m tests.config.library`.
 
-Entries of variants that are no shipped model stay as they are. With `--doubts` it prints instead what
-the sources of each variant have differently, what only one of them has, and the counts.
+Entries of variants that are no shipped model stay as they are. With `--doubts` it prints instead
+what the sources of each variant have differently, what only one of them has, and the counts.
 """
 
 import json
@@ -60,8 +60,9 @@ def doubts():
     models = [v for v in others if not lacks(v)]
     fast = sum(all(axis.speed for axis in v.axes) for v in models)
     differing = sum(bool(v.disagreements) for v in variants())
+    shipped = len(variants()) - len(others)
     yield (
-        f"{len(variants())} variants: {len(variants()) - len(others)} shipped, {len(models)} models "
+        f"{len(variants())} variants: {shipped} shipped, {len(models)} models "
         f"by two sources ({fast} with speeds), {differing} with figures that differ"
     )
 
