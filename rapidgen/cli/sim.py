@@ -13,19 +13,19 @@ from rapidgen.diagnostics import Diagnostic, refusal, render
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
-    from rapidgen.cli.bootable import Bootable
+    from rapidgen.controller.booting import Bootable
     from rapidgen.controller.controller import VirtualController
     from rapidgen.faces.control_socket import ControlSocket
 
-PATIENCE = 10.0
-"""Seconds that a driver's servers may take to come up."""
-
 
 def sim(
-    target: Annotated[
-        str,
-        typer.Argument(help="Configuration, shipped name, generated folder or ABB backup."),
-    ],
+    targets: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="TARGET...",
+            help="Configuration, shipped name, generated folder, ABB backup, or RAPID files.",
+        ),
+    ] = None,
     host: Annotated[
         str, typer.Option(help="Address of this machine to serve on; loopback stays private.")
     ] = "127.0.0.1",
@@ -42,9 +42,11 @@ def sim(
     faults: Annotated[
         Path | None, typer.Option(help="What is to go wrong: `rapidgen explain RG421`.")
     ] = None,
-    robot: Annotated[
-        str, typer.Option(help="Mechanics of a backup: a shipped name or a configuration.")
-    ] = "",
+    task: options.Tasks = None,
+    robot: options.RobotModel = "",
+    entry: options.Entry = "",
+    cell: options.Cell = "",
+    start: options.Start = "",
     ftp: Annotated[
         int | None,
         typer.Option(help="Serve HOME over FTP; 0: any free port.", min=0, max=65_535),
@@ -67,7 +69,7 @@ def sim(
     each group, of the control socket, and of the file servers with their login. What the
     operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
-    from rapidgen.cli.bootable import load_target, refuse_unloadable
+    from rapidgen.cli.bootable import chosen
     from rapidgen.controller.controller import VirtualController
     from rapidgen.controller.faults import read_plan
     from rapidgen.faces.control_commands import commands, subscribe
@@ -76,18 +78,24 @@ def sim(
 
     if ports is not None and port_offset:
         raise typer.BadParameter("either --port-offset or --ports auto")
-    chosen = load_target(target, robot, overrides or (), backup)
-    _tell(chosen.notes)
+    found = chosen(
+        targets or (),
+        tasks=task,
+        robot=robot,
+        entry=entry,
+        cell=cell,
+        start=start,
+        backup=backup,
+        overrides=overrides,
+        check=check,
+    )
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
-    if check:
-        refuse_unloadable(chosen.system)
-    if ports is None and chosen.driver:
-        _check_ports(chosen, host, port_offset)
-    with VirtualController(
-        chosen.system,
-        chosen.groups,
+    if ports is None and found.driver:
+        _check_ports(found, host, port_offset)
+    with VirtualController.boot(
+        found,
         clock="real",
         speed=speed,
         host=host,
@@ -107,7 +115,7 @@ def sim(
         )
         try:
             with _files(controller, host, ftp, sftp) as files:
-                return _serve(controller, chosen, control, host, speed, files)
+                return _serve(controller, found, control, host, speed, files)
         finally:
             control.close()
 
@@ -123,6 +131,8 @@ def _serve(
     """Run until a signal comes; the exit code."""
     import json
     import signal
+
+    from rapidgen.cli.readiness import PATIENCE, Readiness
 
     ended = False
 
@@ -143,12 +153,13 @@ def _serve(
     scheduler = controller.scheduler
     scheduler.rebase()
     try:
+        readiness = Readiness(controller, target)
         patience = scheduler.now + round(PATIENCE * speed * 1e9)
-        scheduler.advance(patience, lambda: ended or _is_up(controller, target))
+        scheduler.advance(patience, lambda: ended or readiness.decided)
         if ended:
             return 0
-        if not _is_up(controller, target):
-            raise _not_up(controller, target)
+        if not readiness.up:
+            raise readiness.refusal()
         found = {
             "name": target.name,
             "host": host,
@@ -157,6 +168,9 @@ def _serve(
             "control": control.address[1],
             **files,
         }
+        if not target.driver:
+            for place in controller.where():
+                typer.echo(place, err=True)
         typer.echo(f"ready {json.dumps(found)}")
         scheduler.advance(stop=lambda: ended)
     finally:
@@ -203,22 +217,6 @@ def _start_cold(controller: "VirtualController") -> None:
 # -- servers ------------------------------------------------------------------------------------
 
 
-def _wanted(target: "Bootable") -> list[int]:
-    """Ports that a driver must listen on before it may be called ready."""
-    if not target.driver:
-        return []
-    ports = [group.ports for group in target.groups]
-    return [n for p in ports for n in (p.motion, p.control, p.state) if n]
-
-
-def _is_up(controller: "VirtualController", target: "Bootable") -> bool:
-    wanted = _wanted(target)
-    if wanted:
-        return all(port in controller.network.listeners for port in wanted)
-    # Nobody knows which servers a stranger's program has: every task has come to a wait.
-    return not controller.scheduler.ready and controller.now > 0.2
-
-
 def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dict[str, int]]:
     listeners = controller.network.listeners
     if not target.driver:
@@ -237,19 +235,6 @@ def _ports(controller: "VirtualController", target: "Bootable") -> dict[str, dic
     }
 
 
-def _not_up(controller: "VirtualController", target: "Bootable") -> Exception:
-    missing = [p for p in _wanted(target) if p not in controller.network.listeners]
-    states = tuple(f"{task.name} is {task.state}" for task in controller.tasks.values())
-    return refusal(
-        "RG430",
-        None,
-        f"nothing listens on port {', '.join(map(str, missing)) or '-'} after {PATIENCE:g} s",
-        "the event log above tells why the tasks do not get there",
-        notes=(*states, *controller.where()),
-        exit_code=1,
-    )
-
-
 def _check_host(host: str) -> None:
     import ipaddress
 
@@ -263,7 +248,9 @@ def _check_ports(target: "Bootable", host: str, offset: int) -> None:
     """Say at once that a port is taken, instead of letting the program fail at it."""
     import socket
 
-    for port in _wanted(target):
+    from rapidgen.cli.readiness import wanted_ports
+
+    for port in wanted_ports(target):
         if not 0 < port + offset < 65_536:
             raise typer.BadParameter(f"--port-offset moves port {port} to {port + offset}")
         with socket.socket() as probe:
