@@ -201,6 +201,8 @@ def test_every_example_can_be_proven(path, capsys):
         # A ceiling of the TCP, and a zone whose parts are not as 2 to 3.
         ("irb2400-rw5", "unknown-corner", ()),
         ("irb2400-rw5", "e-stop-at-speed", ()),
+        # A TCP too slow to get off its path.
+        ("crb15000-rw7", "e-stop-at-speed", ()),
         ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
     ],
 )

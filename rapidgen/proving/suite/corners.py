@@ -18,6 +18,7 @@ from rapidgen.proving.bench import Bench
 from rapidgen.proving.instructions import fails
 from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.motion_task import begins
+from rapidgen.proving.suite.speed import asks_as_it_begins
 from rapidgen.proving.track import Point, Position
 from rapidgen.rapid.builtins import signatures
 
@@ -112,13 +113,20 @@ def _part(joint: Joint) -> str:
     return "angle" if joint.axis.startswith("rax") else "rotary"
 
 
-def _check(bench: Bench, points: Sequence[Point], what: str) -> None:
-    """Send a trajectory that begins where the robot stands; each of its points has its zone."""
+def _check(bench: Bench, points: Sequence[Point], what: str, percent: float = 100) -> None:
+    """Send a trajectory that begins where the robot stands; each of its points has its zone.
+
+    `percent`: SPEED, as it begins.
+    """
     moves: list[Move] = []
     group = bench.motion_group
     group.listeners.append(moves.append)
     link = bench.motion()
-    begins(bench, link, points)
+    asked = points
+    if percent < 100:
+        asks_as_it_begins(bench, bench.control(), percent)
+        points = [(place, seconds * 100 / percent) for place, seconds in points]
+    begins(bench, link, asked)
     longest = 2 * sum(seconds for _, seconds in points[1:]) + 2
     bench.until(lambda: len(moves) == len(points) - 1, longest, f"{what}: each point is a move")
     bench.wait_until_at(points[-1][0], longest)
@@ -187,6 +195,16 @@ def _moving(bench: Bench) -> None:
     for part, seconds in ((0.5, 1.0), (0.52, 1.2), (0.3, 1.0), (-0.8, 1.0), (0.4, 2.0)):
         walk.go([part * value for value in usual], seconds * least)
     _check(bench, walk.points, "joints in turn")
+
+
+@case("corners-slowed", "zones of points that SPEED gives more time", "R9", needs="control")
+def _slowed(bench: Bench) -> None:
+    """The ways on both sides of a point are slower: its zone is that of slow ways."""
+    usual, least = _usual(bench), max(0.2, bench.config.trajectory.min_segment)
+    walk = _Walk(bench)
+    for part, seconds in ((1.0, 1.3), (0.9, 1.0), (-0.8, 1.1), (0.6, 1.0), (-1.0, 1.2)):
+        walk.go([part * value for value in usual], seconds * least)
+    _check(bench, walk.points, "at half the speed", 50)
 
 
 @case("largest-corner", "no zone is larger than the configured one", "R9")

@@ -88,6 +88,17 @@ def _as_asked(bench: Bench, since: float, percent: float, seconds: float, stops:
         raise Broken(f"at SPEED {percent:g} the robot is slower than that for {slow:.2f} s")
 
 
+def asks_as_it_begins(bench: Bench, control: RawLink, percent: float) -> None:
+    """SPEED as the next trajectory begins: the motion task's first interrupts-off is there."""
+
+    def ask() -> None:
+        control.at_once(messages.encode(messages.RawSpeed(percent), RawComm.REQUEST))
+        # Long enough for the control server and an interrupt.
+        bench.rapid_task("ROS_motion").sleep(0.05)
+
+    at_call(bench, "ROS_motion", "IDisable", 1, ask)
+
+
 _Send = Callable[[Bench, RawLink, Sequence[Point]], None]
 
 
@@ -200,14 +211,10 @@ def _between(bench: Bench) -> None:
     bench.run(0.5)
     refreshed: list[float] = []
 
-    def ask() -> None:
-        control.at_once(messages.encode(messages.RawSpeed(50), RawComm.REQUEST))
-        bench.rapid_task("ROS_motion").sleep(0.05)
-
     def heard(move: Move) -> None:
         refreshed.append(group.refresh)
 
-    at_call(bench, "ROS_motion", "IDisable", 1, ask)
+    asks_as_it_begins(bench, control, 50)
     group.listeners.append(heard)
     points, since = _line(bench, 4, 1.0), bench.now
     bench.sets_off(link, points)
