@@ -8,21 +8,19 @@ from rapidgen.machine.log import EventType
 from rapidgen.proving import messages
 from rapidgen.proving.behaviour import Theme
 from rapidgen.proving.bench import Bench, with_module
-from rapidgen.proving.instructions import Instruction, at_call, fails, wrapped
+from rapidgen.proving.instructions import Instruction, at_call, fails, watched_orders, wrapped
 from rapidgen.proving.link import STOP, RawLink
 from rapidgen.proving.messages import JOINT_TRAJ_PT, RawReason, RawTrajectoryState
 from rapidgen.proving.model import Broken
 from rapidgen.proving.suite.errors import set_counters
-from rapidgen.proving.suite.motion_task import begins, datum, patience, unit_of
-from rapidgen.proving.track import distance
+from rapidgen.proving.suite.motion_task import begins, datum, patience, soon, unit_of
+from rapidgen.proving.track import SETTLED, Position
 from rapidgen.runtime.errors import RapidError
 from rapidgen.system.model import System
 
 case = Theme("interrupted")
 
 _TRAJ = JOINT_TRAJ_PT
-_CREEP = 5e-4
-"""rad or m: as far as a robot may get between Start and the stop by an event routine."""
 
 
 def _ended(bench: Bench, watcher: RawLink, reason: RawReason, what: str) -> messages.RawProgress:
@@ -193,11 +191,26 @@ def _unseen(bench: Bench) -> None:
             _works(other, link)
 
 
+def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:
+    """Broken where Start let the robot move further than it must.
+
+    Start sets the path in motion, and chance decides which task is first to go on. In a `wait` of
+    the event routine an axis accelerates, and brakes as long: a t^2 at most, less with its ramps.
+    """
+    if wait > soon(bench):
+        raise Broken(f"{when}: the robot is stopped after {wait:.3f} s")
+    for number, (joint, a, b) in enumerate(
+        zip(bench.group.joints, here, bench.position, strict=True), 1
+    ):
+        if abs(b - a) > joint.acceleration * wait * wait + SETTLED:
+            raise Broken(f"{when}: in {1000 * wait:.1f} ms joint {number} went on by {b - a:.5f}")
+
+
 @case("start-alone", "event routines drop the path by themselves", "R7a", background=True)
 def _start_alone(bench: Bench) -> None:
     """Start runs an event routine, and an emergency stop does: both drop the path by themselves."""
     with _beside(bench, _bare(bench.system, "START", "RESTART", "QSTOP")) as other:
-        watcher, link = other.watcher(), other.motion()
+        watcher, link, orders = other.watcher(), other.motion(), watched_orders(other)
         for action in ("stop", "e-stop", "stop of the supervisor"):
             _moves(other, link)
             if action in ("stop", "e-stop"):
@@ -209,13 +222,12 @@ def _start_alone(bench: Bench) -> None:
             other.run(patience(other))
             if action == "e-stop" and other.setting.dialect.e_stop_routines:
                 _ended(other, watcher, RawReason.PROGRAM_STOPPED, action)
-            here = other.position
+            here, since = other.position, other.now
             other.start_again()
             if other.setting.random_schedule:
-                # Start sets the path in motion, and chance which task is first to go on.
                 other.run(0.3)
-                if distance(other.position, here) > _CREEP:
-                    raise Broken(f"{action}, then Start: the robot went on to {other.position}")
+                stops = [order.time for order in orders if order.time >= since]
+                _crept(other, here, min(stops, default=since) - since, f"{action}, then Start")
             other.stays(patience(other), f"{action}, then Start")
             _ended(other, watcher, RawReason.PROGRAM_STOPPED, f"{action}, then Start")
             if action in ("stop", "e-stop"):
