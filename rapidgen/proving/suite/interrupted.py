@@ -196,6 +196,7 @@ def _crept(bench: Bench, here: Position, wait: float, when: str) -> None:
 
     Start sets the path in motion, and chance decides which task is first to go on. In a `wait` of
     the event routine an axis accelerates, and brakes as long: a t^2 at most, less with its ramps.
+    That it stops first of all is seen where no chance decides: there nothing moves.
     """
     if wait > soon(bench):
         raise Broken(f"{when}: the robot is stopped after {wait:.3f} s")

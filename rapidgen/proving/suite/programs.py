@@ -116,7 +116,10 @@ def _refused(bench: Bench) -> None:
 
 
 @case(
-    "program-prefix", "what ends a program leaves a prefix of it, with index and reason", once=True
+    "program-prefix",
+    "what ends a program leaves a prefix of it, with index and reason",
+    once=True,
+    needs="control",
 )
 def _prefix(bench: Bench) -> None:
     """STOP on either port, a cut connection, an emergency stop, a stop of the program, a pause."""
@@ -179,7 +182,7 @@ def _end(bench: Bench, client: Programmer, control: RawLink, ending: str) -> Non
         bench.controller.perform(ending)
 
 
-@case("program-paused", "a paused program goes on where it was")
+@case("program-paused", "a paused program goes on where it was", needs="control")
 def _paused(bench: Bench) -> None:
     """To its end, on its path."""
     control, watcher, client = bench.control(), bench.watcher(), Programmer(bench)
