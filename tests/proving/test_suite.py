@@ -203,6 +203,9 @@ def test_every_example_can_be_proven(path, capsys):
         ("irb2400-rw5", "e-stop-at-speed", ()),
         # A TCP too slow to get off its path.
         ("crb15000-rw7", "e-stop-at-speed", ()),
+        ("irb120-rw6", "another-program", ("--set", "main=own")),
+        ("irb120-rw6", "program-paused", ("--set", "ports.control=0")),
+        ("irb120-rw6", "program-prefix", ("--set", "commissioning=true")),
         ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
     ],
 )

@@ -224,8 +224,13 @@ ENDMODULE
 def _another_program(bench: Bench) -> None:
     """ROS_motion was replaced by another program: event routines are there, and nothing is held."""
     foreign = ModuleFile("foreign", "foreign.mod", _FOREIGN)
+
+    def stays(module: ModuleFile) -> bool:
+        # A main that calls ROS_run goes with it.
+        return module.name != "ROS_motion" and b"PROC main()" not in module.data
+
     tasks = tuple(
-        replace(task, modules=(*(m for m in task.modules if m.name != "ROS_motion"), foreign))
+        replace(task, modules=(*filter(stays, task.modules), foreign))
         if task.name == bench.group.task
         else task
         for task in bench.system.tasks
