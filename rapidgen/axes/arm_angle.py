@@ -74,6 +74,8 @@ class ArmAngle:
     ) -> tuple[float, ...] | None:
         import numpy as np  # only where an arm has seven axes
 
+        from rapidgen.axes.numeric import solved
+
         def off(values: Sequence[float]) -> list[float]:
             flange, axes = search.lines(values)
             turned = angle - self.of(axes)
@@ -95,7 +97,7 @@ class ArmAngle:
                 columns.append([(a - b) / _STEP for a, b in zip(here, off(moved), strict=True)])
             jacobian = np.array(columns).T
             normal = jacobian.T @ jacobian + 1e-8 * size * np.eye(len(values))
-            step = np.linalg.solve(normal, jacobian.T @ np.array(here))
+            step = solved(normal, jacobian.T @ np.array(here))
             share = min(1.0, _LARGEST / max(1e-12, float(np.max(np.abs(step)))))
             for n, change in enumerate(step):
                 values[n] += share * float(change)

@@ -112,16 +112,17 @@ class Kinematics:
             return self.arm.near(pose, near)
         return self._as_posture(solved, angles, values)
 
-    def reaches(self, pose: Pose, near: Posture) -> bool:
-        """Whether any posture reaches a pose, ranges apart."""
+    def beyond(self, pose: Pose, near: Posture) -> Iterator[Posture]:
+        """Postures that reach a pose, ranges apart; external axes as in `near`."""
         values = self.map.to_urdf(near)
         if self._four is not None:
-            return any(self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
-        if any(True for _ in self._formulas(pose, values)):
-            return True
-        return self._arm is None and any(
-            True for postures in self.arm.rounds(pose, near) for _ in postures
-        )
+            fours = (self._of_four(pose, values, branch) for branch in FOUR_BRANCHES)
+            yield from (four for four in fours if four is not None)
+            return
+        yield from self._formulas(pose, values)
+        if self._arm is None:
+            for postures in self.arm.rounds(pose, near):
+                yield from postures
 
     def solutions(self, pose: Pose, near: Posture) -> list[Posture]:
         """All postures within the ranges that reach a pose, external axes as in `near`.

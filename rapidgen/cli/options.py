@@ -35,6 +35,28 @@ LoadCheck = Annotated[
     typer.Option(help="Refuse programs that a controller would not load."),
 ]
 
+# Of the verbs that boot a virtual controller.
+Tasks = Annotated[
+    list[str] | None,
+    typer.Option("--task", metavar="NAME=FILE,FILE", help="A task of its own with these modules."),
+]
+Entry = Annotated[str, typer.Option("--entry", help="Procedure that tasks start in, not main.")]
+RobotModel = Annotated[
+    str, typer.Option("--robot", metavar="NAME", help="Shipped robot or configuration.")
+]
+Cell = Annotated[
+    str,
+    typer.Option(
+        "--cell",
+        metavar="FILE|guess",
+        help="What stands around the controller; `guess`: whatever the programs name.",
+    ),
+]
+Start = Annotated[
+    str,
+    typer.Option("--start", metavar="J1,J2,...", help="Where the robot stands at first: deg, mm."),
+]
+
 # Of the verbs that reach a controller's files.
 Controllers = Annotated[
     list[str],
@@ -61,6 +83,15 @@ LoadedCfg = Annotated[
 ]
 Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
+]
+
+# Of the verbs that talk to a controller's Robot Web Services.
+WebServices = Annotated[
+    str,
+    typer.Argument(help="Controller: HOST[:PORT], rws:// or rwss:// before it.", metavar="HOST"),
+]
+Fingerprint = Annotated[
+    str, typer.Option(help="SHA-256 of the controller's certificate.", metavar="HEX")
 ]
 
 # Of the verbs that talk to a driver.

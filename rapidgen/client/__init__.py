@@ -1,5 +1,7 @@
 """The paired Python client: sync and async."""
 
+from typing import TYPE_CHECKING
+
 from rapidgen.client.aio import AsyncExecution, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
 from rapidgen.client.core.motion import Result
@@ -26,14 +28,19 @@ from rapidgen.client.threads import Execution, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
+if TYPE_CHECKING:
+    from rapidgen.client.rws import AsyncController, Controller
+
 __all__ = [
     "AsyncCell",
+    "AsyncController",
     "AsyncExecution",
     "AsyncRobot",
     "AsyncStream",
     "Cell",
     "ConnectionFailed",
     "ConnectionLost",
+    "Controller",
     "Driver",
     "Event",
     "EventType",
@@ -63,3 +70,12 @@ __all__ = [
     "TrajectoryRefused",
     "TrajectoryState",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # Who talks to a driver alone should not pay for HTTP and websockets.
+    if name in ("AsyncController", "Controller"):
+        from rapidgen.client import rws
+
+        return getattr(rws, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

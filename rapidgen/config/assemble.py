@@ -110,15 +110,24 @@ def _model(name: str, made: Assembly, span: Span | None = None) -> MappingNode:
 
 def _parsed(name: str, data: bytes, shown: str, made: Assembly) -> MappingNode:
     made.inputs.append((name, data))
-    root, faults = parse(decode(data, shown), shown)
+    root, faults = keys_of(data, shown)
     made.found += faults
+    return root
+
+
+def keys_of(data: bytes, shown: str) -> tuple[MappingNode, list[Diagnostic]]:
+    """The keys of a YAML file, none of an empty one, and faults that do not hinder them.
+
+    Raises DiagnosticError (RG002, RG003, RG006).
+    """
+    root, faults = parse(decode(data, shown), shown)
     if isinstance(root, ScalarNode) and root.value is None:
-        return MappingNode({}, root.span)
+        return MappingNode({}, root.span), faults
     if not isinstance(root, MappingNode):
         raise refusal(
             "RG006", root.span, "a configuration is a mapping of keys", label="not a mapping"
         )
-    return root
+    return root, faults
 
 
 def _text(root: MappingNode, key: str) -> str:

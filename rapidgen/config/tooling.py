@@ -54,18 +54,23 @@ def tool_of(tool: schema.ToolKeys, path: KeyPath, report: DraftFindings) -> mode
             (*path, "load", "mass"),
             help="a controller refuses to move with a tool without mass: add `load: {mass: ...}`",
         )
-    x, y, z = load.inertia
     return model.Tool(
         tool.name,
         tool.declared == "elsewhere",
         tool.held,
         _frame(tool.frame, (*path, "frame"), report),
-        model.Load(
-            load.mass,
-            _metres(load.centre),
-            _unit_quaternion(load.axes, (*path, "load", "axes"), report),
-            (x, y, z),
-        ),
+        load_of(load, (*path, "load"), report),
+    )
+
+
+def load_of(load: schema.LoadKeys, path: KeyPath, report: DraftFindings) -> model.Load:
+    """A load."""
+    x, y, z = load.inertia
+    return model.Load(
+        load.mass,
+        _metres(load.centre),
+        _unit_quaternion(load.axes, (*path, "axes"), report),
+        (x, y, z),
     )
 
 

@@ -57,6 +57,7 @@ class Operation:
     def power_up(self) -> None:
         """After switching on: outputs at their defaults, POWER_ON routines are due."""
         self._host.io.power_up()
+        self._host.motion.zones.drop_all()
         for task in self._host.rapid_tasks.values():
             task.power_up()
         self._host.log.info(10_011, "Motors ON state")
@@ -115,6 +116,13 @@ class Operation:
         self.set_motors(False)
         self.changed.notify()
 
+    def fail(self) -> None:
+        """SYS FAIL: motors off, nothing starts until a restart."""
+        self.failed = True
+        self.motors_on = False
+        self._host.log.error(20_095, "System failure state", "a warm start is needed")
+        self.changed.notify()
+
     def power_loss(self) -> None:
         """Power goes and comes back: a warm start. Sockets and files are closed."""
         host = self._host
@@ -132,6 +140,7 @@ class Operation:
         self.e_stop = False
         self.motors_on = False
         host.io.power_up()
+        host.motion.zones.drop_all()
         for task in host.rapid_tasks.values():
             task.power_up()
             if task.spec.type != "NORMAL":
@@ -183,8 +192,7 @@ class Operation:
         """
         for task in self._normal():
             task.stop(event)
-        for group in self._groups:
-            group.stop("program", quick=quick)
+        self._stop_motion(quick=quick)
         self._host.log.info(10_125, "Program stopped")
         self.changed.notify()
 
@@ -194,6 +202,8 @@ class Operation:
             task.pp_to_main()
         for group in self._groups:
             group.reset()
+        for arc in self._host.arcs.values():
+            arc.reset()
         self._host.log.info(10_002, "Program pointer has been reset")
 
     def drop_paths(self) -> None:
@@ -213,6 +223,8 @@ class Operation:
 
     def step_moves(self) -> None:
         """The robots may move."""
+        for arc in self._host.arcs.values():
+            arc.go_on()
         for group in self._groups:
             group.start("program")
 
@@ -253,13 +265,11 @@ class Operation:
             self._stop_motion()
             log.error(10_020, "Execution error state", task=task.name)
         elif trust != "NoSafety":
-            self.failed = self.failed or trust == "SysFail"
             self.halted = self.halted or trust == "SysHalt"
             self._stop_others(task)
             self._stop_motion()
             if trust == "SysFail":
-                self.motors_on = False
-                log.error(20_095, "System failure state", "a warm start is needed")
+                self.fail()
             elif trust == "SysHalt":
                 self.motors_on = False
                 log.error(10_010, "Motors OFF state")
@@ -275,9 +285,11 @@ class Operation:
             if other is not task:
                 other.stop()
 
-    def _stop_motion(self) -> None:
+    def _stop_motion(self, *, quick: bool = False) -> None:
+        for arc in self._host.arcs.values():
+            arc.hold()
         for group in self._groups:
-            group.stop("program")
+            group.stop("program", quick=quick)
 
 
 ACTIONS: Mapping[str, Callable[[Operation], object]] = {

@@ -265,13 +265,29 @@ def data_of_another(group: GroupConfig) -> list[tuple[str, str, str]]:
     return [(kind, str(d["source"]), str(d["value"])) for kind, d in data if d["source"]]
 
 
+def tool_literal(tool: Tool) -> str:
+    """A tool as RAPID's tooldata."""
+    return f"[{_bool(tool.held)},{_frame(tool.frame)},{load_literal(tool.load)}]"
+
+
+def work_object_literal(wobj: WorkObject) -> str:
+    """A work object as RAPID's wobjdata."""
+    return f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
+
+
+def load_literal(load: Load) -> str:
+    """A load as RAPID's loaddata."""
+    inertia = ",".join(literal(v) for v in load.inertia)
+    return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"
+
+
 def _tool(tool: Tool) -> dict[str, object]:
-    value = f"[{_bool(tool.held)},{_frame(tool.frame)},{_load(tool.load)}]"
+    value = tool_literal(tool)
     return _datum(tool.name, "tool", tool.name != "tool0", value, elsewhere=tool.elsewhere)
 
 
 def _work_object(wobj: WorkObject) -> dict[str, object]:
-    value = f'[{_bool(wobj.held)},TRUE,"",{_frame(wobj.user_frame)},{_frame(wobj.object_frame)}]'
+    value = work_object_literal(wobj)
     return _datum(wobj.name, "wobj", wobj.name != "wobj0", value, elsewhere=wobj.elsewhere)
 
 
@@ -304,8 +320,3 @@ def _list(values: tuple[float, ...], factor: float = 1.0) -> str:
 
 def _frame(frame: Placement) -> str:
     return f"[{_list(frame.position, _MM)},{_list(frame.orientation)}]"
-
-
-def _load(load: Load) -> str:
-    inertia = ",".join(literal(v) for v in load.inertia)
-    return f"[{literal(load.mass)},{_list(load.centre, _MM)},{_list(load.axes)},{inertia}]"

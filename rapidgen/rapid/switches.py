@@ -150,6 +150,14 @@ class Switches:
     sockets_limited: bool = True
     """32 sockets of a controller may be open [mem]. False: any number."""
 
+    stationary_zones: Literal["power_on", "anywhere"] = "power_on"
+    """Where stationary world zones may be defined: in event routines of POWER ON [manual
+    3HAC050917], or in any routine, for programs that are tried without their event routines."""
+
+    hands_calibrated: bool = False
+    """Whether the hands of a YuMi are calibrated when the controller is switched on [HandDriver.sys
+    asks for it]. True: as if a program before had done it."""
+
     no_configuration: Literal["limit", "reach", "stop"] = "limit"
     """CalcJointT of a configuration that the place has not: ERR_ROBLIMIT, as an axis would have to
     be where it cannot be [manual], ERR_OUTSIDE_REACH, or the task stops as with a move."""
@@ -176,6 +184,8 @@ NOT_THE_DRIVERS = frozenset(
         "list_number",
         "queue_patience",
         "sockets_limited",
+        "stationary_zones",
+        "hands_calibrated",
         "delimiters",
         "no_configuration",
     }

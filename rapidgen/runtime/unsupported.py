@@ -15,17 +15,11 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         EGMSetupGI EGMActPose EGMActMove EGMRunJoint EGMRunPose EGMMoveL EGMMoveC EGMStop EGMReset
         EGMStreamStart EGMStreamStop EGMWaitCond""",
     ),
-    (
-        "world zones are not simulated",
-        """WZBoxDef WZCylDef WZSphDef WZHomeJointDef WZLimJointDef WZDOSet WZLimSup WZEnable
-        WZDisable WZFree""",
-    ),
     ("the servo loops are not simulated", "TuneServo TuneReset"),
     (
         "there are no I/O units: every signal is a virtual one",
         "IOEnable IODisable IOUnitState IOBusStart IOBusState PackDNHeader",
     ),
-    ("nobody can lead a simulated robot by hand", "SetLeadThrough IsLeadThrough"),
     (
         "path correction is not simulated",
         "CorrCon CorrDiscon CorrClear CorrWrite CorrRead",
@@ -39,20 +33,28 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         """SenDevice WriteVar ReadVar WriteBlock ReadBlock SiConnect SiClose SiGetCyclic
         SiSetCyclic IVarValue""",
     ),
-    ("contact is not simulated", "ContactL"),
     (
         "force control (option 661-2) is not simulated",
         """FCCalib FCAct FCDeact FCRefStart FCRefStop FCPress1LStart FCPressL FCPressC FCPressEnd
         FCLoadID""",
     ),
-    (
-        "the gripper's own controller is not simulated",
-        """Hand_Initialize Hand_GripInward Hand_GripOutward Hand_MoveTo Hand_SetHoldForce
-        Hand_SetMaxSpeed Hand_Stop Hand_JogInward Hand_JogOutward Hand_DoCalibrate
-        Hand_GetActualPos Hand_GetActualSpeed g_Init g_GripIn g_GripOut g_MoveTo g_SetMaxSpd
-        g_SetForce g_Stop g_JogIn g_JogOut g_Calibrate""",
-    ),
     ("linked motors are not simulated", "Linked_m_exe"),
+    (
+        "BullsEye measures a real tool with its beam: there is neither",
+        "BESetupToolJ BECheckTcp BEUpdateTcp BERefPointer BETcpExtend BEDebugState",
+    ),
+    (
+        "the Production Manager's engine, which calls parts and menus, is not simulated",
+        "ExecEngine PMgrGetNextPart PMgrSetNextPart PMgrRunMenu",
+    ),
+    (
+        "paths of seams are not recorded, and weld data hold for a whole movement",
+        "ArcRepL ArcRefresh",
+    ),
+    (
+        "SmarTac feels a part with the torch: there is neither",
+        "Search_1D Search_Groove Search_Part PDispAdd",
+    ),
     (
         "the controller's path recorder is not simulated",
         """PathRecStart PathRecStop PathRecMoveBwd PathRecMoveFwd PathRecValidBwd PathRecValidFwd
@@ -65,7 +67,7 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
     ("motor angles need gear ratios, which are in no public source", "ReadMotor"),
     (
         "its arguments are in no public source",
-        "TriggLIOs TriggJIOs",
+        "TriggLIOs TriggJIOs SSearchL",
     ),
     (
         "how the controller fits axes and tools to measured points is in no public source",
@@ -124,8 +126,8 @@ _GROUPS: Final[tuple[tuple[str, str], ...]] = (
         CamNumberOfResults""",
     ),
     (
-        "welding is not simulated",
-        "ArcL ArcC ArcLStart ArcLEnd ArcCStart ArcCEnd SpotL SpotJ",
+        "spot welding is not simulated",
+        "SpotL SpotJ",
     ),
     (
         "independent axes are not simulated",

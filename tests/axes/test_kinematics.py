@@ -182,7 +182,7 @@ def test_out_of_reach_is_nothing():
     far = ((2.0, 0.0, 0.5), (1.0, 0.0, 0.0, 0.0))
     assert own.follow(far, (0.0,) * 6) is None
     assert own.solutions(far, (0.0,) * 6) == []
-    assert not own.reaches(far, (0.0,) * 6)
+    assert not any(own.beyond(far, (0.0,) * 6))
 
 
 def test_axis_6_appears_with_every_turn_of_its_range():
@@ -285,3 +285,14 @@ def test_home_of_an_irb_140():
     turned = frames.from_rpy(*map(math.radians, (180, 60, 180)))
     assert frames.angle_between(q, turned) < 1e-9
     assert own.matches(home, (0, 0, 0, 0), "quarter")
+
+
+def test_a_singular_arm_is_no_end_of_a_search():
+    """A tool straight down in the robot's own foot: rows of the Jacobian vanish on the way."""
+    own = Kinematics.of(load_config("crb15000").groups[0])
+    foot = ((0.0, 0.0, 0.05), (0.0, 1.0, 0.0, 0.0))
+    start = (
+        *(1.4968308644007164, 0.1457763096632032, 1.4363546943094327),
+        *(-2.9059740906472533, -0.26568228074002587, 1.9886889063547626),
+    )
+    assert all(own.follow(own.forward(p), p) is not None for p in own.solutions(foot, start))

@@ -65,4 +65,4 @@ def test_a_posture_nearby_stays_on_its_branch(gofa):
 
 def test_out_of_reach_there_is_none(gofa):
     assert gofa.solutions(((1.2, 0.3, 0.2), frames.UNIT), (0.0,) * 6) == []
-    assert not gofa.reaches(((1.2, 0.3, 0.2), frames.UNIT), (0.0,) * 6)
+    assert next(gofa.beyond(((1.2, 0.3, 0.2), frames.UNIT), (0.0,) * 6), None) is None

@@ -126,7 +126,7 @@ def test_a_signal_that_is_not_here_may_be_named_like_a_type():
     assert out == ["before", UNKNOWN, "after"]
 
 
-@pytest.mark.parametrize("body", ["SetTmSignal n;", "n := MaxExtLinearSpeed();"])
+@pytest.mark.parametrize("body", ["SetTmSignal n;"])
 def test_a_routine_of_an_option_is_missed_when_it_is_reached(body):
     out, controller = printed(f'TPWrite "before";\n{body}', "VAR num n;")
     assert out == ["before"]

@@ -54,11 +54,15 @@ Version = tuple[int, int]
 Value = float | bool | str | tuple["Value", ...]
 """A RAPID value that is known before the run: records and arrays are tuples."""
 
-_ROUTINE_FILES: Final = ("communication", "io", "motion", "options", "tasks", "values")
+_WITHOUT_ROUTINES: Final = frozenset(("constants", "data", "names", "types"))
 _HEADER: Final = re.compile(
     r"^(PROC|FUNC (\w+)) (\w+)(\(.*?\))(?:[ ]+!([^\n]*))?$", re.MULTILINE | re.DOTALL
 )
 _CLASSES: Final = re.compile(r"^!(value|nonvalue|semivalue) (.*)$", re.MULTILINE)
+_DECLARATION: Final = re.compile(
+    r"^(?:RECORD\b.*?^ENDRECORD$|(?:ALIAS|CONST|PERS|VAR)\b[^;]*;|!\w+value [^\n]*$)",
+    re.MULTILINE | re.DOTALL,
+)
 _NAMES: Final = re.compile(r"^!(procedures|functions|types|values) (.*)$", re.MULTILINE)
 _MARKS: Final = frozenset(
     (
@@ -130,10 +134,18 @@ def _read(name: str) -> str:
 
 
 @cache
+def _themes() -> tuple[str, ...]:
+    """The files with routines; one of a family has its types and data, too."""
+    found = (files("rapidgen.rapid") / "builtins").iterdir()
+    names = sorted(file.name for file in found if file.name.endswith(".rapid"))
+    return tuple(n for name in names if (n := name.removesuffix(".rapid")) not in _WITHOUT_ROUTINES)
+
+
+@cache
 def _headers() -> dict[str, tuple[str, str | None, str, str | None]]:
     """Lower-case name to (name, type, parameters as text, marks)."""
     found: dict[str, tuple[str, str | None, str, str | None]] = {}
-    for file in _ROUTINE_FILES:
+    for file in _themes():
         for _, type_name, name, parameters, marks in _HEADER.findall(_read(file)):
             found[name.lower()] = (name, type_name or None, parameters, marks or None)
     return found
@@ -208,6 +220,12 @@ class _Types:
     records: Mapping[str, PredefinedRecord]
 
 
+@cache
+def _declared() -> str:
+    """What the files of families declare beside their routines."""
+    return "\n".join(found for name in _themes() for found in _DECLARATION.findall(_read(name)))
+
+
 def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | DataDeclaration]:
     tokens = lexer.tokenize(
         f"MODULE builtins\n{text}\nENDMODULE", "<builtins>", "utf-8", radix=False
@@ -220,7 +238,7 @@ def _declarations(text: str) -> list[RecordDeclaration | AliasDeclaration | Data
 
 @cache
 def _types() -> _Types:
-    text = _read("types")
+    text = _read("types") + _declared()
     classes: dict[str, TypeClass] = {}
     names: dict[str, str] = {}
     aliases: dict[str, str] = {}
@@ -276,7 +294,7 @@ def records() -> Mapping[str, PredefinedRecord]:
 def predefined() -> Mapping[str, Predefined]:
     """All predefined constants, persistents and variables by lower-case name."""
     found: dict[str, Predefined] = {}
-    text = _read("constants") + _read("data")
+    text = _read("constants") + _read("data") + _declared()
     read_only, writable = (
         {name for names in listed.findall(text) for name in names.split()}
         for listed in (_READ_ONLY, _WRITABLE)

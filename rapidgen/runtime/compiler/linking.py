@@ -5,6 +5,7 @@ classes are common to all tasks.
 """
 
 from collections import Counter
+from math import prod
 
 from rapidgen.diagnostics import Diagnostic, Severity, error
 from rapidgen.rapid.binding.names import (
@@ -42,6 +43,9 @@ from rapidgen.system.model import ModuleFile
 
 Typed = tuple[Type, tuple[int, ...], Value]
 """Type, sizes and value of a datum."""
+
+MOST_ELEMENTS = 4_000_000
+"""Of an array: about 400 MB here. The program memory of a controller ends before that [mem]."""
 
 
 class Shared:
@@ -365,6 +369,11 @@ class Linker:
         if kind is None:
             raise CannotCompile(f"type {d.type} is not known", d)
         dims = tuple(_dimension(x, scope) for x in d.dimensions)
+        if prod(dims) > MOST_ELEMENTS:
+            raise CannotCompile(
+                f"{d.name} would have {prod(dims):,} elements, there is room for {MOST_ELEMENTS:,}",
+                d,
+            )
         if d.initial is not None and kind.name not in self.shared.unknown:
             return kind, dims, self._counted(evaluate(d.initial, kind, dims, scope), kind)
         if dims:

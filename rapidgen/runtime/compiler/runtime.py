@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from typing import NoReturn
 
+from rapidgen.machine.io import Awaited
 from rapidgen.machine.scheduler import WaitSet
 from rapidgen.rapid.numbers import EXACT, MAX_STRING, single
 from rapidgen.runtime.errors import RapidError
@@ -372,6 +373,10 @@ class Condition:
     watched: tuple[WaitSet, ...]
     """Persistents and signals in it."""
     cost: int
+    reads: Callable[[], tuple[tuple[str, Value], ...]]
+    """Names in it, and what they are worth now."""
+    signals: Callable[[], tuple[Awaited, ...]]
+    """Comparisons of signals, with which it may hold."""
     calls: bool = False
     """It calls a function of the program."""
 
@@ -409,5 +414,6 @@ NAMESPACE: dict[str, Callable[..., Value]] = {
     "PART": part,
     "LATE": LateArgument,
     "CONDITION": Condition,
+    "AWAITED": Awaited,
 }
 """Names that compiled code finds among its globals."""

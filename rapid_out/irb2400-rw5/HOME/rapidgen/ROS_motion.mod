@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "b6412f8f087d";
+    CONST string ROS_BUILD_MOTION := "4f8803678969";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -336,8 +336,8 @@ MODULE ROS_motion
         turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
             (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
-        ! As in the predefined zones.
-        bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
+        ! To each other as in the zone.
+        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
         bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);

@@ -9,6 +9,7 @@ from rapidgen.axes.kinematics import (
     MovingFrame,
     Posture,
 )
+from rapidgen.axes.unreached import unreached
 from rapidgen.motion.group import MotionGroup
 from rapidgen.motion.moves import Carrier
 from rapidgen.rapid.numbers import single
@@ -119,9 +120,8 @@ def joints_for(
     else:
         found = kinematics.solutions(flange, near)
     if not found:
-        if kinematics.reaches(flange, near):
-            raise RapidError("ERR_ROBLIMIT")
-        raise RapidError("ERR_OUTSIDE_REACH")
+        reached, why = unreached(kinematics, flange, near)
+        raise RapidError("ERR_ROBLIMIT" if reached else "ERR_OUTSIDE_REACH", why)
     if wanted is None:
         return found[0]
     posture = kinematics.fitting(found, wanted, check)

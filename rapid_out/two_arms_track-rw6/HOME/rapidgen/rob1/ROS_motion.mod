@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "2e66401259ca";
+    CONST string ROS_BUILD_MOTION := "ec1cf4ed8e73";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [5000,500,5000,1000];
@@ -287,8 +287,8 @@ MODULE ROS_motion
         turn (after.target.extax.eax_b - point.target.extax.eax_b) / after.duration,
             (point.target.extax.eax_b - before.extax.eax_b) / point.duration, TURN_8, uneven, needed, swinging;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
-        ! As in the predefined zones.
-        bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
+        ! To each other as in the zone.
+        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
         bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);
