@@ -20,6 +20,13 @@ Backup = Annotated[
     Path | None,
     typer.Option(help="Backup of the controller that a generated folder is for.", metavar="FOLDER"),
 ]
+VeryBackup = Annotated[
+    Path | None,
+    typer.Option(
+        help="Backup of the very controller: what it has is used, what it lacks is written.",
+        metavar="FOLDER",
+    ),
+]
 Yes = Annotated[
     bool, typer.Option("--yes", "-y", help="Answer the question with yes; nothing more.")
 ]

@@ -10,6 +10,7 @@ from rapidgen.config.draft import Path as KeyPath
 from rapidgen.config.joints import joints_of
 from rapidgen.config.registry import find_shipped
 from rapidgen.config.tooling import tool_of, work_object_of
+from rapidgen.config.variant_model import label
 from rapidgen.diagnostics import Severity
 
 GENERATIONS = {
@@ -227,7 +228,8 @@ def _is_shipped(path: KeyPath, name: str, report: DraftFindings) -> bool:
     """Whether a part is as the shipped model has it."""
     if not name:
         return False
-    return Path(report.span(path, key=True).path).resolve() == find_shipped(name).resolve()
+    place = report.span(path, key=True).path
+    return place == label(name) or Path(place).resolve() == find_shipped(name).resolve()
 
 
 def _chain(

@@ -17,6 +17,7 @@ from rapidgen.controller.surroundings import Surroundings, settle
 from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
+from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -28,6 +29,7 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
@@ -151,6 +153,10 @@ class VirtualController:
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
         self.meetings = Meetings()
+        self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
+        """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
+        self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
+        """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
@@ -174,7 +180,9 @@ class VirtualController:
         self.tasks: Mapping[str, TaskView] = {
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
-        self.diagnostics = load(self.rapid_tasks.values(), self.parse_module)
+        self.diagnostics = load(
+            self.rapid_tasks.values(), self.parse_module, entries_wanted=not system.robot_types
+        )
         signals.connect()
         self.operation.power_up()
         self.answered = settle(self, surroundings)

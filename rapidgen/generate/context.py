@@ -45,6 +45,8 @@ _SUMS = (
 # What the controller says of movement is believed for so long, s, and for so many messages.
 _BELIEF = 10.0
 _BELIEF_MESSAGES = 5
+# Of these the driver writes nothing into the event log.
+_ON_THE_WIRE_ALONE = {spec.Reason.NONE, spec.Reason.SUPERSEDED, spec.Reason.POWER_FAILURE}
 _FACTORS = (
     {"name": "ROS_DEG", "value": "57.29578", "text": "rad to deg"},
     {"name": "ROS_MM", "value": "1000", "text": "m to mm"},
@@ -84,7 +86,7 @@ def group_context(config: RobotConfig, group: GroupConfig, build_id: str) -> dic
                 "known": f"has_{signal.function}",
                 "function": signal.function,
                 "text": signal.text,
-                "otherwise": "seen_executing()" if signal.by_routines else "ROS_TRI_UNKNOWN",
+                "by_routines": signal.by_routines,
                 "doubted": signal.one_when_well and signal.is_open(config.robotware[0]),
             }
             for signal in STATUS_SIGNALS
@@ -194,9 +196,9 @@ def used_constants(texts: Iterable[str]) -> dict[str, object]:
 
 
 def _reasons(constants: list[dict[str, object]]) -> list[dict[str, str]]:
-    """Reasons that the driver can give, with their texts."""
+    """Reasons that the driver can write into the event log, with their texts."""
     known = {constant["name"] for constant in constants}
-    named = [(f"ROS_REASON_{reason.name}", reason.text) for reason in spec.Reason]
+    named = [(f"ROS_REASON_{r.name}", r.text) for r in spec.Reason if r not in _ON_THE_WIRE_ALONE]
     return [{"name": name, "text": text} for name, text in named if name in known]
 
 

@@ -19,6 +19,8 @@ class ModalSettings:
     """AccSet, share."""
     ramp: float = 1.0
     """AccSet: how quickly acceleration builds up, share."""
+    corner_warning: bool = True
+    """CornerPathWarning: whether the log tells of corners that became stop points."""
     check_linear: bool = True
     """ConfL"""
     check_joint: bool = True

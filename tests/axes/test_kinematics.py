@@ -105,7 +105,7 @@ def wrapped(angles):
 @pytest.mark.parametrize("group", WRIST_ARMS)
 def test_an_independent_package_finds_the_same_postures(group):
     own = Kinematics.of(group)
-    arm = own._arm[0]
+    arm = own._arm.arm
     robot = opw_robot(arm)
     for posture in postures(group, 25):
         angles = own._robot_angles(own.map.to_urdf(posture))
@@ -210,7 +210,7 @@ def test_metres_of_a_linear_axis():
 
 
 def test_cfx_tells_the_eight_branches_apart():
-    # [mem] +4 behind axis 1, +2 behind the lower arm, +1 axis 5 negative
+    # +4 behind axis 1, +2 behind the lower arm [mem], +1 axis 5 negative
     own = kinematics("irb120")
     posture = (0.1, 0.2, 0.3, 0.7, 0.5, 0.4)
     found = {own.configuration(p)[3] for p in own.solutions(own.forward(posture), posture)}

@@ -1,5 +1,6 @@
 """The suite holds for every kind of robot, and sees defects when there are some."""
 
+import json
 import re
 from pathlib import Path
 from xml.etree import ElementTree
@@ -147,6 +148,20 @@ def test_the_verb_writes_reports_and_says_what_failed(tmp_path, capsys):
     assert "<svg" in html.read_text(encoding="utf-8")
     assert main(["test", "irb120", "--case", "whole-trajectry"]) == 2
     assert "whole-trajectory" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("jobs", ["1", "2"])
+def test_a_run_that_is_broken_off_reports_what_it_saw(jobs, monkeypatch, capsys):
+    def interrupted(bars, what, done, total):
+        if done == 1:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr("rapidgen.cli.test._Progress._step", interrupted)
+    words = ["--case", "hello", "--case", "single-point", "--quick", "--jobs", jobs, "--json"]
+    assert main(["test", "irb120", *words]) == 130
+    told = json.loads(capsys.readouterr().out)
+    assert [outcome["passed"] for outcome in told["outcomes"]] == [True]
+    assert (told["broken_off"], told["passed"]) == (True, False)
 
 
 def test_the_table_of_faults_names_cases_that_exist():

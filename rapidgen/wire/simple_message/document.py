@@ -204,7 +204,7 @@ def _versions() -> str:
         ),
         (
             "3",
-            "none",
+            "reason 28",
             "values and checksum of POINTS are int32, no number of eight bytes is left; refused as "
             "between 1 and 2",
         ),

@@ -13,6 +13,7 @@ from rapidgen.runtime.builtins.motion.arguments import (
     target_of,
 )
 from rapidgen.runtime.builtins.motion.targets import (
+    NoConfiguration,
     carrier_of,
     configuration_of,
     joints_for,
@@ -22,6 +23,8 @@ from rapidgen.runtime.errors import RapidError
 from rapidgen.runtime.registry import builtin
 from rapidgen.runtime.task.task import Task
 from rapidgen.runtime.values import LoadData, Orient, Pos, Pose, Ref, ToolData, Value, WobjData
+
+_CONFIGURATION_ERRORS = {"limit": "ERR_ROBLIMIT", "reach": "ERR_OUTSIDE_REACH", "stop": ""}
 
 
 def tool0() -> Value:
@@ -106,7 +109,8 @@ def calc_joint_t(
 ) -> Value:
     """The jointtarget of a robtarget, in the configuration that it programs.
 
-    ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached).
+    ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached). Which of
+    them a configuration is that the place has not is a switch.
     """
     group = group_of(task)
     here = group.positions()
@@ -123,7 +127,13 @@ def calc_joint_t(
     flange = placed.flange(frame(target))
     try:
         check = group.settings.configuration_check
-        posture = joints_for(geometry_of(group), flange, near, wanted, check, here)
+        try:
+            posture = joints_for(geometry_of(group), flange, near, wanted, check, here)
+        except NoConfiguration as fault:
+            name = _CONFIGURATION_ERRORS[task.controller.dialect.no_configuration]
+            if not name:
+                raise
+            raise RapidError(name, " ".join(fault.arguments)) from fault
     except RapidError as error:
         if number is None:
             raise

@@ -52,7 +52,9 @@ def acc_set(task: Task, acceleration: float, ramp: float, _final: float | None) 
 
 @builtin("SpeedRefresh")
 def speed_refresh(task: Task, override: float) -> None:
-    """Percent, at once, also for the move under way. ERR_SPEED_REFRESH_LIM outside 0 to 100."""
+    """Percent, at once, for the move under way, and for what else is a matter of the switches
+    `refresh_lasts`, `refresh_standing`. ERR_SPEED_REFRESH_LIM outside 0 to 100.
+    """
     if not 0 <= override <= 100:
         raise RapidError("ERR_SPEED_REFRESH_LIM", f"{override:g}")
     group_of(task).refresh = override / 100

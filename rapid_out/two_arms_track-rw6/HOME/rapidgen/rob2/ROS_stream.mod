@@ -9,7 +9,7 @@ MODULE ROS_stream
     ! room. The head of the ring is moved once a batch, when its checksum is right. Behind a fault
     ! the stream is cut: what was accepted before is executed, and nothing that follows.
 
-    CONST string ROS_BUILD_STREAM := "4187793f3053";
+    CONST string ROS_BUILD_STREAM := "2e66401259ca";
 
     ! s of points that wait in the ring before the robot begins to move, or moves on.
     LOCAL CONST num PRELOAD := 0.5;
@@ -393,7 +393,8 @@ MODULE ROS_stream
         IF ROS_first THEN
             begin_at_first;
         ELSE
-            IF ROS_seconds < ROS_SHORTEST AND (NOT last) ROS_short_segment;
+            IF ROS_seconds < ROS_SHORTEST AND (NOT last)
+                ROS_object ROS_REASON_SEGMENT_TOO_SHORT;
             ! The same place again: stand there for the duration.
             ROS_taken.dwell := (ROS_taken.target = ROS_before);
         ENDIF
