@@ -1,9 +1,10 @@
 """The documentation's commands and Python examples run as they stand.
 
 Fenced blocks: `console` (lines starting with `$ `, run in order in one scratch folder for each
-document, where blocks that have a file's name behind their kind lie as files; a command ending in ` &` is waited for until it says `ready`), `python` (all blocks of
-a document are one program). `sh` blocks set a machine up, `text` blocks are output: not run, but
-the commands and options that stand anywhere as code exist.
+document, where blocks that have a file's name behind their kind lie as files; a command ending in
+` &` is waited for until it says `ready`), `python` (all blocks of a document are one program). `sh`
+blocks set a machine up, `text` blocks are output: not run, but the commands and options that stand
+anywhere as code exist.
 A comment `# exit N` behind a command states its exit code.
 """
 
