@@ -10,7 +10,7 @@ import rapidgen.system as files
 from rapidgen.config import from_manifest, load_config
 from rapidgen.config.model import GroupConfig, RobotConfig
 from rapidgen.controller.mechanics import mechanics
-from rapidgen.controller.starts import start_of, usual_start
+from rapidgen.controller.starts import in_front, start_of, usual_start
 from rapidgen.controller.surroundings import Surroundings, furnish
 from rapidgen.diagnostics import Diagnostic, refusal, suggest
 from rapidgen.system.model import System
@@ -159,7 +159,7 @@ def _surrounded(found: Bootable, cell: "CellDescription | None", wishes: Wishes)
         from rapidgen.controller.guessing import guess
 
         units = [u for g in found.groups for u in (g.mechanical_unit, *g.external_units)]
-        guessed = guess(found.system, units)
+        guessed = guess(found.system, units, in_front(found.groups[0]))
         cell = guessed.cell
     usual = not found.driver
     if cell is None:

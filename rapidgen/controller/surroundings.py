@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from rapidgen.diagnostics import Diagnostic, DiagnosticError, error, suggest
 from rapidgen.machine.io import Awaited, IOSystem
+from rapidgen.machine.log import EventLog
 from rapidgen.machine.scheduler import S, Scheduler
 from rapidgen.motion.system import MotionSystem
 from rapidgen.runtime.task.task import Task
@@ -16,6 +17,8 @@ if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, ReactionKeys
     from rapidgen.controller.polling import Polled
 
+GUESSED = 49_910
+"""Event: an input that nobody drives became what a program waits for. The number is ours."""
 _PATIENCE = 0.5
 """Seconds that a program waits for a guessed input."""
 Posture = tuple[float, ...]
@@ -37,6 +40,10 @@ class Surroundings:
 
 class Booted(Protocol):
     """A controller that is put into its surroundings."""
+
+    @property
+    def log(self) -> EventLog:
+        """Its event log."""
 
     io: IOSystem
     motion: MotionSystem
@@ -120,6 +127,7 @@ def settle(controller: Booted, around: Surroundings) -> list[tuple[str, float]]:
         def give() -> None:
             if value is not None and not awaited.holds():
                 answered.append((signal.name, value))
+                controller.log.info(GUESSED, "Guessed input", f"{signal.name} becomes {value:g}")
                 controller.io.set(signal, value)
 
         if signal.name.casefold() in around.guessed:
