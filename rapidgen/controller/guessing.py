@@ -82,7 +82,7 @@ def guess(
             for f in spec.modules
         ]
         for scope in scopes:
-            looked_at += polled(scope)
+            looked_at += polled(scope, spec.entry)
             assigned |= _assigned(scope)
             for one in _undeclared(scope):
                 before = found.setdefault(one.name.casefold(), one)

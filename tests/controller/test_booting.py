@@ -184,6 +184,16 @@ def test_a_guessed_input_that_is_looked_at_in_a_loop_is_pressed(tmp_path):
         assert controller.signals["DI_1"] == 0, "a button is let go"
 
 
+def test_the_routine_that_a_task_starts_in_is_such_a_loop(tmp_path):
+    path = tmp_path / "cycles.mod"
+    path.write_text(
+        "MODULE cycles\n PERS num done := 0;\n PROC main()\n  IF DI_1 = 1 Incr done;\n"
+        "  WaitTime 0.1;\n ENDPROC\nENDMODULE\n"
+    )
+    with VirtualController.from_files([path], cell="guess", cycle="forever") as controller:
+        assert controller.run_until(lambda: controller.task("T_ROB1")["cycles:done"] > 1, timeout=5)
+
+
 def test_a_guessed_cell_does_not_hide_a_deadlock(tmp_path):
     path = tmp_path / "dead.mod"
     path.write_text(
