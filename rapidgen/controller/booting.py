@@ -18,6 +18,7 @@ from rapidgen.system.model import System
 if TYPE_CHECKING:
     from rapidgen.config.cell import CellDescription, CellRobotKeys
     from rapidgen.controller.guessing import Guess
+    from rapidgen.system.controller_cfg import ControllerCfg
 
 # Descriptions, guesses, generated drivers and backups are imported where there is one: the run of a
 # small program takes hardly longer than its imports.
@@ -54,6 +55,8 @@ class Bootable:
     notes: tuple[Diagnostic, ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)
     guessed: "Guess | None" = None
+    cfg: "ControllerCfg | None" = None
+    """All domains of a backup."""
 
 
 def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Bootable:
@@ -75,8 +78,11 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
         return _driver(config, system, tuple(notes), wishes)
     _only_of_folders(" ".join(map(str, targets)), wishes)
     if folder is not None and files.is_backup(folder):
+        from rapidgen.system.backup import backup_cfg
+
         system = _entered(files.read_backup(folder, notes=notes), wishes.entry)
-        return _foreign(system, notes, wishes)
+        found = _foreign(system, notes, wishes)
+        return replace(found, cfg=backup_cfg(folder, system.robotware, []))
     # Loose files have no mechanics that could be told.
     return _foreign(_loose(targets, wishes), None, wishes)
 

@@ -4,7 +4,8 @@ from dataclasses import dataclass, field
 from math import inf
 
 from rapidgen.axes.frames import IDENTITY, Pose
-from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.axes.shapes import CircleMode
+from rapidgen.motion.moves import Singularities
 
 
 @dataclass(slots=True)

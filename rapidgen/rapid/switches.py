@@ -99,6 +99,11 @@ class Switches:
     axis_limits_told: bool = True
     """ReadCfgData finds the limits of the axes, MOC/ARM [code]. False: ERR_CFG_NOTFND."""
 
+    calc_in_background: bool = True
+    """CalcRobT and CalcJointT in a task that moves no robot compute for the one that its unit group
+    names, as CRobT and CJointT do there in ABB's own module for RobotWare 7 [ABB]. False:
+    ERR_NOT_MOVETASK [mem]."""
+
     error_reach: Literal["all", "own"] = "all"
     """IError tells a task of everybody's events, as public loggers in tasks of their own expect
     [code], or of those of its own only."""

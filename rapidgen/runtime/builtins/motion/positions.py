@@ -89,10 +89,18 @@ def c_pos(task: Task, tool: Ref | None, work_object: Ref | None) -> Value:
     return here_of(task, group_of(task), tool, work_object).trans
 
 
+def _computed(task: Task) -> MotionGroup:
+    """The group to compute for. ERR_NOT_MOVETASK: `calc_in_background` says no."""
+    moves = task.controller.motion.is_motion_task(task.name)
+    if not moves and not task.controller.dialect.calc_in_background:
+        raise RapidError("ERR_NOT_MOVETASK")
+    return group_of(task)
+
+
 @builtin("CalcRobT")
 def calc_rob_t(task: Task, joints: Value, tool: Ref, work_object: Ref | None) -> Value:
     """The robtarget of a jointtarget."""
-    group = group_of(task)
+    group = _computed(task)
     offsets = data_of(task, group).external_offset
     posture = target_of(joints, group.map, group.positions(), offsets)
     return rob_target(group, posture, _carrier(group, tool, work_object), offsets)
@@ -112,7 +120,7 @@ def calc_joint_t(
     ERR_ROBLIMIT, ERR_OUTSIDE_REACH; \\ErrorNumber takes the number instead (0: reached). Which of
     them a configuration is that the place has not is a switch.
     """
-    group = group_of(task)
+    group = _computed(task)
     here = group.positions()
     offsets = data_of(task, group).external_offset
     external = external_values(target.extax, offsets)
