@@ -40,9 +40,10 @@ def usual_start(group: GroupConfig) -> tuple[float, ...]:
 def in_front(group: GroupConfig) -> tuple[float, float, float]:
     """Where a table may stand that the robot reaches: below its flange at the usual start, at a
     third of the height. The origin for a model without geometry."""
-    if not group.chain:
+    kinematics = Kinematics.of(group)
+    if kinematics is None:
         return (0.0, 0.0, 0.0)
-    (x, y, z), _ = Kinematics.of(group).forward(usual_start(group))
+    (x, y, z), _ = kinematics.forward(usual_start(group))
     return (x, y, z / 3)
 
 
