@@ -6,7 +6,16 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rapidgen.cli.terminal import use_colour
-from rapidgen.diagnostics import Diagnostic, DiagnosticError, Format, Severity, refusal, render
+from rapidgen.diagnostics import (
+    Diagnostic,
+    DiagnosticError,
+    Format,
+    Severity,
+    Span,
+    error,
+    refusal,
+    render,
+)
 
 if TYPE_CHECKING:
     from rapidgen.config.model import RobotConfig
@@ -147,7 +156,7 @@ def _parsed(paths: list[Path], dialect: "Dialect | None") -> "list[Module]":
 
 
 def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
-    """Files named one by one: they know each other, but hardly make a whole task."""
+    """Files named one by one: they know each other."""
     from rapidgen.rapid import check as check_rapid
 
     modules: list[Module] = []
@@ -157,9 +166,7 @@ def _files(paths: list[Path], dialect: "Dialect | None") -> list[Diagnostic]:
             modules += _parsed([path], dialect)
         except DiagnosticError as fault:
             found += fault.diagnostics
-    if len(modules) == 1:
-        return found + check_rapid(modules[0], dialect=dialect)
-    return found + check_rapid(modules, dialect=dialect, gaps=True)
+    return found + check_rapid(modules, dialect=dialect)
 
 
 def _folder(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[Diagnostic]:
@@ -169,7 +176,7 @@ def _folder(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[
 
     if is_generated(path) or is_backup(path):
         return _system(path, dialect, backup)
-    groups: list[tuple[list[Path], bool]] = []
+    groups: list[list[Path]] = []
     systems: list[Path] = []
     _search(path, groups, systems)
     if not groups and not systems:
@@ -177,20 +184,28 @@ def _folder(path: Path, dialect: "Dialect | None", backup: Path | None) -> list[
     found: list[Diagnostic] = []
     for system in systems:
         found += _system(system, dialect, backup)
-    parsed = [(_parsed(files, dialect), whole) for files, whole in groups]
-    declared = [
-        {_name(d).lower() for m in modules for d in m.declarations} for modules, _ in parsed
-    ]
-    for k, (modules, whole) in enumerate(parsed):
+    parsed = [_rapid(_parsed(files, dialect), found) for files in groups]
+    declared = [{_name(d).lower() for m in modules for d in m.declarations} for modules in parsed]
+    for k, modules in enumerate(parsed):
         elsewhere = frozenset().union(*declared[:k], *declared[k + 1 :])
-        found += check_rapid(
-            modules,
-            dialect=dialect,
-            whole_task=whole,
-            gaps=path.name.upper() in _TASK_FOLDERS,
-            elsewhere=elsewhere,
-        )
+        found += check_rapid(modules, dialect=dialect, elsewhere=elsewhere)
     return found
+
+
+def _rapid(modules: "list[Module]", found: list[Diagnostic]) -> "list[Module]":
+    """The modules of a folder that are RAPID; of the others a note is made."""
+    from rapidgen.rapid.syntax.text import is_rapid
+
+    kept = []
+    for module in modules:
+        wrong = any(d.severity is Severity.ERROR for d in module.diagnostics)
+        if is_rapid(module) or not wrong:
+            kept.append(module)
+        else:
+            at = Span(module.source.path, 1, 1)
+            said = "the file is named like a module, but it is no RAPID: left out"
+            found.append(error("RG208", at, said, severity=Severity.INFO))
+    return kept
 
 
 def _name(declaration: "Declaration") -> str:
@@ -232,8 +247,8 @@ def _not_loaded(path: Path, system: "System", dialect: "Dialect") -> list[Diagno
     return [d for d in found if d.severity is Severity.ERROR]
 
 
-def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[Path]) -> None:
-    """Groups of modules that belong together (and whether they are whole tasks), and systems."""
+def _search(folder: Path, groups: list[list[Path]], systems: list[Path]) -> None:
+    """Groups of modules that belong together, and systems."""
     from rapidgen.system import is_backup, is_generated
     from rapidgen.system.paths import module_files
 
@@ -243,7 +258,7 @@ def _search(folder: Path, groups: list[tuple[list[Path], bool]], systems: list[P
     for subfolder in together:
         modules += module_files(subfolder)
     if modules:
-        groups.append((modules, bool(together)))
+        groups.append(modules)
     for subfolder in subfolders:
         if is_generated(subfolder) or is_backup(subfolder):
             systems.append(subfolder)

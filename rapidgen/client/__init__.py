@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from rapidgen.client.aio import AsyncExecution, AsyncRobot, AsyncStream
+from rapidgen.client.aio import AsyncExecution, AsyncProgramRun, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
 from rapidgen.client.core.motion import Result
 from rapidgen.client.core.robot import Timeouts
@@ -11,6 +11,7 @@ from rapidgen.client.errors import (
     ConnectionFailed,
     ConnectionLost,
     IncompatibleDriver,
+    InvalidProgram,
     InvalidTrajectory,
     MotionError,
     MotionFailed,
@@ -21,10 +22,12 @@ from rapidgen.client.errors import (
     RequestRefused,
     RobotError,
     RobotTimeout,
+    RoutineFailed,
     StopFailed,
     TrajectoryRefused,
 )
-from rapidgen.client.threads import Execution, Robot, Stream
+from rapidgen.client.program import Program, Speed, Trigger, Zone, pulse
+from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
@@ -35,6 +38,7 @@ __all__ = [
     "AsyncCell",
     "AsyncController",
     "AsyncExecution",
+    "AsyncProgramRun",
     "AsyncRobot",
     "AsyncStream",
     "Cell",
@@ -47,12 +51,15 @@ __all__ = [
     "Execution",
     "Feedback",
     "IncompatibleDriver",
+    "InvalidProgram",
     "InvalidTrajectory",
     "MotionError",
     "MotionFailed",
     "MotionStopped",
     "NotReady",
     "NotSupported",
+    "Program",
+    "ProgramRun",
     "Progress",
     "ProtocolError",
     "Reason",
@@ -61,6 +68,8 @@ __all__ = [
     "Robot",
     "RobotError",
     "RobotTimeout",
+    "RoutineFailed",
+    "Speed",
     "State",
     "Status",
     "StopFailed",
@@ -69,6 +78,9 @@ __all__ = [
     "Trajectory",
     "TrajectoryRefused",
     "TrajectoryState",
+    "Trigger",
+    "Zone",
+    "pulse",
 ]
 
 

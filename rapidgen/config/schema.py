@@ -214,6 +214,33 @@ class WorkObjectKeys(WorkObjectDataKeys):
 
 
 @dataclass(frozen=True)
+class ParameterKeys(Part):
+    """A parameter of a routine."""
+
+    name: Annotated[Identifier, Rule("Name of the parameter, for people.")]
+    type: Annotated[Literal["num", "bool", "string"], Rule("Type; a string has 80 characters.")]
+    mode: Annotated[
+        Literal["in", "inout"], Rule("`inout`: its value then is a result (num and bool).")
+    ] = "in"
+
+
+@dataclass(frozen=True)
+class RoutineKeys(Part):
+    """A procedure of yours that a program may call, in the motion task."""
+
+    call: Annotated[
+        str,
+        Rule(
+            "`MODULE:PROCEDURE` as late binding finds it; a global one also by its name alone.",
+            pattern=r"^[A-Za-z][A-Za-z0-9_]{0,31}(:[A-Za-z][A-Za-z0-9_]{0,31})?$",
+        ),
+    ]
+    parameters: Annotated[
+        list[ParameterKeys], Rule("Its parameters, in their order.", max_length=8)
+    ] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
 class PayloadKeys(Part):
     """What the robot carries: loaddata that a module of yours declares, `PERS` and global."""
 
@@ -328,6 +355,15 @@ class GroupKeys(Part):
     work_object: Annotated[WorkObjectKeys, Rule("Work object of the moves.")] = field(
         default_factory=WorkObjectKeys
     )
+    tools: Annotated[list[ToolKeys], Rule("Further tools, for motion programs.", max_length=16)] = (
+        field(default_factory=list)
+    )
+    work_objects: Annotated[
+        list[WorkObjectKeys], Rule("Further work objects, for motion programs.", max_length=16)
+    ] = field(default_factory=list)
+    routines: Annotated[
+        dict[Identifier, RoutineKeys], Rule("Procedures of yours that clients may call, by name.")
+    ] = field(default_factory=dict)
     tcp_speed_limit: Annotated[
         float, Rule("Ceiling of the tool's speed, mm/s.", ge=0.001, le=10000)
     ] = 5000.0

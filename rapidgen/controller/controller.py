@@ -19,6 +19,7 @@ from rapidgen.controller.system_signals import SystemSignals
 from rapidgen.controller.thread import ControllerThread
 from rapidgen.controller.views import Signals, TaskView
 from rapidgen.generate import build, make_system
+from rapidgen.machine.arc_equipment import ArcEquipment
 from rapidgen.machine.costs import Costs
 from rapidgen.machine.files import FileSystem
 from rapidgen.machine.io import IOSystem
@@ -30,6 +31,7 @@ from rapidgen.machine.network.sockets import SocketTable
 from rapidgen.machine.network.system import PortMap, SystemNetwork
 from rapidgen.machine.operator import Answer, Operator
 from rapidgen.machine.scheduler import ClockKind, Schedule, Scheduler
+from rapidgen.machine.smart_gripper import Hands
 from rapidgen.machine.system_parameters import SystemParameters
 from rapidgen.machine.texts import TextTables
 from rapidgen.motion.recorder import Recorder
@@ -155,6 +157,10 @@ class VirtualController:
         self.booked: set[int] = set()
         """Error numbers that BookErrNo gave."""
         self.meetings = Meetings()
+        self.arcs = {t.name: ArcEquipment(self.io, system.arc, t.name) for t in system.tasks}
+        """What tasks weld with: whether `gas` flows, an `arc` burns, and with which `data`."""
+        self.hands = Hands(self.scheduler, self.io, calibrated=self.dialect.hands_calibrated)
+        """The hands of a YuMi: `hands["L"].part = 12.0` puts something between the fingers."""
         self.configuration = SystemParameters(system, tuple(robots))
         self.options = Options(
             accounting="statement" if tracing or switch_at_pers else accounting,
@@ -179,7 +185,9 @@ class VirtualController:
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
         self.diagnostics = load(
-            self.rapid_tasks.values(), self.parse_module, entry_needed=entry_needed
+            self.rapid_tasks.values(),
+            self.parse_module,
+            entries_wanted=entry_needed and not system.robot_types,
         )
         signals.connect()
         self.operation.power_up()

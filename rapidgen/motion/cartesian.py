@@ -8,9 +8,9 @@ from rapidgen.axes import frames
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import ConfigurationCheck, Kinematics, Posture
 from rapidgen.axes.limits import outside
+from rapidgen.axes.shapes import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.axes.unreached import unreached
 from rapidgen.motion.faults import MotionFault, Refusal
-from rapidgen.motion.geometry import LARGEST_ARC, Arc, Line, arc_through
 from rapidgen.motion.moves import (
     NO_TURN,
     SHORTEST,

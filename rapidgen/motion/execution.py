@@ -132,10 +132,14 @@ class PathExecution:
         if standing and not self.stops:
             leg.began = self._scheduler.now / S
         if failed:
-            events.corner_failure(self._log, self._name, path.legs[-2].move)
+            self._warn_of_corner(path.legs[-2].move)
         if not self.stops:
             self.replan()
         return leg
+
+    def _warn_of_corner(self, move: Move) -> None:
+        if self._planner.modal.corner_warning:
+            events.corner_failure(self._log, self._name, move)
 
     def stay(self, move: Move) -> Leg | None:
         """A move to where the path ends: a stop point makes the end a stop, else nothing."""
@@ -295,7 +299,7 @@ class PathExecution:
                 tail.released = changed = True
             if self._scheduler.now >= ceil(self._commit * S):
                 tail.committed = tail.released = changed = True
-                events.corner_failure(self._log, self._name, tail.move)
+                self._warn_of_corner(tail.move)
         self._events.fire(self.motion, now)
         self._end_refresh()
         # Off the path nothing is reached, wherever on it the robot should be.

@@ -64,6 +64,8 @@ class MotionGroup:
         """External axes of deactivated units (DeactUnit)."""
         self.listeners: list[Callable[[Move], None]] = []
         """Called with every move that the program asks for."""
+        self.contacts = WaitSet()
+        """Notified when the robot touches something (`touch`)."""
         self.on_reset: list[Callable[[], None]] = []
         """Called when the modal settings are reset (PP to main)."""
         start = tuple(min(max(0.0, j.lower), j.upper) for j in config.joints)
@@ -191,6 +193,10 @@ class MotionGroup:
             return
         self._execution.come_back(tuple(posture), self.motion.law.place)
         self._execution.settle()
+
+    def touch(self) -> None:
+        """The robot touches something (a test): ContactL stops."""
+        self.contacts.notify()
 
     # -- speed ------------------------------------------------------------------------------
 

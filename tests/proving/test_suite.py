@@ -193,6 +193,23 @@ def test_every_example_can_be_proven(path, capsys):
     assert main([*words, "--jobs", "2"]) == 0, capsys.readouterr().out
 
 
+@pytest.mark.parametrize(
+    ("name", "case", "words"),
+    [
+        # Its axes accelerate slowly.
+        ("irb460-rw7", "one-place", ()),
+        # A ceiling of the TCP, and a zone whose parts are not as 2 to 3.
+        ("irb2400-rw5", "unknown-corner", ()),
+        ("irb2400-rw5", "e-stop-at-speed", ()),
+        ("irb120-rw6", "own-main", ("--set", "commissioning=true")),
+    ],
+)
+def test_a_case_holds_on_robots_and_configurations_unlike_others(name, case, words, capsys):
+    path = next(str(path) for path in EXAMPLES if path.stem == name)
+    words = ["test", path, "--quick", "--jobs", "1", "--case", case, *words]
+    assert main(words) == 0, capsys.readouterr().out
+
+
 def test_what_needs_an_answer_while_stopped_is_left_out_while_commissioning():
     known = {case.name for case in CASES if case.background}
     config = load_config("irb120", overrides=["commissioning=true"])

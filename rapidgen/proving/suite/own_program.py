@@ -76,6 +76,11 @@ def _system(bench: Bench, main: bytes = _MAIN) -> System:
     return in_its_cell(replace(system, tasks=tasks, signals=signals), config)
 
 
+def _served(bench: Bench, link: RawLink) -> RawLink:
+    """The same client; while commissioning a server that was stopped has closed its link."""
+    return bench.motion() if link.lost and bench.config.commissioning else link
+
+
 def _refused(bench: Bench, link: RawLink, when: str) -> None:
     link.send(end_as_request(bench, 3, 0.5))
     told = messages.decode(link.expect_reply(3, "the end frame is answered"))
@@ -98,6 +103,7 @@ def _own_main(bench: Bench) -> None:
         other.wait_until_standing(3)
         other.start_again()
         other.stays(patience(other), "it was stopped, and nobody asked for motion")
+        link = _served(other, link)
         for _ in range(2):
             points, since = other.wave(5), other.now
             other.sets_off(link, points, 0.4)
@@ -191,7 +197,7 @@ def _begun_anew(bench: Bench, link: RawLink) -> None:
         raise Broken(f"begun {view['cell:starts']} times, {bench.motion_group.stop_reasons}")
     view["cell:leave"] = False
     bench.run(patience(bench) + 0.3)
-    bench.moves_through(link, bench.wave(3))
+    bench.moves_through(_served(bench, link), bench.wave(3))
 
 
 _FOREIGN = b"""MODULE foreign

@@ -85,7 +85,7 @@ def met(source: Source, kinds: Sequence[str], at: int) -> str:
         return lexer.EOF
     text = source.tokens[at]
     shown = text if len(text) <= 40 else text[:37] + "..."
-    return f"'{shown}'"
+    return f"'{shown}'" if len(text) > 1 or text.isascii() else f"'{shown}' (U+{ord(text):04X})"
 
 
 def still_open(source: Source, blocks: Sequence[Block]) -> tuple[tuple[Label, ...], str]:

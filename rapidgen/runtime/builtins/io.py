@@ -148,6 +148,17 @@ def alias_io(task: Task, source: Ref | AnySignal, target: SignalAlias) -> None:
     target.target = found
 
 
+@builtin("GetSignalOrigin")
+def get_signal_origin(_task: Task, signal: AnySignal, name: Ref) -> int:
+    """Whether a signal is the configuration's (1), an alias of one (2), or none (0) [mem]; its
+    name there."""
+    if isinstance(signal, Signal):
+        name.set(signal.name)
+        return 1
+    name.set(signal.target.name if signal.target is not None else "")
+    return 2 if signal.target is not None else 0
+
+
 @builtin("AliasIOReset")
 def alias_io_reset(_task: Task, target: SignalAlias) -> None:
     """Take the connection of an alias away."""

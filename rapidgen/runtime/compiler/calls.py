@@ -149,7 +149,14 @@ def _condition_code(unit: Unit, node: n.Expression | None, e: E) -> str:
     cost = e.ops * unit.options.operator + e.cost
     values = "".join(f"{code}, " for code in dict.fromkeys(reads))
     signals = "".join(f"{code}, " for code in _awaited(unit, node, holds=True))
-    return f"CONDITION(lambda: {e.code}, ({sets}), {cost}, lambda: ({values}), lambda: ({signals}))"
+    own = any(
+        isinstance(part, n.FunctionCall)
+        and (routine := unit.routine_named(part.name)) is not None
+        and routine.node is not None
+        for part in (walk(node) if node is not None else ())
+    )
+    told = f"lambda: ({values}), lambda: ({signals})"
+    return f"CONDITION(lambda: {e.code}, ({sets}), {cost}, {told}, {own})"
 
 
 _INVERSE: dict[str, Relation] = {"=": "<>", "<>": "=", "<": ">=", ">=": "<", ">": "<=", "<=": ">"}
@@ -202,8 +209,9 @@ def _builtin_call(unit: Unit, routine: Routine, found: list[n.Argument | None]) 
     if binding.cost != "call":
         cost = int(cost * unit.options.builtin_scale)
     kind = routine.type or NUM
+    code = f"{routine.code}({', '.join(codes)})"
     result = E(
-        f"{routine.code}({', '.join(codes)})",
+        f"WHOLE({code})" if kind.kind == "dnum" else code,
         kind,
         cost=cost if binding.cost != "call" else unit.options.call,
         fresh=True,

@@ -100,6 +100,11 @@ def pos_scale(a: Value, k: float) -> Value:
     return Pos(single(a.x * k), single(a.y * k), single(a.z * k))
 
 
+def pos_divide(a: Value, k: float) -> Value:
+    """pos / num. ERR_DIVZERO."""
+    return Pos(single(a.x / k), single(a.y / k), single(a.z / k))
+
+
 def pos_cross(a: Value, b: Value) -> Value:
     """pos * pos, the cross product [S4 overview 4-26]."""
     return Pos(
@@ -372,6 +377,8 @@ class Condition:
     """Names in it, and what they are worth now."""
     signals: Callable[[], tuple[Awaited, ...]]
     """Comparisons of signals, with which it may hold."""
+    calls: bool = False
+    """It calls a function of the program."""
 
     def __call__(self) -> bool:
         return self.look()
@@ -387,6 +394,7 @@ NAMESPACE: dict[str, Callable[..., Value]] = {
     "PSUB": pos_subtract,
     "PNEG": pos_negate,
     "PMUL": pos_scale,
+    "PDIV": pos_divide,
     "PCROSS": pos_cross,
     "QMUL": orient_multiply,
     "STEPS": count_steps,

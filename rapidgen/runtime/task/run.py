@@ -73,6 +73,7 @@ class Run:
         task.errno = task.intno = 0
         controller = task.controller
         drop_dynamic(task)
+        task.cyclic.clear()
         controller.sockets.close_task(task.name)
         controller.files.close_task(task.name)
         group = controller.motion.moved_by(task.name)

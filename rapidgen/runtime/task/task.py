@@ -8,6 +8,7 @@ event routines, and the run, which is what its greenlet executes.
 import sys
 from collections.abc import Callable, Iterable, Iterator
 
+from rapidgen.diagnostics import Span
 from rapidgen.machine.process import Process
 from rapidgen.machine.scheduler import Scheduler, WaitSet
 from rapidgen.motion.faults import MotionFault
@@ -16,6 +17,7 @@ from rapidgen.runtime.compiler.linking import Shared
 from rapidgen.runtime.compiler.program import Program
 from rapidgen.runtime.compiler.runtime import LateArgument
 from rapidgen.runtime.compiler.symbols import Data, LoadedModule, Routine
+from rapidgen.runtime.cyclic import CyclicBools
 from rapidgen.runtime.errors import EndOfRun, EventStopped, FatalError, Location, PointerMoved
 from rapidgen.runtime.host import Host, TaskState
 from rapidgen.runtime.motion_faults import in_rapid
@@ -57,6 +59,8 @@ class Task(Process):
         self.spec = spec
         self.controller = controller
         self.state: TaskState = "empty"
+        self.no_start = ""
+        """Why the task has no program that could be started."""
         self.fault: FatalError | None = None
         self.cycles = 0
         """How often the program came to the end of its entry routine."""
@@ -71,6 +75,7 @@ class Task(Process):
         """What it waits for, in words; None: it does not wait, or for time alone."""
         self.found: Iterator[tuple[LoadedModule | None, Data]] = iter(())
         """What SetDataSearch has found and GetNextSym has not given yet."""
+        self.cyclic = CyclicBools()
         self._order: BaseException | None = None
         self._holds = 0
 
@@ -465,6 +470,10 @@ class Task(Process):
         raise FatalError(
             40001, f"{name} is not available on the virtual controller", unsupported.reason(name)
         )
+
+    def refuse(self, reason: str, span: Span) -> None:
+        """A statement that breaks a rule of the language, which nothing found before."""
+        raise FatalError(40001, "Statement cannot be executed", reason, span=span)
 
     def late(
         self, name: str, module: LoadedModule | None, arguments: tuple[LateArgument | None, ...]

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "b6412f8f087d";
+    CONST string ROS_BUILD_ACCEPTANCE := "87d9d58597a4";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -70,6 +70,7 @@ MODULE ROS_acceptance
         stops_seen := ROS_control_asked;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory := ROS_next(ROS_trajectory);
+        IF ROS_program = ROS_trajectory ROS_program := -1;
         ROS_received := 0;
         ROS_refusal := ROS_REASON_NONE;
         ROS_refused_at := -1;

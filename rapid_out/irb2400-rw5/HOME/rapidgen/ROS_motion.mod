@@ -9,7 +9,7 @@ MODULE ROS_motion
     ! check was made before a point was put in. A point whose successor is there is passed
     ! through its zone; without one it is a stop point, so the planner never runs dry in a corner.
 
-    CONST string ROS_BUILD_MOTION := "b6412f8f087d";
+    CONST string ROS_BUILD_MOTION := "87d9d58597a4";
 
     ! With \T in the move the speed is only formal.
     LOCAL CONST speeddata SPEED := [1000,500,1000,1000];
@@ -70,7 +70,9 @@ MODULE ROS_motion
 
     ! Serve the ring, for ever.
     PROC ROS_run()
-        ROS_start_task ROS_shown_motion, ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
+        ROS_start_task ROS_shown_motion,
+            ROS_BUILD_EVENTS = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
+            ROS_BUILD_EXECUTION = ROS_BUILD_ID AND ROS_BUILD_MOTION = ROS_BUILD_ID;
         ROS_service := ROS_OUTSIDE;
         in_move := FALSE;
         IF path_gone = -1 BookErrNo path_gone;
@@ -99,7 +101,11 @@ MODULE ROS_motion
         ELSEIF fault <> ROS_REASON_NONE THEN
             give_up;
         ELSEIF ROS_head <> ROS_tail THEN
-            next_point;
+            IF ROS_program = ROS_session THEN
+                next_order;
+            ELSE
+                next_point;
+            ENDIF
         ELSEIF closed = ROS_session AND ROS_active() THEN
             finish;
         ELSE
@@ -181,7 +187,7 @@ MODULE ROS_motion
             RETURN;
         ENDIF
         first := (point.session <> session);
-        IF first begin_session;
+        IF first begin_session point.session;
         IF point.index <> expected THEN
             fault := ROS_REASON_INTERNAL;
             RETURN;
@@ -243,8 +249,58 @@ MODULE ROS_motion
         RETURN;
     ENDPROC
 
-    LOCAL PROC begin_session()
-        session := point.session;
+    ! The next instruction of a program. As for points: one that is left over counts for nothing, and the one
+    ! that is passed through its zone has not been reached.
+    LOCAL PROC next_order()
+        VAR num next;
+        VAR num arrived;
+        VAR bool stops;
+
+        ROS_fetch_order ROS_tail MOD ROS_RING_SIZE + 1;
+        next := ROS_next(ROS_tail);
+        IF ROS_ordered.session <> ROS_session OR ROS_ordered.session = ROS_dead THEN
+            ROS_tail := next;
+            RETURN;
+        ENDIF
+        IF ROS_ordered.session <> session THEN
+            begin_session ROS_ordered.session;
+            ROS_prepare_program;
+        ENDIF
+        IF ROS_ordered.index <> expected THEN
+            fault := ROS_REASON_INTERNAL;
+            RETURN;
+        ENDIF
+        arrived := expected;
+        expected := (expected + 1) MOD ROS_INDEX_WRAP;
+        ROS_starved := -1;
+        stops := ROS_order_stops(next);
+        IF NOT stops arrived := ROS_planned;
+        ROS_tail := next;
+        ROS_planned := ROS_ordered.index;
+        carry_out stops;
+        IF fault <> ROS_REASON_NONE OR ROS_abort <> ROS_abort_done RETURN;
+        ROS_reached := arrived;
+    ERROR (path_gone)
+        ! The trap comes here: nothing was reached.
+        SkipWarn;
+        RETURN;
+    ENDPROC
+
+    ! As `move`: the trap leaves it.
+    LOCAL PROC carry_out(bool stops)
+        in_move := TRUE;
+        IF ROS_abort = ROS_abort_done ROS_execute stops;
+        in_move := FALSE;
+        fault := ROS_order_fault;
+    ERROR
+        in_move := FALSE;
+        fault := ROS_REASON_MOTION_ERROR;
+        IF ERRNO = ERR_COLL_STOP fault := ROS_REASON_COLLISION;
+        RETURN;
+    ENDPROC
+
+    LOCAL PROC begin_session(num its)
+        session := its;
         expected := 1;
         ROS_planned := 0;
         ROS_reached := 0;
@@ -336,8 +392,8 @@ MODULE ROS_motion
         turn (after.target.robax.rax_6 - point.target.robax.rax_6) / after.duration,
             (point.target.robax.rax_6 - before.robax.rax_6) / point.duration, TURN_6, uneven, needed, turning;
         bend.pzone_tcp := between(SMALLEST_CORNER, arriving * needed / 2, CORNER.pzone_tcp);
-        ! As in the predefined zones.
-        bend.pzone_ori := between(SMALLEST_CORNER, 1.5 * bend.pzone_tcp, CORNER.pzone_ori);
+        ! To each other as in the zone.
+        bend.pzone_ori := bend.pzone_tcp * CORNER.pzone_ori / CORNER.pzone_tcp;
         bend.pzone_eax := bend.pzone_ori;
         IF arriving > RESTING RETURN;
         bend.zone_ori := between(SMALLEST_TURN, turning * needed / 2, CORNER.zone_ori);

@@ -10,8 +10,9 @@ from math import inf
 from rapidgen.axes import frames
 from rapidgen.axes.frames import IDENTITY
 from rapidgen.axes.mapping import ABSENT
+from rapidgen.axes.shapes import CircleMode
 from rapidgen.motion.group import MotionGroup
-from rapidgen.motion.moves import CircleMode, Singularities
+from rapidgen.motion.moves import Singularities
 from rapidgen.rapid.numbers import single
 from rapidgen.runtime.builtins.motion.access import data_of, geometry_of, group_of, named_group
 from rapidgen.runtime.builtins.motion.arguments import RAD, Offsets, frame

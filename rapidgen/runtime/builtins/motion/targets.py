@@ -85,6 +85,15 @@ def external_posture(group: MotionGroup, data: Value, offsets: Offsets) -> Postu
     )
 
 
+class NoConfiguration(FatalError):
+    """A place has no posture with the configuration that is asked for: moves stop there."""
+
+    __slots__ = ()
+
+    def __init__(self, text: str) -> None:
+        super().__init__(NOT_COMPATIBLE, "Position not compatible", text)
+
+
 def joints_for(
     kinematics: Kinematics,
     flange: Pose,
@@ -97,7 +106,7 @@ def joints_for(
 
     External axes are those of `near`; of an arm with seven axes its seventh value is the arm angle
     that the target asks for, unless it is that of `here`. ERR_OUTSIDE_REACH, ERR_ROBLIMIT (an axis
-    outside its range in every posture); FatalError 50080: not with this configuration.
+    outside its range in every posture); NoConfiguration: not with this one.
     """
     place = kinematics.seventh
     if place >= 0 and near[place] != here[place]:
@@ -119,11 +128,7 @@ def joints_for(
     if posture is not None:
         return posture
     others = ", ".join(str(list(kinematics.configuration(p))) for p in found[:4])
-    raise FatalError(
-        NOT_COMPATIBLE,
-        "Position not compatible",
-        f"no posture with configuration {list(wanted)}; there are {others}",
-    )
+    raise NoConfiguration(f"no posture with configuration {list(wanted)}; there are {others}")
 
 
 def with_arm_angle(kinematics: Kinematics, posture: Posture) -> Posture:

@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "2e66401259ca";
+    CONST string ROS_BUILD_ACCEPTANCE := "b476b9f84aa3";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -25,6 +25,8 @@ MODULE ROS_acceptance
     LOCAL CONST num ROUNDING := 0.0005;
     ! Of each joint how far from the first point the robot may stand (deg, mm).
     LOCAL CONST num NEAR{8} := [0.5,0.5,0.5,0.5,0.5,0.5,5,0.5];
+    ! As in the motion task, which has its own.
+    TASK PERS tooldata torch := [TRUE,[[0,0,120],[1,0,0,0]],[1.2,[0,0,60],[1,0,0,0],0,0,0]];
 
     ! The point at hand, its duration, and the place of the one before.
     VAR ROS_point ROS_taken;
@@ -63,6 +65,7 @@ MODULE ROS_acceptance
         stops_seen := ROS_control_asked_1;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory_1 := ROS_next(ROS_trajectory_1);
+        IF ROS_program_1 = ROS_trajectory_1 ROS_program_1 := -1;
         ROS_received_1 := 0;
         ROS_refusal_1 := ROS_REASON_NONE;
         ROS_refused_at_1 := -1;

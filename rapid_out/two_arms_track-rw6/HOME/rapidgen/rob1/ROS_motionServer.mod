@@ -9,7 +9,7 @@ MODULE ROS_motionServer
     ! end (ROS_stream). The client's STOP lies in the same stream of bytes behind its points, so
     ! this task never waits for room: it reads, and feeds the ring in between.
 
-    CONST string ROS_BUILD_MOTION_SERVER := "2e66401259ca";
+    CONST string ROS_BUILD_MOTION_SERVER := "b476b9f84aa3";
 
     LOCAL CONST num PORT := 11000;
     ! s between two looks for bytes while the ring is being fed
@@ -41,7 +41,8 @@ MODULE ROS_motionServer
         ROS_start_task ROS_shown_motion_server_1,
             ROS_BUILD_LIMITS = ROS_BUILD_ID AND ROS_BUILD_MESSAGES = ROS_BUILD_ID AND
             ROS_BUILD_SOCKET = ROS_BUILD_ID AND ROS_BUILD_ACCEPTANCE = ROS_BUILD_ID AND
-            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
+            ROS_BUILD_DOWNLOAD = ROS_BUILD_ID AND ROS_BUILD_INSTRUCTIONS = ROS_BUILD_ID AND
+            ROS_BUILD_PROGRAMS = ROS_BUILD_ID AND ROS_BUILD_STREAM = ROS_BUILD_ID AND
             ROS_BUILD_MOTION_SERVER = ROS_BUILD_ID;
         ROS_read_limits \tell;
         ! Counters start where those that answer them stand.
@@ -153,7 +154,7 @@ MODULE ROS_motionServer
             UnpackRawBytes early, at + 4, type \IntX:=DINT;
             IF NOT (ROS_HEADER_BYTES <= length AND length <= ROS_MAX_LENGTH) RETURN ROS_REASON_FRAMING;
             IF at + length + 3 > early_bytes RETURN ROS_REASON_NONE;
-            IF type = ROS_MSG_POINTS RETURN ROS_REASON_SUPERSEDED;
+            IF type = ROS_MSG_POINTS OR type = ROS_MSG_PROGRAM RETURN ROS_REASON_SUPERSEDED;
             IF type = ROS_MSG_JOINT_TRAJ_PT THEN
                 UnpackRawBytes early, at + 16, number \IntX:=DINT;
                 IF number = ROS_SEQ_STOP RETURN ROS_REASON_STOPPED;
@@ -225,7 +226,7 @@ MODULE ROS_motionServer
                 ROS_take_point data, at, sequence;
                 IF requested answer_point client;
             ENDIF
-        ELSEIF ROS_frame_type = ROS_MSG_POINTS THEN
+        ELSEIF ROS_frame_type = ROS_MSG_POINTS OR ROS_frame_type = ROS_MSG_PROGRAM THEN
             IF NOT knows_kind() THEN
                 broken_framing;
                 RETURN;

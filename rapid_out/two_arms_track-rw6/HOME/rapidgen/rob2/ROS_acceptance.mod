@@ -8,7 +8,7 @@ MODULE ROS_acceptance
     ! What a trajectory that comes whole and one that comes in batches have in common. The one
     ! who takes a point unpacks it, lets it be checked here, and looks at ROS_fault then.
 
-    CONST string ROS_BUILD_ACCEPTANCE := "2e66401259ca";
+    CONST string ROS_BUILD_ACCEPTANCE := "b476b9f84aa3";
 
     ! s: longest duration of a point
     CONST num ROS_LONGEST := 3600;
@@ -63,6 +63,7 @@ MODULE ROS_acceptance
         stops_seen := ROS_control_asked_2;
         ! The number first and its repetition last: see ROS_common.
         ROS_trajectory_2 := ROS_next(ROS_trajectory_2);
+        IF ROS_program_2 = ROS_trajectory_2 ROS_program_2 := -1;
         ROS_received_2 := 0;
         ROS_refusal_2 := ROS_REASON_NONE;
         ROS_refused_at_2 := -1;
