@@ -13,14 +13,14 @@ from rapidgen.machine.scheduler import WaitSet
 from rapidgen.runtime.text import literal_text
 from rapidgen.runtime.values import PersistentCell
 from rapidgen.wire.rws.bodies import Item
-from rapidgen.wire.rws.events import Wanted
+from rapidgen.wire.rws.events import WantedResource
 from rapidgen.wire.rws.operations import SYMBOL
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
 
 
-def watched(office: "Office", asked: Asked, wanted: Wanted) -> Watched:
+def watched(office: "Office", asked: Asked, wanted: WantedResource) -> Watched:
     """The resource of a text such as `/rw/panel/ctrlstate`. Denied: nothing of the kind."""
     path, _, suffix = wanted.resource.partition(";")
     path = unquote(path).rstrip("/")

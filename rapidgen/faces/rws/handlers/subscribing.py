@@ -5,14 +5,14 @@ from typing import TYPE_CHECKING
 from rapidgen.faces.rws.asking import Asked, Denied, Served
 from rapidgen.faces.rws.routing import serves
 from rapidgen.wire.rws import operations as ops
-from rapidgen.wire.rws.events import Wanted, read_wanted, write_opened
+from rapidgen.wire.rws.events import WantedResource, read_wanted, write_opened
 
 if TYPE_CHECKING:
     from rapidgen.faces.rws.office import Office
     from rapidgen.faces.rws.subscriptions import EventGroup
 
 
-def _wanted(asked: Asked) -> list[Wanted]:
+def _wanted(asked: Asked) -> list[WantedResource]:
     try:
         return read_wanted(asked.pairs)
     except ValueError as error:
