@@ -7,7 +7,7 @@ Events are XHTML in either generation; a signal's event repeats the text that wa
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 
-from rapidgen.faces.rws.asking import Asked, Denied
+from rapidgen.faces.rws.asking import Denied, RwsRequest
 from rapidgen.faces.rws.sessions import Session
 from rapidgen.machine.scheduler import Scheduler, Timer
 from rapidgen.wire.rws.bodies import Generation, Item
@@ -66,7 +66,7 @@ class Groups:
         self,
         generation: Generation,
         scheduler: Callable[[], Scheduler],
-        watched: Callable[[Asked, WantedResource], Watched],
+        watched: Callable[[RwsRequest, WantedResource], Watched],
     ) -> None:
         """`watched` finds a resource, or refuses it."""
         self._generation = generation
@@ -82,7 +82,7 @@ class Groups:
             raise Denied(404, "E_UNRESOLVED_URL", f"no subscription {number}")
         return group
 
-    def begin(self, asked: Asked, wanted: Iterable[WantedResource]) -> EventGroup:
+    def begin(self, asked: RwsRequest, wanted: Iterable[WantedResource]) -> EventGroup:
         """A new group. Denied: too many, or something that cannot be watched."""
         own = sum(g.session is asked.session for g in self._groups.values())
         if own >= MOST_GROUPS:
@@ -94,7 +94,7 @@ class Groups:
         asked.session.on_end.append(lambda: self.end(group))
         return group
 
-    def add(self, asked: Asked, group: EventGroup, wanted: Iterable[WantedResource]) -> None:
+    def add(self, asked: RwsRequest, group: EventGroup, wanted: Iterable[WantedResource]) -> None:
         """More resources for a group, all or none. Denied."""
         found = [_Watch(one, self._watched(asked, one)) for one in wanted]
         every = [*group.watches, *found]
