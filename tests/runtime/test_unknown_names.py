@@ -111,7 +111,7 @@ def test_a_statement_that_looks_into_them_says_what_it_needs(statement):
     assert fault.arguments[0].startswith("nothing declares pm_info, the type of ")
 
 
-@pytest.mark.parametrize("body", ["SetTmSignal n;"])
+@pytest.mark.parametrize("body", ["SetTmSignal n;", "n := PathLengthGet();"])
 def test_a_routine_of_an_option_is_missed_when_it_is_reached(body):
     out, controller = printed(f'TPWrite "before";\n{body}', "VAR num n;")
     assert out == ["before"]
