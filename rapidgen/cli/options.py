@@ -85,6 +85,15 @@ Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
 ]
 
+# Of the verbs that talk to a controller's Robot Web Services.
+WebServices = Annotated[
+    str,
+    typer.Argument(help="Controller: HOST[:PORT], rws:// or rwss:// before it.", metavar="HOST"),
+]
+Fingerprint = Annotated[
+    str, typer.Option(help="SHA-256 of the controller's certificate.", metavar="HEX")
+]
+
 # Of the verbs that talk to a driver.
 RobotAddress = Annotated[
     str, typer.Option(help="Where the robot is; default this machine.", metavar="HOST[:M,S]")

@@ -13,9 +13,10 @@ from rapidgen.diagnostics import Diagnostic, refusal, render
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from rapidgen._json import Members
     from rapidgen.controller.booting import Bootable
+    from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.controller import VirtualController
-    from rapidgen.faces.control_socket import ControlSocket
 
 
 def sim(
@@ -55,6 +56,17 @@ def sim(
         int | None,
         typer.Option(help="Serve HOME over SFTP; 0: any free port.", min=0, max=65_535),
     ] = None,
+    rws: Annotated[
+        Literal["1", "2", "8"] | None,
+        typer.Option(help="Serve Robot Web Services: 1.0, 2.0, or 2.0 as RobotWare 8 has them."),
+    ] = None,
+    rws_port: Annotated[
+        int, typer.Option(help="Port of Robot Web Services; 0: any free port.", min=0, max=65_535)
+    ] = 0,
+    rws_lenient: Annotated[
+        bool,
+        typer.Option("--rws-lenient", help="Let through what real web services refuse."),
+    ] = False,
     answers: Annotated[
         Path | None, typer.Option(help="The operator's answers: `rapidgen explain RG420`.")
     ] = None,
@@ -70,10 +82,8 @@ def sim(
     operator and the event log would show goes to stderr. Ctrl-C ends it.
     """
     from rapidgen.cli.bootable import chosen
-    from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.cabinet import Cabinet
     from rapidgen.controller.faults import read_plan
-    from rapidgen.faces.control_commands import commands, subscribe
-    from rapidgen.faces.control_socket import ControlSocket
     from rapidgen.machine.operator import read_answers
 
     if ports is not None and port_offset:
@@ -92,9 +102,10 @@ def sim(
     plan = read_plan(faults) if faults is not None else None
     script = read_answers(answers) if answers is not None else None
     _check_host(host)
+    _check_release(found, rws)
     if ports is None and found.driver:
         _check_ports(found, host, port_offset)
-    with VirtualController.boot(
+    with Cabinet.boot(
         found,
         clock="real",
         speed=speed,
@@ -103,30 +114,19 @@ def sim(
         faults=plan,
         answers=script,
         autostart=not cold,
-    ) as controller:
-        _tell(controller.diagnostics)
+    ) as cabinet:
+        _tell(cabinet.controller.diagnostics)
         if cold:
-            _start_cold(controller)
-        # Whoever may command the controller is on this machine, whoever may reach its servers.
-        control = ControlSocket(
-            controller.scheduler,
-            commands(controller),
-            lambda listener: subscribe(controller, listener),
-        )
-        try:
-            with _files(controller, host, ftp, sftp) as files:
-                return _serve(controller, found, control, host, speed, files)
-        finally:
-            control.close()
+            _start_cold(cabinet.controller)
+        with (
+            _control(cabinet) as control,
+            _faces(cabinet, host, ftp, sftp, (rws, rws_port, not rws_lenient)) as faces,
+        ):
+            return _serve(cabinet, found, host, speed, {"control": control, **faces})
 
 
 def _serve(
-    controller: "VirtualController",
-    target: "Bootable",
-    control: "ControlSocket",
-    host: str,
-    speed: float,
-    files: "dict[str, dict[str, str | int]]",
+    cabinet: "Cabinet", target: "Bootable", host: str, speed: float, faces: "Members"
 ) -> int:
     """Run until a signal comes; the exit code."""
     import json
@@ -141,15 +141,21 @@ def _serve(
             nonlocal ended
             ended = True
 
-        controller.scheduler.post(now)
+        cabinet.post(now)
 
     before = {s: signal.signal(s, end) for s in (signal.SIGINT, signal.SIGTERM)}
-    controller.log.subscribe(lambda event: typer.echo(event, err=True))
-    controller.operator.subscribe(
-        lambda task, text: typer.echo(f"{task}: {letters(text)}", err=True)
-    )
-    for event in controller.log:
-        typer.echo(event, err=True)
+
+    def follow() -> None:
+        cabinet.controller.log.subscribe(lambda event: typer.echo(event, err=True))
+        cabinet.controller.operator.subscribe(
+            lambda task, text: typer.echo(f"{task}: {letters(text)}", err=True)
+        )
+        for event in cabinet.controller.log:
+            typer.echo(event, err=True)
+
+    follow()
+    cabinet.on_boot.append(follow)
+    controller = cabinet.controller
     scheduler = controller.scheduler
     scheduler.rebase()
     try:
@@ -165,14 +171,13 @@ def _serve(
             "host": host,
             "ports": _ports(controller, target),
             "listeners": {str(p): at[1] for p, at in controller.network.listeners.items()},
-            "control": control.address[1],
-            **files,
+            **faces,
         }
         if not target.driver:
             for place in controller.where():
                 typer.echo(place, err=True)
         typer.echo(f"ready {json.dumps(found)}")
-        scheduler.advance(stop=lambda: ended)
+        cabinet.run(lambda: ended)
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
@@ -180,29 +185,87 @@ def _serve(
 
 
 @contextmanager
-def _files(
-    controller: "VirtualController", host: str, ftp: int | None, sftp: int | None
-) -> "Iterator[dict[str, dict[str, str | int]]]":
-    """HOME over FTP and SFTP; what `ready` tells of each. Raises DiagnosticError RG560, RG561."""
+def _control(cabinet: "Cabinet") -> "Iterator[int]":
+    """The control socket, again after each restart; its port."""
+    from rapidgen.faces.control_commands import commands, subscribe
+    from rapidgen.faces.control_socket import ControlSocket
+
+    def opened(port: int) -> ControlSocket:
+        controller = cabinet.controller
+        # Whoever may command the controller is on this machine, whoever may reach its servers.
+        return ControlSocket(
+            controller.scheduler,
+            commands(controller),
+            lambda listener: subscribe(controller, listener),
+            port=port,
+        )
+
+    control = opened(0)
+    port = control.address[1]
+
+    def again() -> None:
+        nonlocal control
+        control = opened(port)
+
+    def down() -> None:
+        control.close()
+
+    cabinet.on_restart.append(down)
+    cabinet.on_boot.append(again)
+    try:
+        yield port
+    finally:
+        control.close()
+
+
+@contextmanager
+def _faces(
+    cabinet: "Cabinet",
+    host: str,
+    ftp: int | None,
+    sftp: int | None,
+    rws: tuple[str | None, int, bool],
+) -> "Iterator[Members]":
+    """HOME over FTP and SFTP, Robot Web Services; what `ready` tells of each.
+
+    Raises DiagnosticError RG560, RG561.
+    """
+    import os
     from contextlib import ExitStack
 
     from rapidgen.faces import serve_ftp, serve_sftp
 
-    told: dict[str, dict[str, str | int]] = {}
+    told: Members = {}
     with ExitStack() as stack:
-        for name, serve, port in (("ftp", serve_ftp, ftp), ("sftp", serve_sftp, sftp)):
-            if port is None:
+        for name, serve, at in (("ftp", serve_ftp, ftp), ("sftp", serve_sftp, sftp)):
+            if at is None:
                 continue
-            service = serve(controller.files.path("HOME:"), host, port)
+            service = serve(cabinet.controller.files.path("HOME:"), host, at)
             stack.callback(service.close)
             # The login is new in every run and good on this machine only.
-            told[name] = {
+            login: Members = {
                 "port": service.port,
                 "user": service.user,
                 "password": service.password,
             }
             if service.host_key:
-                told[name]["host_key"] = service.host_key
+                login["host_key"] = service.host_key
+            told[name] = login
+        generation, port, strict = rws
+        if generation is not None:
+            from rapidgen.faces.rws.office import Accounts
+            from rapidgen.faces.rws.server import serve_rws
+            from rapidgen.wire.rws.bodies import Generation
+
+            own = os.environ.get("RAPIDGEN_PASSWORD")
+            accounts = Accounts({"Default User": own}) if own else None
+            which = Generation(int(generation))
+            service = serve_rws(cabinet, which, host, port, accounts, strict=strict)
+            stack.callback(service.close)
+            scheme = "rws" if which is Generation.ONE else "rwss"
+            told["rws"] = f"{scheme}://{service.host}:{service.port}"
+            if service.host_key:
+                told["fingerprint"] = service.host_key
         yield told
 
 
@@ -242,6 +305,17 @@ def _check_host(host: str) -> None:
         ipaddress.IPv4Address(host)
     except ValueError as fault:
         raise typer.BadParameter(f"--host takes an IPv4 address, not '{host}'") from fault
+
+
+def _check_release(target: "Bootable", rws: str | None) -> None:
+    """RWS 1.0 is of RobotWare 6 and older, 2.0 of RobotWare 7 and 8."""
+    major, minor = target.system.robotware
+    fits = {None: True, "1": major <= 6, "2": major == 7, "8": major in (7, 8)}[rws]
+    if not fits:
+        wanted = "1" if major <= 6 else "2 or 8"
+        raise typer.BadParameter(
+            f"{target.name} is for RobotWare {major}.{minor}, which serves --rws {wanted}"
+        )
 
 
 def _check_ports(target: "Bootable", host: str, offset: int) -> None:

@@ -1,5 +1,7 @@
 """The paired Python client: sync and async."""
 
+from typing import TYPE_CHECKING
+
 from rapidgen.client.aio import AsyncExecution, AsyncProgramRun, AsyncRobot, AsyncStream
 from rapidgen.client.cell import AsyncCell, Cell
 from rapidgen.client.core.motion import Result
@@ -29,8 +31,12 @@ from rapidgen.client.threads import Execution, ProgramRun, Robot, Stream
 from rapidgen.client.trajectory import Trajectory
 from rapidgen.wire.simple_message.spec import EventType, Reason, TrajectoryState
 
+if TYPE_CHECKING:
+    from rapidgen.client.rws import AsyncController, Controller
+
 __all__ = [
     "AsyncCell",
+    "AsyncController",
     "AsyncExecution",
     "AsyncProgramRun",
     "AsyncRobot",
@@ -38,6 +44,7 @@ __all__ = [
     "Cell",
     "ConnectionFailed",
     "ConnectionLost",
+    "Controller",
     "Driver",
     "Event",
     "EventType",
@@ -75,3 +82,12 @@ __all__ = [
     "Zone",
     "pulse",
 ]
+
+
+def __getattr__(name: str) -> object:
+    # Who talks to a driver alone should not pay for HTTP and websockets.
+    if name in ("AsyncController", "Controller"):
+        from rapidgen.client import rws
+
+        return getattr(rws, name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -313,7 +313,7 @@ def zone_of(zone: ZoneLike) -> Zone:
     if zone not in ZONES:
         names = list(ZONES)
         raise InvalidProgram.because(
-            "RG650",
+            "RG670",
             f"there is no zone '{zone}'",
             suggest(zone, names) or f"m, or one of {', '.join(names)}",
             exit_code=2,
@@ -328,7 +328,7 @@ def pose_of(pose: Pose) -> Pose:
         return (float(x), float(y), float(z)), (float(w), float(a), float(b), float(c))
     except (TypeError, ValueError) as error:
         raise InvalidProgram.because(
-            "RG650",
+            "RG670",
             f"{pose!r} is no pose",
             "a pose is ((x, y, z), (w, x, y, z)): m, and a unit quaternion with the scalar first",
             exit_code=2,

@@ -5,13 +5,12 @@ do their `Execution` and `Stream`. Beside it they have only what is said otherwi
 `async with`, and iterators.
 """
 
-import inspect
-from collections.abc import Callable, Coroutine, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import AbstractContextManager, contextmanager
-from functools import partial, update_wrapper
+from functools import partial
 from operator import attrgetter
 from os import PathLike
-from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar, cast, get_args, overload
+from typing import Concatenate, Generic, ParamSpec, Protocol, TypeVar
 
 from rapidgen.axes.frames import Pose
 from rapidgen.axes.kinematics import AxisConfiguration
@@ -23,6 +22,7 @@ from rapidgen.client.core.job import Job
 from rapidgen.client.core.robot import Core, Timeouts
 from rapidgen.client.core.state import Driver, Event, Progress, State
 from rapidgen.client.flows.effects import Flow
+from rapidgen.client.methods import Method, method
 from rapidgen.client.program import Program, pose_of
 from rapidgen.client.recording import JointRecording
 from rapidgen.client.target import resolve
@@ -32,7 +32,6 @@ from rapidgen.diagnostics import Diagnostic
 
 P = ParamSpec("P")
 T = TypeVar("T")
-T_co = TypeVar("T_co", covariant=True)
 Owner = TypeVar("Owner")
 MakeCore = Callable[[Callable[[], float]], Core]
 """A core on a clock, which gives s."""
@@ -48,59 +47,16 @@ class FlowCarrier(Protocol):
     def __init__(self, address: Address, make_core: MakeCore) -> None: ...
 
 
-class _Blocking(Protocol):
-    def run(self, flow: Flow[T], /) -> T: ...
-
-
-class _Awaited(Protocol):
-    def run(self, flow: Flow[T], /) -> Coroutine[None, None, T]: ...
-
-
-class _OfBlocking(Protocol):
-    @property
-    def _carrier(self) -> _Blocking: ...
-
-
-class _OfAwaited(Protocol):
-    @property
-    def _carrier(self) -> _Awaited: ...
-
-
-class Method(Protocol[P, T_co]):
-    """A flow as a method, as type checkers see it: its outcome, or what is awaited for it."""
-
-    @overload
-    def __get__(self, owner: _OfBlocking, kind: type) -> Callable[P, T_co]: ...
-    @overload
-    def __get__(
-        self, owner: _OfAwaited, kind: type
-    ) -> Callable[P, Coroutine[None, None, T_co]]: ...
-
-
 def _of_core(flow: Callable[Concatenate[Core, P], Flow[T]]) -> Method[P, T]:
-    return _method(flow, attrgetter("_core"))
+    return method(flow, attrgetter("_core"))
 
 
 def _of_job(flow: Callable[Concatenate[Job, P], Flow[T]]) -> Method[P, T]:
-    return _method(flow, attrgetter("_job"))
+    return method(flow, attrgetter("_job"))
 
 
 def _own(flow: Callable[Concatenate[Owner, P], Flow[T]]) -> Method[P, T]:
-    return _method(flow, lambda owner: owner)
-
-
-def _method(flow: Callable[..., Flow[T]], subject: Callable[[_OfBlocking], object]) -> Method[P, T]:
-    def method(self: _OfBlocking, *args: P.args, **options: P.kwargs) -> T:
-        return self._carrier.run(flow(subject(self), *args, **options))
-
-    told = inspect.signature(flow)
-    first, *others = told.parameters.values()
-    signature = told.replace(
-        parameters=[first.replace(name="self", annotation=first.empty), *others],
-        return_annotation=get_args(told.return_annotation)[-1],
-    )
-    update_wrapper(method, flow).__dict__["__signature__"] = signature
-    return cast("Method[P, T]", method)
+    return method(flow, lambda owner: owner)
 
 
 C_co = TypeVar("C_co", bound=FlowCarrier, covariant=True)

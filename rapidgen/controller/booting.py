@@ -23,6 +23,8 @@ from rapidgen.system import (
     read_folder,
     read_manifest,
 )
+from rapidgen.system.backup import backup_cfg
+from rapidgen.system.controller_cfg import ControllerCfg
 from rapidgen.system.model import System
 
 GUESS = "guess"
@@ -58,6 +60,8 @@ class Bootable:
     notes: tuple[Diagnostic, ...] = ()
     surroundings: Surroundings = field(default_factory=Surroundings)
     guessed: Guess | None = None
+    cfg: ControllerCfg | None = None
+    """All domains of a backup."""
 
 
 def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Bootable:
@@ -77,7 +81,8 @@ def load_target(targets: Sequence[Source], wishes: Wishes | None = None) -> Boot
     _only_of_folders(" ".join(map(str, targets)), wishes)
     if first is not None and first.is_dir() and is_backup(first):
         system = _entered(read_backup(first, notes=notes), wishes.entry)
-        return _foreign(system, notes, wishes)
+        found = _foreign(system, notes, wishes)
+        return replace(found, cfg=backup_cfg(first, system.robotware, []))
     # Loose files have no mechanics that could be told.
     return _foreign(_loose(targets, wishes), None, wishes)
 

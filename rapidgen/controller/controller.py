@@ -77,6 +77,7 @@ class Choices(TypedDict, total=False):
     faults: FaultPlan | None
     surroundings: Surroundings
     autostart: bool
+    entry_needed: bool
 
 
 class VirtualController:
@@ -109,12 +110,13 @@ class VirtualController:
         faults: FaultPlan | None = None,
         surroundings: Surroundings = Surroundings(),  # noqa: B008 - frozen
         autostart: bool = True,
+        entry_needed: bool = True,
     ) -> None:
         """Load every module and, with `autostart`, start all tasks in automatic mode.
 
         `host` selects the operating system's network (an address to bind); empty = in memory
         on the virtual clock, 127.0.0.1 on the real one. DiagnosticError when a module cannot
-        be loaded.
+        be loaded or, with `entry_needed`, a task with modules has no entry routine.
         """
         self.system = system
         self.costs = costs if costs is not None else Costs()
@@ -183,7 +185,9 @@ class VirtualController:
             name: TaskView(task, self.operation) for name, task in self.rapid_tasks.items()
         }
         self.diagnostics = load(
-            self.rapid_tasks.values(), self.parse_module, entries_wanted=not system.robot_types
+            self.rapid_tasks.values(),
+            self.parse_module,
+            entries_wanted=entry_needed and not system.robot_types,
         )
         signals.connect()
         self.operation.power_up()

@@ -116,6 +116,13 @@ class Operation:
         self.set_motors(False)
         self.changed.notify()
 
+    def fail(self) -> None:
+        """SYS FAIL: motors off, nothing starts until a restart."""
+        self.failed = True
+        self.motors_on = False
+        self._host.log.error(20_095, "System failure state", "a warm start is needed")
+        self.changed.notify()
+
     def power_loss(self) -> None:
         """Power goes and comes back: a warm start. Sockets and files are closed."""
         host = self._host
@@ -258,13 +265,11 @@ class Operation:
             self._stop_motion()
             log.error(10_020, "Execution error state", task=task.name)
         elif trust != "NoSafety":
-            self.failed = self.failed or trust == "SysFail"
             self.halted = self.halted or trust == "SysHalt"
             self._stop_others(task)
             self._stop_motion()
             if trust == "SysFail":
-                self.motors_on = False
-                log.error(20_095, "System failure state", "a warm start is needed")
+                self.fail()
             elif trust == "SysHalt":
                 self.motors_on = False
                 log.error(10_010, "Motors OFF state")

@@ -8,7 +8,7 @@ from rapidgen.runtime.compiler.symbols import Data
 from rapidgen.runtime.errors import FatalError, Location
 from rapidgen.runtime.host import TaskState
 from rapidgen.runtime.task.task import Task
-from rapidgen.runtime.values import Type, Value
+from rapidgen.runtime.values import PersistentCell, Type, Value
 
 
 class Signals(Mapping[str, float]):
@@ -88,6 +88,11 @@ class TaskView:
         """Type and dimensions of a datum. KeyError: there is none."""
         data, _ = self._data(name)
         return data.type, data.dims
+
+    def cell(self, name: str) -> PersistentCell | None:
+        """What keeps a persistent, and tells when it changes; None: it is none. KeyError."""
+        data, kept = self._data(name)
+        return kept if data.storage == "cell" else None
 
     def start(self) -> None:
         """Start or go on."""

@@ -37,7 +37,7 @@ def loopback(host: str) -> str:
         raise refusal(
             "RG560",
             None,
-            f"the file servers of a virtual controller listen on loopback only, not on {host}",
+            f"the servers of a virtual controller listen on loopback only, not on {host}",
             "use --host 127.0.0.1, or leave out --ftp and --sftp",
         )
     return name

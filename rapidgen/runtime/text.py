@@ -65,12 +65,17 @@ class NotALiteral(Exception):
     """The text is no literal of the wanted type."""
 
 
-def parse_value(text: str, type_: Type, dims: tuple[int, ...] = ()) -> Value:
+def parse_value(
+    text: str, type_: Type, dims: tuple[int, ...] = (), *, escaped: bool = False
+) -> Value:
     """The value of a literal or literal aggregate of a type.
 
+    `escaped`: a backslash is doubled in texts, as `literal_text` and source have it.
     NotALiteral: the text is something else, or does not fit the type.
     """
     tokens = _tokens(text)
+    if escaped:
+        tokens = [t.replace("\\\\", "\\") if t[0] == '"' else t for t in tokens]
     value, rest = _parse(tokens, 0, type_, dims)
     if rest != len(tokens):
         raise NotALiteral

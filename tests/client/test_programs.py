@@ -223,7 +223,7 @@ def test_waits_and_signals_stand_between_moves():
         program = Program(speed=0.2, zone="z10").move_linear(higher).set("valve").wait(1.0)
         program.set("valve", 0).wait_for("part", timeout=5).move_linear(start)
         execution = robot.run(program)
-        assert [d.code for d in execution.warnings] == ["RG654"]
+        assert [d.code for d in execution.warnings] == ["RG674"]
         assert "instruction 0" in execution.warnings[0].message
         part = controller.io["part"]
         controller.scheduler.after(4_000_000_000, lambda: controller.io.set(part, 1))

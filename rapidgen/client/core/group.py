@@ -95,7 +95,7 @@ class Group:
         frames = self.geometry.frames() if self.geometry is not None else None
         if frames is None:
             raise NotSupported.because(
-                "RG651",
+                "RG671",
                 "the poses of this robot are not known",
                 "connect with a configuration that has the robot's chain, its tool and its work "
                 "object",

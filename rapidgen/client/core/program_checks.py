@@ -77,7 +77,7 @@ class _Walk:
         found = geometry.frames(*self.chosen) if geometry is not None else None
         if found is None:
             self.say(
-                "RG651",
+                "RG671",
                 "the joints of this pose are not known",
                 "connect with a configuration that has the robot's chain, its tool and its work "
                 "object",
@@ -161,7 +161,7 @@ def _frames(walk: _Walk, step: ProgramStep) -> tuple[int, int]:
         names = [each for each, _ in known]
         if name and name not in names:
             walk.say(
-                "RG650",
+                "RG670",
                 f"the configuration has no {what} '{name}'",
                 suggest(name, names) or f"it has: {', '.join(names) or 'none'}",
             )
@@ -175,7 +175,7 @@ def _stopped(walk: _Walk, last: ProgramStep, step: ProgramStep, changed: bool) -
     why = "another tool or work object is next" if changed else "the next one does not move"
     if last.kind in _MOVES and (changed or step.kind not in _MOVES):
         place = f"instruction {walk.index - 1}: the robot stops there, in no zone: {why}"
-        walk.found.append(error("RG654", None, place, severity=Severity.INFO))
+        walk.found.append(error("RG674", None, place, severity=Severity.INFO))
 
 
 # -- signals and waits ----------------------------------------------------------------------------
@@ -187,20 +187,20 @@ def _signal(walk: _Walk, name: str, value: float, *, sets: bool) -> int:
     names = [signal.name for signal in signals]
     if name not in names:
         walk.say(
-            "RG650",
+            "RG670",
             f"the configuration exposes no signal '{name}'",
             suggest(name, names) or f"it exposes: {', '.join(names) or 'none'}",
         )
         return 0
     signal = signals[names.index(name)]
     if sets and signal.access != "write":
-        walk.say("RG650", f"signal '{name}' is exposed for reading only", "`access: write`")
+        walk.say("RG670", f"signal '{name}' is exposed for reading only", "`access: write`")
     digital = signal.kind[0] == "D" and value not in (0, 1)
     group = signal.kind[0] == "G" and not (value >= 0 and value == int(value))
     if digital or group or not abs(value) <= FIXED_LIMIT:
-        walk.say("RG650", f"signal '{name}' ({signal.kind}) cannot be {value:g}")
+        walk.say("RG670", f"signal '{name}' ({signal.kind}) cannot be {value:g}")
     if not sets and signal.kind[0] == "A":
-        walk.say("RG650", f"signal '{name}' is analogue: nobody waits for a value of it")
+        walk.say("RG670", f"signal '{name}' is analogue: nobody waits for a value of it")
     return names.index(name)
 
 
@@ -208,7 +208,7 @@ def _mark(walk: _Walk, trigger: Trigger) -> tuple[float, ...]:
     """The words of a signal on the way."""
     number = _signal(walk, trigger.signal, trigger.value, sets=True)
     if not (isfinite(trigger.place) and 0 <= trigger.place <= _WIDEST * 10):
-        walk.say("RG650", f"signal '{trigger.signal}' at {trigger.place:g}", "m or s, 0 to 10")
+        walk.say("RG670", f"signal '{trigger.signal}' at {trigger.place:g}", "m or s, 0 to 10")
     return number, trigger.value, trigger.kind, trigger.place
 
 
@@ -229,7 +229,7 @@ def _call(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     names = [routine.name for routine in walk.group.routines]
     if step.routine not in names:
         walk.say(
-            "RG650",
+            "RG670",
             f"the configuration has no routine '{step.routine}'",
             suggest(step.routine, names) or f"it has: {', '.join(names) or 'none'}",
         )
@@ -238,11 +238,11 @@ def _call(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     wanted = walk.group.routines[number].parameters
     if len(wanted) != len(step.arguments):
         given = f"{len(step.arguments)} of {len(wanted)} parameters"
-        walk.say("RG650", f"routine '{step.routine}' is called with {given}")
+        walk.say("RG670", f"routine '{step.routine}' is called with {given}")
     for parameter, value in zip(wanted, step.arguments, strict=False):
         if not _fits(parameter.type, value):
             walk.say(
-                "RG650",
+                "RG670",
                 f"{parameter.name} of '{step.routine}' is a {parameter.type}, not {value!r}",
                 "a finite number, True or False, or a text of at most 80 characters",
             )
@@ -266,7 +266,7 @@ def _fits(kind: str, value: float | bool | str) -> bool:
 
 def _seconds(walk: _Walk, step: ProgramStep) -> float:
     if not 0 <= step.seconds <= _LONGEST:
-        walk.say("RG650", f"a wait of {step.seconds:g} s", f"0 to {_LONGEST:g} s")
+        walk.say("RG670", f"a wait of {step.seconds:g} s", f"0 to {_LONGEST:g} s")
         return 0.0
     return step.seconds
 
@@ -274,12 +274,12 @@ def _seconds(walk: _Walk, step: ProgramStep) -> float:
 def _speed(walk: _Walk, speed: Speed) -> None:
     limits = (_FASTEST, _TURNING, _FASTEST, _TURNING)
     if not all(0 < value <= most for value, most in zip(speed.words, limits, strict=True)):
-        walk.say("RG650", f"{speed} is outside what a robot is asked", "m/s and rad/s, above 0")
+        walk.say("RG670", f"{speed} is outside what a robot is asked", "m/s and rad/s, above 0")
 
 
 def _zone(walk: _Walk, zone: Zone) -> None:
     if not all(0 <= value <= _WIDEST for value in zone.words[1:]):
-        walk.say("RG650", f"{zone} is outside what a robot is asked", "m and rad, 0 to 1")
+        walk.say("RG670", f"{zone} is outside what a robot is asked", "m and rad, 0 to 1")
 
 
 # -- moves ----------------------------------------------------------------------------------------
@@ -289,7 +289,7 @@ def _to_joints(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     group = walk.group
     if len(step.joints) != len(group.names) or not all(map(isfinite, step.joints)):
         walk.say(
-            "RG650",
+            "RG670",
             f"{list(step.joints)} are no joints of this robot",
             f"numbers, rad and m, of {', '.join(group.names)}",
         )
@@ -327,7 +327,7 @@ def _circle(walk: _Walk, step: ProgramStep) -> tuple[Sequence[float], float]:
     way = arc_through(robot.pose(walk.here), via, pose)
     if way is None or way.sweep > LARGEST_ARC:
         walk.say(
-            "RG652",
+            "RG672",
             "the three points make no circle"
             if way is None
             else "the circle is longer than 240 degrees",
@@ -363,7 +363,7 @@ def _target(walk: _Walk, step: ProgramStep) -> tuple[Pose | None, Posture, Frame
         if joint < 0 or not walk.group.joints[joint].axis.startswith("eax") or not isfinite(value):
             outer = [j.name for j in walk.group.joints if j.axis.startswith("eax")]
             walk.say(
-                "RG650",
+                "RG670",
                 f"no external axis '{name}' can be at {value}",
                 suggest(name, outer) or f"external axes: {', '.join(outer) or 'none'}",
             )
@@ -376,12 +376,12 @@ def _target(walk: _Walk, step: ProgramStep) -> tuple[Pose | None, Posture, Frame
 def _unit(walk: _Walk, pose: Pose | None) -> Pose | None:
     """A pose with a quaternion of length 1."""
     if pose is None or not all(isfinite(value) for part in pose for value in part):
-        walk.say("RG650", f"{pose} is no pose", "finite numbers")
+        walk.say("RG670", f"{pose} is no pose", "finite numbers")
         return None
     size = sqrt(sum(value * value for value in pose[1]))
     if abs(size - 1) > _UNIT:
         walk.say(
-            "RG650",
+            "RG670",
             f"the quaternion {pose[1]} has the length {size:.4g}",
             "unit quaternions, the scalar first (w, x, y, z)",
         )
@@ -393,13 +393,13 @@ def _unreached(walk: _Walk, robot: Frames, pose: Pose, near: Posture, step: Prog
     if step.configuration is not None and robot.postures(pose, near):
         others = sorted({robot.kinematics.configuration(p) for p in robot.postures(pose, near)})
         walk.say(
-            "RG651",
+            "RG671",
             f"the pose is not reached with configuration {list(step.configuration)}",
             f"there are {', '.join(str(list(other)) for other in others[:4])}",
         )
     else:
         walk.say(
-            "RG651",
+            "RG671",
             f"the pose is not reached; {robot.why_not(pose, near)}",
             "poses are in m, of the tool in the work object",
         )
@@ -439,7 +439,7 @@ def _along(walk: _Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Post
         )
         posture = robot.follow((way.position(share), way.orientation(share)), near)
         if posture is None:
-            walk.say("RG652", f"the way leaves the robot's reach after {share:.0%}")
+            walk.say("RG672", f"the way leaves the robot's reach after {share:.0%}")
             return seconds
         if not _within(walk, posture):
             return seconds
@@ -451,7 +451,7 @@ def _along(walk: _Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Post
         most, joint = max(jumps, key=lambda jump: jump[0], default=(0.0, walk.group.joints[0]))
         if most > _JUMP:
             walk.say(
-                "RG652",
+                "RG672",
                 f"the way passes a singularity after {share:.0%}: {joint.name} would turn "
                 f"{most:.2f} rad at once",
                 "another way, or joints",
@@ -463,7 +463,7 @@ def _along(walk: _Walk, step: ProgramStep, robot: Frames, way: _Way, outer: Post
         walk.here, step.configuration
     ):
         walk.say(
-            "RG651",
+            "RG671",
             f"the way ends in configuration {list(robot.kinematics.configuration(walk.here))}, "
             f"not {list(step.configuration)}",
         )
@@ -482,7 +482,7 @@ def _slowed(walk: _Walk, nodes: Sequence[Posture], seconds: float) -> float:
                 slowest, worst = factor, joint
     if slowest > 1.0:
         walk.say(
-            "RG653",
+            "RG673",
             f"{worst.name} is too slow for this speed: the robot goes at {1 / slowest:.0%} of it",
             severity=Severity.WARNING,
         )

@@ -61,7 +61,7 @@ def move_linear(
     return (yield from _go(core, Program(speed=speed).move_linear(pose), timeout))
 
 
-def jog(core: Core, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
+def jog(core: Core, /, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
     """Move joints, by name, a little (at most 0.2 rad or 0.1 m), and wait for the end.
 
     While it moves the controller stops the robot when it does not hear of this client for 0.2 s.
@@ -79,7 +79,7 @@ def jog(core: Core, *, speed: SpeedLike = SLOW, **by: float) -> Flow[Result]:
         most = _STEP.get(group.joints[group.names.index(name)].kind if name in target else "", 0.0)
         if not abs(step) <= most:
             raise InvalidProgram.because(
-                "RG650",
+                "RG670",
                 f"'{name}' cannot be jogged by {step}",
                 suggest(name, group.names) or "by at most 0.2 rad or 0.1 m, by the joint's name",
             )
@@ -126,7 +126,7 @@ def call(
             raise
         told = yield from _told(core)
         raise RoutineFailed(
-            fault("RG655", f"routine '{routine}' has raised error {told.error}"),
+            fault("RG675", f"routine '{routine}' has raised error {told.error}"),
             number=told.error,
             **core.evidence(),
         ) from failed

@@ -1,0 +1,31 @@
+"""`rapidgen halt`: stops the program of a controller, over Robot Web Services."""
+
+from typing import Annotated
+
+import typer
+
+from rapidgen.cli import options
+
+
+def halt(
+    host: options.WebServices,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Background tasks, too; a driver serves no more then.")
+    ] = False,
+    motors_off: Annotated[bool, typer.Option("--motors-off", help="Motors off, too.")] = False,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    fingerprint: options.Fingerprint = "",
+) -> int:
+    """Stop the program of a controller.
+
+    The robot stops on its path. Not a safety function. (`rapidgen stop` asks the driver.)
+    """
+    from rapidgen.cli.web_services import controller
+
+    with controller(host, user, secrets, fingerprint) as found:
+        found.stop(everything=everything)
+        if motors_off:
+            found.motors(False)
+        typer.echo(f"{host}: the program stands")
+    return 0

@@ -1,0 +1,44 @@
+"""`rapidgen log`: the event log of a controller, over Robot Web Services."""
+
+from typing import Annotated
+
+import typer
+
+from rapidgen.cli import options
+
+
+def log(
+    host: options.WebServices,
+    follow: Annotated[
+        bool, typer.Option("--follow", "-f", help="Go on with new entries, over restarts.")
+    ] = False,
+    count: Annotated[int, typer.Option(help="Entries to begin with.", min=0)] = 20,
+    domain: Annotated[int, typer.Option(help="Domain; 0: all.", min=0, max=99)] = 0,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    fingerprint: options.Fingerprint = "",
+) -> int:
+    """Show a controller's event log; follow it.
+
+    Oldest first, with arguments. Ctrl-C ends `--follow`.
+    """
+    import time
+
+    from rapidgen.cli.web_services import controller
+    from rapidgen.client.errors import ConnectionFailed, ConnectionLost
+
+    with controller(host, user, secrets, fingerprint) as found:
+        last = 0
+        events = found.log(domain=domain, count=count)
+        while True:
+            for event in events:
+                typer.echo(event)
+                last = event.number
+            if not follow:
+                return 0
+            time.sleep(1.0)
+            try:
+                events = found.log(domain=domain, after=last)
+            except (ConnectionFailed, ConnectionLost):
+                found.wait_ready()
+                events = found.log(domain=domain)

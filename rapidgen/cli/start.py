@@ -1,0 +1,43 @@
+"""`rapidgen start`: the program of a controller, over Robot Web Services."""
+
+from typing import Annotated, Literal
+
+import typer
+
+from rapidgen.cli import options
+
+
+def start(
+    host: options.WebServices,
+    cycle: Annotated[
+        Literal["asis", "once", "forever"],
+        typer.Option(help="Whether the program begins again at its end."),
+    ] = "asis",
+    main: Annotated[
+        bool, typer.Option("--main", help="Program pointers of all tasks to main first.")
+    ] = False,
+    yes: options.Yes = False,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    fingerprint: options.Fingerprint = "",
+) -> int:
+    """Start the program of a controller. THE ROBOT MAY MOVE.
+
+    Shows mode, speed, selected tasks and their pointers, asks, switches the motors on and starts.
+    """
+    from rapidgen.cli.carrying_out import make_sure
+    from rapidgen.cli.status import show, state
+    from rapidgen.cli.web_services import controller
+
+    with controller(host, user, secrets, fingerprint) as found:
+        told = state(found)
+        show(told)
+        first = " with all program pointers at main" if main else ""
+        make_sure(f"THE ROBOT MAY MOVE: start the program at {host}{first}?", yes=yes)
+        if main:
+            found.pp_to_main()
+        if told["state"] != "motoron":
+            found.motors(True)
+        found.start(cycle=cycle)
+        typer.echo(f"{host}: the program runs")
+    return 0

@@ -1,0 +1,78 @@
+"""`rapidgen status`: what a controller says about itself, over Robot Web Services."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from rapidgen.cli import options
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
+
+
+def status(
+    host: options.WebServices,
+    user: options.User = "",
+    secrets: options.Secrets = None,
+    fingerprint: options.Fingerprint = "",
+    as_json: Annotated[bool, typer.Option("--json", help="One JSON object.")] = False,
+) -> int:
+    """Show a controller: mode, motors, speed, tasks, pointers.
+
+    Robot Web Services of RobotWare 6, 7 or 8; which of them is found out. Reads only.
+    """
+    import json
+
+    from rapidgen.cli.web_services import controller
+
+    with controller(host, user, secrets, fingerprint) as found:
+        told = state(found)
+    if as_json:
+        typer.echo(json.dumps(told, indent=2))
+    else:
+        show(told)
+    return 0
+
+
+def state(found: "Controller") -> dict[str, object]:
+    """What there is to tell: nine requests and one for each task, with login and logout."""
+    who, panel, execution = found.identity(), found.panel(), found.execution()
+    tasks = []
+    for task in found.tasks():
+        at = found.pointer(task.name)
+        place = f"{at.module}/{at.routine}:{at.row}" if at.module else ""
+        told = {"name": task.name, "type": task.kind, "execution": task.execution}
+        tasks.append({**told, "selected": task.active, "pointer": place})
+    return {
+        "host": found.where,
+        "name": who.name,
+        "id": who.id,
+        "robotware": who.robotware,
+        "virtual": who.is_virtual,
+        "state": panel.state,
+        "mode": panel.mode,
+        "speed": panel.speed,
+        "running": execution.running,
+        "cycle": execution.cycle,
+        "tasks": tasks,
+    }
+
+
+def show(told: dict[str, object]) -> None:
+    """The same for people, on stdout."""
+    kind = "virtual controller" if told["virtual"] else "controller"
+    typer.echo(f"{told['name']} at {told['host']}: {kind}, RobotWare {told['robotware']}")
+    program = "runs" if told["running"] else "stands"
+    typer.echo(
+        f"{told['mode']}, {told['state']}, speed {told['speed']} %, program {program}"
+        f" ({told['cycle']})"
+    )
+    tasks = told["tasks"]
+    assert isinstance(tasks, list)
+    width = max((len(task["name"]) for task in tasks), default=0)
+    for task in tasks:
+        mark = "*" if task["selected"] else " "
+        typer.echo(
+            f"{mark} {task['name']:<{width}}  {task['type']:<11} {task['execution']:<13}"
+            f" {task['pointer']}".rstrip()
+        )

@@ -1,0 +1,43 @@
+"""What the verbs over Robot Web Services do alike: log in, agree to a certificate, ask."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from rapidgen.cli.asking import is_terminal
+
+if TYPE_CHECKING:
+    from rapidgen.client.rws import Controller
+
+
+@contextmanager
+def controller(
+    host: str, user: str, secrets: Path | None, fingerprint: str
+) -> "Iterator[Controller]":
+    """A connected controller, logged out at the end. Raises DiagnosticError."""
+    from rapidgen.client.rws import Controller
+    from rapidgen.client.rws.address import parse_address
+    from rapidgen.deploy.secrets import Credentials, find_password
+
+    address = parse_address(host)
+    login = find_password(
+        Credentials(address.user or user), address.host, address.port, secrets=secrets, ask=True
+    )
+    found = Controller(
+        host,
+        user=login.user or "Default User",
+        password=login.password.get(),
+        fingerprint=fingerprint,
+        confirm=_agree if is_terminal() else None,
+    )
+    with found:
+        yield found
+
+
+def _agree(where: str, fingerprint: str) -> bool:
+    typer.echo(f"{where} was not met before. Its certificate has the fingerprint", err=True)
+    typer.echo(f"  {fingerprint}", err=True)
+    return typer.confirm("Is that the controller's own?", err=True)

@@ -1,0 +1,55 @@
+"""Where a controller is: `rws://HOST[:PORT]`, `rwss://HOST[:PORT]`, or a bare `HOST[:PORT]`.
+
+`rws` finds out by itself: TLS first, plain HTTP where nobody speaks it. `rwss` is TLS or nothing.
+"""
+
+import re
+from dataclasses import dataclass
+from urllib.parse import unquote, urlsplit
+
+from rapidgen.client.errors import fault
+from rapidgen.diagnostics import DiagnosticError
+
+_HOST = re.compile(r"[\w.-]{1,253}|[0-9a-fA-F:.%]{2,64}", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class RwsAddress:
+    """A host; `port` 0 stands for 443 with TLS and 80 without."""
+
+    host: str
+    port: int = 0
+    tls_only: bool = False
+    user: str = ""
+
+    @property
+    def netloc(self) -> str:
+        """The host as it stands in a URL."""
+        return f"[{self.host}]" if ":" in self.host else self.host
+
+    def __str__(self) -> str:
+        port = f":{self.port}" if self.port else ""
+        return f"{'rwss' if self.tls_only else 'rws'}://{self.netloc}{port}"
+
+
+def parse_address(text: str) -> RwsAddress:
+    """An address from what a user writes. Raises DiagnosticError RG657."""
+    whole = text if "://" in text else f"rws://{text}"
+    try:
+        parts = urlsplit(whole.replace(" ", "%20"))
+        host, port = parts.hostname or "", parts.port
+    except ValueError as error:
+        raise _bad("rws://...") from error
+    if parts.password is not None:
+        raise _bad(f"{parts.scheme}://...@{host}", "a password in an address ends in histories")
+    rest = parts.path.strip("/") or parts.query or parts.fragment
+    if parts.scheme not in ("rws", "rwss") or rest or not _HOST.fullmatch(host) or port == 0:
+        raise _bad(text if "@" not in text else f"{parts.scheme}://...")
+    return RwsAddress(host, port or 0, parts.scheme == "rwss", unquote(parts.username or ""))
+
+
+def _bad(shown: str, why: str = "") -> DiagnosticError:
+    because = f": {why}" if why else ""
+    mend = "rws://[USER@]HOST[:PORT], or rwss:// where TLS is a must"
+    message = f"'{shown}' is no address of Robot Web Services{because}"
+    return DiagnosticError(fault("RG657", message, mend))

@@ -1,0 +1,258 @@
+"""`AsyncController`: the same surface on asyncio."""
+
+import asyncio
+import ssl
+import time
+from collections import deque
+from collections.abc import AsyncIterator
+from contextlib import AsyncExitStack, asynccontextmanager
+from typing import Self, TypeVar
+
+import httpx2
+from websockets.asyncio.client import ClientConnection
+from websockets.asyncio.client import connect as connect_socket
+from websockets.exceptions import ConnectionClosed, WebSocketException
+
+from rapidgen.client.errors import RobotTimeout
+from rapidgen.client.rws.core import Pace, RwsCore
+from rapidgen.client.rws.effects import (
+    Effect,
+    Exchange,
+    Flow,
+    Forget,
+    LogIn,
+    LookAtCertificate,
+    Pause,
+    Response,
+    Settle,
+    resume,
+)
+from rapidgen.client.rws.flows import connecting, holding, subscribing
+from rapidgen.client.rws.model import ResourceEvent
+from rapidgen.client.rws.surface import PATIENCE, ControllerSurface
+from rapidgen.client.rws.topics import Topic
+from rapidgen.client.rws.transport import (
+    auth_of,
+    no_verification,
+    not_reached,
+    pinned,
+    response_of,
+    socket_options,
+)
+
+T = TypeVar("T")
+
+
+class Awaiting:
+    """Carries out flows on the caller's loop, one after the other."""
+
+    def __init__(self, core: RwsCore, timeout: float) -> None:
+        self._core = core
+        self._timeout = timeout
+        self._lock = asyncio.Lock()
+        self._pace = Pace()
+        self._client: httpx2.AsyncClient | None = None
+        self._base = ""
+        self._auth: httpx2.Auth | None = None
+
+    async def run(self, flow: Flow[T]) -> T:
+        """The outcome of a flow. What an effect raises is thrown into it."""
+        async with self._lock:
+            try:
+                return await self._carry_out(flow)
+            finally:
+                if not self._core.connected:
+                    await self.close()
+
+    async def _carry_out(self, flow: Flow[T]) -> T:
+        outcome: Response | None = None
+        failure: BaseException | None = None
+        while True:
+            try:
+                effect = resume(flow, outcome, failure)
+            except StopIteration as end:
+                value: T = end.value
+                return value
+            outcome, failure = Response(0), None
+            try:
+                outcome = await self._perform(effect)
+            except BaseException as raised:  # noqa: BLE001 - the flow cleans up and raises it
+                failure = raised
+
+    async def _perform(self, effect: Effect) -> Response:
+        match effect:
+            case Exchange():
+                return await self._exchange(effect)
+            case Pause():
+                await asyncio.sleep(effect.seconds)
+            case LookAtCertificate():
+                return await self._look(effect.port)
+            case Settle():
+                await self.close()
+                scheme = "https" if effect.certificate else "http"
+                self._base = f"{scheme}://{self._core.address.netloc}:{effect.port}"
+                verify = pinned(effect.certificate) if effect.certificate else True
+                self._auth = None
+                self._client = httpx2.AsyncClient(
+                    verify=verify, trust_env=False, timeout=self._timeout, follow_redirects=False
+                )
+            case LogIn():
+                self._auth = auth_of(effect, self._core)
+            case Forget():
+                if self._client is not None:
+                    self._client.cookies.clear()
+        return Response(0)
+
+    async def _exchange(self, effect: Exchange) -> Response:
+        assert self._client is not None
+        await asyncio.sleep(self._pace.reserve(time.monotonic()))
+        for left in (1, 0):
+            try:
+                answer = await self._client.request(
+                    effect.method,
+                    self._base + effect.target,
+                    headers=dict(effect.headers),
+                    content=effect.body or None,
+                    auth=self._auth,
+                )
+            except httpx2.HTTPError as error:
+                if left and effect.repeat and not isinstance(error, httpx2.TimeoutException):
+                    continue
+                raise not_reached(self._core, error, self._timeout) from error
+            return response_of(answer)
+        raise AssertionError
+
+    async def _look(self, port: int) -> Response:
+        try:
+            async with asyncio.timeout(self._timeout):
+                _, writer = await asyncio.open_connection(
+                    self._core.address.host, port, ssl=no_verification()
+                )
+        except (ssl.SSLError, ConnectionResetError):
+            return Response(0)
+        except OSError as error:
+            raise not_reached(self._core, error, self._timeout) from error
+        try:
+            return Response(200, body=writer.get_extra_info("ssl_object").getpeercert(True))
+        finally:
+            writer.close()
+
+    async def open_socket(self, path: str, stack: AsyncExitStack) -> ClientConnection:
+        """A websocket of this session, closed with the stack. Pings are off: RWS 2.0 cuts off a
+        client that sends."""
+        assert self._client is not None
+        try:
+            return await stack.enter_async_context(
+                connect_socket(
+                    self._base.replace("http", "ws", 1) + path,
+                    **socket_options(self._core, self._client.cookies),
+                    open_timeout=self._timeout,
+                )
+            )
+        except (OSError, WebSocketException) as error:
+            raise not_reached(self._core, error, self._timeout) from error
+
+    async def close(self) -> None:
+        """Close all connections."""
+        if self._client is not None:
+            await self._client.aclose()
+            self._client = None
+
+
+class AsyncSubscription:
+    """Events of topics, those of now first. Survives a restart of the controller.
+
+    `async with controller.subscribe(topics.execution()) as events: async for event in events: ...`
+    """
+
+    def __init__(self, carrier: Awaiting, core: RwsCore, chosen: tuple[Topic, ...]) -> None:
+        self._carrier = carrier
+        self._core = core
+        self._topics = chosen
+        self._waiting: deque[ResourceEvent] = deque()
+        self._socket: ClientConnection | None = None
+        self._group = ""
+        self._stack = AsyncExitStack()
+
+    async def _open(self, flow: Flow[subscribing.Opened]) -> None:
+        opened = await self._carrier.run(flow)
+        self._group = opened.group
+        self._waiting.extend(opened.events)
+        await self._stack.aclose()
+        self._socket = await self._carrier.open_socket(opened.path, self._stack)
+
+    async def next(self, timeout: float | None = None) -> ResourceEvent:
+        """The next event. RobotTimeout (RG602): none within s."""
+        try:
+            async with asyncio.timeout(timeout):
+                while not self._waiting:
+                    await self._hear()
+        except TimeoutError as error:
+            raise RobotTimeout.because("RG602", f"no event within {timeout:g} s") from error
+        return self._waiting.popleft()
+
+    async def _hear(self) -> None:
+        assert self._socket is not None
+        try:
+            message = await self._socket.recv()
+        except (ConnectionClosed, ConnectionError):
+            await self._open(subscribing.again(self._core, self._topics, PATIENCE))
+            return
+        data = message.encode() if isinstance(message, str) else message
+        self._waiting.extend(
+            await self._carrier.run(subscribing.events_of(self._core, self._topics, data))
+        )
+
+    async def close(self) -> None:
+        """Be told no more."""
+        if self._socket is not None:
+            await self._carrier.run(subscribing.unsubscribe(self._core, self._group))
+            await self._stack.aclose()
+            self._socket = None
+
+    async def __aiter__(self) -> AsyncIterator[ResourceEvent]:
+        while self._socket is not None:
+            yield await self.next()
+
+    async def __aenter__(self) -> Self:
+        await self._open(subscribing.subscribe(self._core, self._topics))
+        return self
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()
+
+
+class AsyncController(ControllerSurface[Awaiting]):
+    """A controller over Robot Web Services, on asyncio: as `Controller`, and every method is
+    awaited."""
+
+    _carrier_type = Awaiting
+
+    async def connect(self) -> Self:
+        """Connect and log in."""
+        await self._carrier.run(connecting.connect(self._core))
+        return self
+
+    async def close(self) -> None:
+        """Give back what is held, log out, close."""
+        await self._carrier.run(connecting.close(self._core))
+        await self._carrier.close()
+
+    @asynccontextmanager
+    async def mastership(self, domain: str = "rapid", *, wait: float = 0.0) -> AsyncIterator[Self]:
+        """Hold mastership of `rapid`, `cfg` or `motion` for a block. Raises Held (RG654)."""
+        await self.take_mastership(domain, wait=wait)
+        try:
+            yield self
+        finally:
+            await self._carrier.run(holding.give(self._core, domain))
+
+    def subscribe(self, *topics: Topic) -> AsyncSubscription:
+        """Be told of topics as they change, within `async with`: an iterator of events."""
+        return AsyncSubscription(self._carrier, self._core, topics)
+
+    async def __aenter__(self) -> Self:
+        return await self.connect()
+
+    async def __aexit__(self, *_: object) -> None:
+        await self.close()

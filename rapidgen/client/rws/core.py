@@ -1,0 +1,98 @@
+"""What a client of Robot Web Services knows and decides: no I/O, no thread, no loop."""
+
+import socket
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from uuid import NAMESPACE_DNS, uuid5
+
+from rapidgen.client.errors import NotSupported
+from rapidgen.client.rws.address import RwsAddress
+from rapidgen.client.rws.errors import LoginFailed
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.operations import Route, RwsOperation
+
+RATE = 18
+"""Requests in a second: RWS 1.0 answers 503 above 20 [RWS manual]."""
+APPLICATION = "rapidgen"
+
+
+class Pace:
+    """When the next request may go out, so that no second has more than RATE."""
+
+    def __init__(self, rate: int = RATE) -> None:
+        self._sent: deque[float] = deque(maxlen=rate)
+
+    def reserve(self, now: float) -> float:
+        """Take the next turn; s until it comes."""
+        turn = now
+        if len(self._sent) == self._sent.maxlen:
+            turn = max(now, self._sent[0] + 1.0)
+        self._sent.append(turn)
+        return turn - now
+
+
+@dataclass(frozen=True, slots=True)
+class Login:
+    """Who logs in. Shown without the password."""
+
+    user: str = "Default User"
+    password: str = field(default="", repr=False)
+
+
+@dataclass(slots=True)
+class RwsCore:
+    """State of one client."""
+
+    address: RwsAddress
+    login: Login
+    fingerprint: str = ""
+    """The certificate that was told to be right; empty: the list of known ones says."""
+    pins: Path = Path()
+    confirm: Callable[[str, str], bool] | None = None
+    """Asks a person about (host:port, fingerprint); None: nobody is there."""
+    generation: Generation = Generation.ONE
+    port: int = 0
+    certificate: bytes = b""
+    connected: bool = False
+    robotware: str = ""
+    system: str = ""
+    """Name of the system that was found."""
+    held: set[str] = field(default_factory=set)
+    """Domains of mastership that this session has."""
+    requests: int = 0
+
+    @property
+    def where(self) -> str:
+        """Host and port, for messages and the list of certificates."""
+        return f"{self.address.netloc}:{self.port or self.address.port or 443}"
+
+    @property
+    def user(self) -> str:
+        """Who logs in."""
+        return self.address.user or self.login.user
+
+    @property
+    def station(self) -> str:
+        """The id of this machine as a control station of RobotWare 8: always the same, so that
+        write access that was left behind can be given back."""
+        return f"{{{str(uuid5(NAMESPACE_DNS, f'{APPLICATION}.{socket.gethostname()}')).upper()}}}"
+
+    def check_login(self) -> None:
+        """Refuse before a byte is sent. Raises LoginFailed (RG651)."""
+        if not self.login.password:
+            raise LoginFailed.because(
+                "RG651",
+                f"there is no password for {self.user} at {self.address}",
+                "give it: `password=`, RAPIDGEN_PASSWORD, or --secrets FILE; nothing was sent",
+            )
+
+    def route(self, operation: RwsOperation) -> Route:
+        """How this controller spells an operation. Raises NotSupported (RG659)."""
+        found = operation.route(self.generation)
+        if found is None:
+            raise NotSupported.because(
+                "RG659", f"RobotWare {self.robotware or '?'} has nothing like it: {operation.two}"
+            )
+        return found

@@ -1,0 +1,58 @@
+"""What goes wrong over Robot Web Services: ABB's symbol, and the mend."""
+
+from rapidgen.client.errors import ConnectionFailed, RobotError, fault
+from rapidgen.wire.rws.bodies import Fault
+from rapidgen.wire.rws.codes import name_of
+
+_MENDS = {
+    "E_MASTER_REJECT": "take mastership first: `with controller.mastership():`",
+    "E_NO_WRITE_ACCESS": "take write access first: `with controller.mastership():`",
+    "E_RESOURCE_HELD": "somebody else holds it: wait for them, or end their session",
+    "E_WRITE_ACCESS_TAKEN": "another control station writes: wait until it lets go",
+    "E_UAS_REJECT": "this user lacks the grant: give it in RobotStudio, or log in as another",
+    "E_MODE_REJECT": "switch the controller to automatic mode at the pendant",
+    "E_SYSFAIL_REJECT": "the controller is in system failure: read its log, mend, restart it",
+    "E_EXEC_STATE": "stop RAPID in all tasks first, background tasks too",
+    "E_NO_PP": "set the program pointer to main, and look at the build errors",
+    "E_RAPID_SYNTAX_ERROR": "`build_errors(task)` tells where",
+    "E_RAPID_SEMANTIC_ERROR": "`build_errors(task)` tells where",
+    "E_CFG_NAME_EXIST": 'an instance of that name exists: load in mode "replace", or rename it',
+    "E_NOT_ENOUGH_SPACE": "the controller's disk is full: delete old files and backups",
+    "E_DEVICE_FULL": "the controller's disk is full: delete old files and backups",
+}
+_REJECTED = (
+    "motors on and start are refused after a stop until it is reset at the robot; a signal's "
+    "access level must be All to be set from afar"
+)
+
+
+class RwsError(RobotError):
+    """The controller refused: `status` of HTTP, `symbol` of ABB (empty: it gave none)."""
+
+    def __init__(self, status: int, what: str, refused: Fault | None) -> None:
+        symbol = name_of(refused.code) if refused is not None else ""
+        words = f"{symbol}: {refused.message}" if refused is not None else f"HTTP status {status}"
+        mend = _MENDS.get(symbol) or (_REJECTED if symbol == "E_REJECT" else "")
+        super().__init__(fault("RG650", f"{what} was refused ({status}): {words}", mend))
+        self.status = status
+        self.symbol = symbol
+
+
+class LoginFailed(ConnectionFailed):
+    """No password, a wrong one, or nobody that a password may be sent to."""
+
+
+class NotObeyed(RobotError):
+    """The controller said yes, and what it said is not so."""
+
+
+class Held(RobotError):
+    """Somebody else has mastership or write access."""
+
+
+class Busy(RobotError):
+    """Too many requests, or too many sessions."""
+
+
+class NotRws(RobotError):
+    """What answered does not speak Robot Web Services."""

@@ -1,0 +1,27 @@
+"""What the client does step by step: generators over `effects`."""
+
+from rapidgen.client.rws.flows import (
+    cfg,
+    connecting,
+    files,
+    holding,
+    jobs,
+    log,
+    panel,
+    rapid,
+    signals,
+    subscribing,
+)
+
+__all__ = [
+    "cfg",
+    "connecting",
+    "files",
+    "holding",
+    "jobs",
+    "log",
+    "panel",
+    "rapid",
+    "signals",
+    "subscribing",
+]

@@ -1,0 +1,105 @@
+"""What takes its time: jobs, backups, a restart and what comes after it."""
+
+from collections.abc import Mapping
+
+from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotTimeout
+from rapidgen.client.rws.core import RwsCore
+from rapidgen.client.rws.effects import Flow, Forget, Pause
+from rapidgen.client.rws.errors import Busy, LoginFailed, RwsError
+from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.flows.connecting import connect
+from rapidgen.client.rws.flows.files import volume
+from rapidgen.client.rws.flows.holding import domain_of, give, holder, take
+from rapidgen.client.rws.flows.rapid import tasks
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Fault
+from rapidgen.wire.rws.forms import Fields
+from rapidgen.wire.rws.operations import RwsOperation
+
+_LOOK = 1.0
+"""s between two looks at a job, or at a controller that restarts."""
+_LONGEST = 600.0
+"""s that a backup or a load may take."""
+
+
+def finish(
+    core: RwsCore, operation: RwsOperation, names: Mapping[str, str], form: Fields
+) -> Flow[None]:
+    """Ask for a job and wait for its end. Raises RwsError (RG650), RobotTimeout (RG602)."""
+    _, response = yield from ask(core, operation, names, form)
+    number = response.headers.get("location", "").rpartition("/progress/")[2]
+    if response.status != 202 or not number.isalnum():
+        return
+    left = _LONGEST
+    while left > 0:
+        body, _ = yield from ask(core, ops.PROGRESS, {"id": number})
+        told = body.first("progress")
+        if told is not None and told.text("state") == "ready":
+            code = told.whole("code")
+            if code < 0:
+                raise RwsError(response.status, operation.two, Fault(code, "the job failed"))
+            return
+        yield Pause(_LOOK)
+        left -= _LOOK
+    raise RobotTimeout.because("RG602", f"{operation.two} did not end within {_LONGEST:g} s")
+
+
+def backup(core: RwsCore, name: str, *, volume_name: str = "BACKUP") -> Flow[str]:
+    """Make a backup into a new folder on the controller; its path there."""
+    path = f"{volume_name}/{name}"
+    form = {"backup": f"/fileservice/{volume(core, path)}"}
+    yield from finish(core, ops.BACKUP, {}, form)
+    return path
+
+
+def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
+    """Restart the controller (a warm start, no other kind), and wait s until it serves again.
+
+    RAPID stops. Returns when it is back and has tasks. Raises RobotTimeout (RG602).
+    """
+    own = domain_of(core, "cfg") in core.held
+    yield from take(core, "cfg")
+    try:
+        yield from ask(core, ops.RESTART, form={"restart-mode": "restart"})
+    except RwsError:
+        if not own:
+            yield from give(core, "cfg")
+        raise
+    yield from _gone(core, wait)
+    core.connected = False
+    core.held.clear()
+    yield Forget()
+    yield from wait_ready(core, wait=wait)
+
+
+def _gone(core: RwsCore, wait: float) -> Flow[None]:
+    """Wait until the mastership of this session is gone: with it the old run of the controller."""
+    left = wait
+    while left > 0:
+        try:
+            who = yield from holder(core, "cfg")
+        except (ConnectionLost, ConnectionFailed, Busy, RwsError):
+            return
+        if who is None or not who.mine:
+            return
+        yield Pause(_LOOK)
+        left -= _LOOK
+
+
+def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
+    """Wait s until the controller answers, lets in and has tasks. Raises RobotTimeout (RG602)."""
+    left = wait
+    last: Exception | None = None
+    while left > 0:
+        try:
+            yield from connect(core)
+            if (yield from tasks(core)):
+                return
+        except (ConnectionFailed, ConnectionLost, Busy, RwsError) as error:
+            if isinstance(error, LoginFailed) and error.diagnostics[0].code == "RG652":
+                raise
+            last = error
+        core.connected = False
+        yield Pause(_LOOK)
+        left -= _LOOK
+    raise RobotTimeout.because("RG602", f"{core.where} did not come back within {wait:g} s: {last}")

@@ -1,0 +1,156 @@
+"""Identity, panel and execution: what is read, switched, started and stopped."""
+
+from rapidgen.client.errors import NotReady
+from rapidgen.client.rws.core import RwsCore
+from rapidgen.client.rws.effects import Flow, Pause
+from rapidgen.client.rws.errors import NotObeyed
+from rapidgen.client.rws.flows.asking import ask
+from rapidgen.client.rws.flows.holding import held
+from rapidgen.client.rws.model import Identity, Panel, ProgramState
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation, Item
+from rapidgen.wire.rws.operations import RwsOperation
+
+_LOOKS = 20
+_LOOK = 0.1
+"""s between two looks whether what was asked for has come true."""
+
+
+def one(core: RwsCore, operation: RwsOperation, *kinds: str, **names: str) -> Flow[Item]:
+    """The one thing that an operation gives. Raises NotObeyed (RG655) when it is not there."""
+    body, _ = yield from ask(core, operation, names)
+    found = body.all(*kinds)
+    if not found:
+        raise NotObeyed.because("RG655", f"{core.where} gives no {kinds[0]}")
+    return found[0]
+
+
+def identity(core: RwsCore) -> Flow[Identity]:
+    """Who the controller is: one request."""
+    told = yield from one(core, ops.IDENTITY, "ctrl-identity-info")
+    return Identity(
+        told.text("ctrl-name"),
+        told.text("ctrl-id"),
+        told.text("ctrl-type"),
+        core.system,
+        core.robotware,
+    )
+
+
+def panel(core: RwsCore) -> Flow[Panel]:
+    """Motors, mode and speed: three requests."""
+    state = yield from _state(core)
+    mode = yield from one(core, ops.OPMODE, "pnl-opmode")
+    speed = yield from one(core, ops.SPEED, "pnl-speedratio")
+    return Panel(state, mode.text("opmode"), speed.whole("speedratio"))
+
+
+def _state(core: RwsCore) -> Flow[str]:
+    item = yield from one(core, ops.CTRL_STATE, "pnl-ctrlstate")
+    return item.text("ctrlstate")
+
+
+def execution(core: RwsCore) -> Flow[ProgramState]:
+    """Whether the program runs."""
+    told = yield from one(core, ops.EXECUTION, "rap-execution")
+    return ProgramState(told.text("ctrlexecstate") == "running", told.text("cycle"))
+
+
+def motors(core: RwsCore, on: bool) -> Flow[None]:
+    """Motors on or off; returns when they are.
+
+    Raises RwsError (RG650), NotObeyed (RG655): the controller agreed, and they are not.
+    """
+    wanted = "motoron" if on else "motoroff"
+    yield from ask(core, ops.SET_CTRL_STATE, form={"ctrl-state": wanted})
+    state = ""
+    for _ in range(_LOOKS):
+        state = yield from _state(core)
+        if state == wanted:
+            return
+        yield Pause(_LOOK)
+    raise NotObeyed.because(
+        "RG655",
+        f"{core.where} agreed to {wanted}, and is in state {state}",
+        "look at the emergency stop and the guard stop; `log()` tells more",
+    )
+
+
+def set_speed(core: RwsCore, percent: int) -> Flow[None]:
+    """Speed of all robots in percent, 0 to 100, in automatic mode; read back."""
+    if not 0 <= percent <= 100:
+        raise ValueError(f"a speed is 0 to 100 percent, not {percent}")
+    form = {"speed-ratio": str(percent)}
+    if core.generation is Generation.ONE:
+        yield from ask(core, ops.SET_SPEED, form=form)
+    else:
+        yield from held(core, "edit", ask(core, ops.SET_SPEED, form=form))
+    told = yield from one(core, ops.SPEED, "pnl-speedratio")
+    if told.text("speedratio") != str(percent):
+        raise NotObeyed.because(
+            "RG655", f"{core.where} agreed to {percent} %, and is at {told.text('speedratio')} %"
+        )
+
+
+def pp_to_main(core: RwsCore) -> Flow[None]:
+    """Program pointers of all tasks to main; the program must stand."""
+    yield from held(core, "rapid", ask(core, ops.RESET_PP))
+
+
+def start(core: RwsCore, *, cycle: str = "asis") -> Flow[None]:
+    """Start the program of all selected tasks; returns when it runs. `cycle`: once, forever, asis.
+
+    THE ROBOT MAY MOVE. Motors have to be on. Raises NotReady (RG610): this session holds
+    mastership, which keeps a program from running. NotObeyed (RG655): it was agreed to, and does
+    not run.
+    """
+    if core.held - {"write"}:
+        raise NotReady.because(
+            "RG658",
+            "this session holds mastership, which keeps a program from running",
+            "leave the `with controller.mastership()` block first",
+        )
+    form = {
+        "regain": "continue",
+        "execmode": "continue",
+        "cycle": cycle,
+        "condition": "none",
+        "stopatbp": "disabled",
+        "alltaskbytsp": "false",
+    }
+    if core.generation is Generation.EIGHT:
+        yield from held(core, "write", _start_8(core, form))
+    else:
+        yield from ask(core, ops.START, form=form)
+    for _ in range(_LOOKS):
+        now = yield from execution(core)
+        if now.running:
+            return
+        yield Pause(_LOOK)
+    raise NotObeyed.because(
+        "RG655",
+        f"{core.where} agreed to start, and the program does not run",
+        "are the motors on, is the program pointer set? `log()` tells more",
+    )
+
+
+def _start_8(core: RwsCore, form: dict[str, str]) -> Flow[None]:
+    yield from ask(core, ops.ALLOW_MOTION, form={"allow-motion-control": "true"})
+    yield from ask(core, ops.START, form=form)
+
+
+def stop(core: RwsCore, *, everything: bool = False) -> Flow[None]:
+    """Stop the program; returns when it stands. `everything`: background tasks, too.
+
+    Not a safety function.
+    """
+    form = {"stopmode": "stop", "usetsp": "alltsk" if everything else "normal"}
+    yield from ask(core, ops.STOP, form=form)
+    for _ in range(_LOOKS):
+        now = yield from execution(core)
+        if not now.running:
+            return
+        yield Pause(_LOOK)
+    raise NotObeyed.because(
+        "RG655", f"{core.where} agreed to stop, and the program runs", "use the emergency stop"
+    )

@@ -1,0 +1,163 @@
+"""What a controller tells about itself, as frozen data."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """Who a controller is. `id` tells it from every other one."""
+
+    name: str
+    id: str
+    kind: str
+    system: str
+    robotware: str
+
+    @property
+    def is_virtual(self) -> bool:
+        """Whether it says to be a virtual controller."""
+        return "virtual" in self.kind.lower()
+
+
+@dataclass(frozen=True, slots=True)
+class Panel:
+    """`state` as motoron, motoroff, guardstop, emergencystop, sysfail; `mode` as AUTO, MANR,
+    MANF; `speed` in percent."""
+
+    state: str
+    mode: str
+    speed: int
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramState:
+    """Whether the program runs; `cycle` is once or forever."""
+
+    running: bool
+    cycle: str
+
+
+@dataclass(frozen=True, slots=True)
+class TaskState:
+    """One RAPID task. `kind` is normal, static or semistatic; `state` as linked or loaded;
+    `execution` is ready, started, stopped or uninitialized."""
+
+    name: str
+    kind: str
+    state: str
+    execution: str
+    active: bool
+    motion: bool
+
+
+@dataclass(frozen=True, slots=True)
+class TaskModule:
+    """A module in a task."""
+
+    name: str
+    is_system: bool
+
+
+@dataclass(frozen=True, slots=True)
+class BuildError:
+    """What is wrong in a task's program."""
+
+    module: str
+    row: int
+    column: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramPointer:
+    """Where a program pointer stands; empty texts and 0: nowhere."""
+
+    module: str
+    routine: str
+    row: int
+    column: int
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolInfo:
+    """One RAPID datum: `path` is TASK/MODULE/NAME, `kind` per, var or con."""
+
+    path: str
+    name: str
+    kind: str
+    type: str
+    dims: tuple[int, ...]
+    is_local: bool
+    read_only: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SignalState:
+    """One signal. `path` is how the controller names it, with network and device."""
+
+    name: str
+    path: str
+    type: str
+    value: float
+    simulated: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LogEvent:
+    """One entry of the event log. `type` is info, warning or error; `time` the controller's own."""
+
+    domain: int
+    number: int
+    type: str
+    code: int
+    time: str
+    title: str
+    description: str
+    arguments: tuple[str, ...] = ()
+
+    def __str__(self) -> str:
+        told = f" ({', '.join(a for a in self.arguments if a)})" if any(self.arguments) else ""
+        return f"{self.time} {self.type:7} {self.code} {self.title}{told}"
+
+
+@dataclass(frozen=True, slots=True)
+class FileInfo:
+    """A file or a folder of a volume; `size` in bytes, 0 of a folder."""
+
+    name: str
+    is_folder: bool
+    size: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Holder:
+    """Who has mastership."""
+
+    domain: str
+    user: str
+    application: str
+    location: str
+    mine: bool
+
+    def __str__(self) -> str:
+        return (
+            f"{self.user or '?'} ({self.application or 'no application'}, {self.location or '?'})"
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class ResourceEvent:
+    """An event of a subscription: what it is about, and its new value."""
+
+    resource: str
+    kind: str
+    value: str
+
+
+@dataclass(frozen=True, slots=True)
+class CfgInstance:
+    """One instance of a cfg type; attributes as texts, a flag as `true`."""
+
+    name: str
+    attributes: Mapping[str, str]

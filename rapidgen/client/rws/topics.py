@@ -1,0 +1,64 @@
+"""What can be subscribed: `topics.signal("doGrip")`, `topics.log()`, ..."""
+
+from dataclasses import dataclass, field
+
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.operations import RwsOperation
+
+
+@dataclass(frozen=True, slots=True)
+class Topic:
+    """One thing to be told about. `priority` is 0 (each 5 s), 1 (each 200 ms), 2 (at once)."""
+
+    name: str
+    operation: RwsOperation
+    names: dict[str, str] = field(default_factory=dict)
+    suffix: str = ""
+    priority: int = 1
+
+    def resource(self, generation: Generation) -> str:
+        """As a generation spells it."""
+        route = self.operation.route(generation)
+        assert route is not None
+        return route.fill(self.names) + (f";{self.suffix}" if self.suffix else "")
+
+
+def ctrl_state() -> Topic:
+    """Motors, emergency stop, system failure."""
+    return Topic("ctrlstate", ops.CTRL_STATE)
+
+
+def mode() -> Topic:
+    """The operating mode."""
+    return Topic("opmode", ops.OPMODE)
+
+
+def speed() -> Topic:
+    """The speed in percent."""
+    return Topic("speedratio", ops.SPEED)
+
+
+def execution() -> Topic:
+    """`running` or `stopped`."""
+    return Topic("execution", ops.EXECUTION, suffix="ctrlexecstate")
+
+
+def task(name: str) -> Topic:
+    """The execution state of a task."""
+    return Topic(name, ops.TASK, {"task": name}, "excstate")
+
+
+def signal(name: str) -> Topic:
+    """A signal's value, at once."""
+    return Topic(name, ops.SIGNAL, {"signal": name}, "state", 2)
+
+
+def symbol(path: str) -> Topic:
+    """The value of a persistent `TASK/MODULE/NAME`, at once."""
+    return Topic(path, ops.SYMBOL, {"symbol": path}, "value", 2)
+
+
+def log(domain: int = 0) -> Topic:
+    """Numbers of new entries in the event log."""
+    return Topic(f"log {domain}", ops.ELOG, {"domain": str(domain)})

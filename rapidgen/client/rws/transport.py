@@ -1,0 +1,86 @@
+"""What both carriers need of the HTTP library: TLS for one certificate, logins, failures.
+
+httpx2's digest is right where others' are not: blanks in users, `;value` and `$` in paths. The
+environment's proxies are ignored, redirects are not followed.
+"""
+
+import ssl
+from typing import TypedDict
+
+import httpx2
+from websockets.typing import Subprotocol
+
+from rapidgen.client.errors import ConnectionFailed, ConnectionLost, RobotError
+from rapidgen.client.rws.core import RwsCore
+from rapidgen.client.rws.effects import LogIn, Response
+from rapidgen.wire.rws.events import PROTOCOLS
+from rapidgen.wire.rws.xhtml import LARGEST
+
+_NO_CHECK_TIME = 0x200000
+"""X509_V_FLAG_NO_CHECK_TIME: who agreed to a certificate did not agree to its calendar."""
+
+
+def pinned(certificate: bytes) -> ssl.SSLContext:
+    """TLS that accepts this certificate (DER) and no other."""
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname = False
+    context.verify_flags |= ssl.VERIFY_X509_PARTIAL_CHAIN | ssl.VerifyFlags(_NO_CHECK_TIME)
+    context.load_verify_locations(cadata=certificate)
+    return context
+
+
+def no_verification() -> ssl.SSLContext:
+    """TLS to look at a certificate: nothing is sent over it."""
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname = False
+    context.verify_mode = ssl.CERT_NONE
+    return context
+
+
+def auth_of(effect: LogIn, core: RwsCore) -> httpx2.Auth:
+    """The login that was found to be wanted."""
+    if effect.way == "digest":
+        return httpx2.DigestAuth(core.user, core.login.password)
+    assert core.certificate, "a password in clear goes over TLS only"
+    return httpx2.BasicAuth(core.user, core.login.password)
+
+
+class SocketOptions(TypedDict):
+    """What a websocket is opened with."""
+
+    subprotocols: list[Subprotocol]
+    additional_headers: dict[str, str]
+    ssl: ssl.SSLContext | None
+    proxy: None
+    ping_interval: None
+    max_size: int
+
+
+def socket_options(core: RwsCore, cookies: httpx2.Cookies) -> SocketOptions:
+    """A websocket of the session with these cookies; proxies and pings are off."""
+    return SocketOptions(
+        subprotocols=[Subprotocol(PROTOCOLS[core.generation])],
+        additional_headers={"Cookie": "; ".join(f"{k}={v}" for k, v in cookies.items())},
+        ssl=pinned(core.certificate) if core.certificate else None,
+        proxy=None,
+        ping_interval=None,
+        max_size=LARGEST,
+    )
+
+
+def response_of(answer: httpx2.Response) -> Response:
+    """An answer as data."""
+    headers = {name.lower(): value for name, value in answer.headers.items()}
+    return Response(answer.status_code, headers, answer.content)
+
+
+def not_reached(core: RwsCore, error: Exception, timeout: float) -> RobotError:
+    """Nobody answers, or nobody any more."""
+    if isinstance(error, (httpx2.TimeoutException, TimeoutError)):
+        message = f"no answer from {core.where} within {timeout:g} s"
+    else:
+        message = f"cannot reach {core.where}: {str(error).lower() or type(error).__name__}"
+    kind = ConnectionLost if core.connected else ConnectionFailed
+    return kind.because(
+        "RG601", message, "is the controller on, and are web services on in its firewall settings?"
+    )

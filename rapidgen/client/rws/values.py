@@ -1,0 +1,97 @@
+"""RAPID literals as Python values, and back.
+
+TRUE is True, texts are str, numbers int or float, records and arrays tuples.
+"""
+
+import re
+from collections.abc import Iterator, Sequence
+from typing import TypeAlias
+
+RapidValue: TypeAlias = "bool | str | int | float | Sequence[RapidValue]"
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>[+-]?(?:\d+\.?\d*|\.\d+)(?:E[+-]?\d+)?)|(?P<word>TRUE|FALSE)"
+    r'|"(?P<text>(?:[^"]|"")*)"|(?P<mark>[\[\],]))\s*',
+    re.IGNORECASE,
+)
+_DEEPEST = 32
+
+
+def read(literal: str) -> RapidValue:
+    """The value of a literal. ValueError: it is none."""
+    tokens = list(_tokens(literal))[::-1]
+    value = _value(tokens, 0) if tokens else None
+    if tokens or value is None:
+        raise ValueError(f"no literal: {literal[:60]!r}")
+    return value
+
+
+def write(value: RapidValue) -> str:
+    """A value as a literal. ValueError: RAPID has no such number."""
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '""') + '"'
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        if not abs(value) < 1e39:
+            raise ValueError(f"{value} is no number of RAPID")
+        return repr(int(value)) if value.is_integer() and abs(value) < 1e9 else repr(value).upper()
+    return "[" + ",".join(write(part) for part in value) + "]"
+
+
+def same(one: RapidValue, other: RapidValue) -> bool:
+    """Whether two values are the same to what a num holds."""
+    if isinstance(one, bool) or isinstance(other, bool):
+        return one is other
+    if isinstance(one, int | float) and isinstance(other, int | float):
+        return abs(one - other) <= 1e-6 * max(1.0, abs(one))
+    if isinstance(one, str) or isinstance(other, str):
+        return one == other
+    if not isinstance(one, Sequence) or not isinstance(other, Sequence):
+        return False
+    return len(one) == len(other) and all(same(a, b) for a, b in zip(one, other, strict=True))
+
+
+def _tokens(literal: str) -> "Iterator[tuple[str, RapidValue]]":
+    """(mark, value): the mark of a value is empty."""
+    place = 0
+    while place < len(literal):
+        match = _TOKEN.match(literal, place)
+        if match is None:
+            raise ValueError(f"no literal: {literal[:60]!r}")
+        place = match.end()
+        if match["number"] is not None:
+            number = float(match["number"])
+            whole = number.is_integer() and abs(number) < 1e15
+            yield "", int(number) if whole else number
+        elif match["word"] is not None:
+            yield "", match["word"].upper() == "TRUE"
+        elif match["text"] is not None:
+            yield "", match["text"].replace('""', '"').replace("\\\\", "\\")
+        else:
+            yield match["mark"], ""
+
+
+def _value(tokens: "list[tuple[str, RapidValue]]", depth: int) -> RapidValue:
+    """The next value of tokens, which are last first."""
+    mark, value = _next(tokens)
+    if mark == "":
+        return value
+    parts: list[RapidValue] = []
+    while mark == "[" or (mark == "," and parts):
+        if depth > _DEEPEST:
+            break
+        parts.append(_value(tokens, depth + 1))
+        mark, value = _next(tokens)
+        if mark == "]":
+            return tuple(parts)
+        if mark != ",":
+            break
+    raise ValueError("no literal")
+
+
+def _next(tokens: "list[tuple[str, RapidValue]]") -> "tuple[str, RapidValue]":
+    if not tokens:
+        raise ValueError("no literal")
+    return tokens.pop()

@@ -1,0 +1,197 @@
+"""Modules of a controller's tasks from outside: loaded, unloaded, saved; what is wrong with them.
+
+A module that cannot be linked is in its task all the same, and its errors are told there: a
+controller answers a load with success and says what is wrong when it is asked [VC 7.21].
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+
+from rapidgen.controller.controller import VirtualController
+from rapidgen.diagnostics import Diagnostic, Severity, error
+from rapidgen.runtime.compiler.missing import missing_routines
+from rapidgen.runtime.compiler.symbols import LoadedModule, Routine
+from rapidgen.runtime.loading import LARGEST_MODULE, module_text
+from rapidgen.runtime.task.task import Task
+from rapidgen.system.model import ModuleFile
+
+SYSTEM_ENDINGS = (".sys", ".sysx")
+
+
+class CannotLoad(Exception):
+    """A module cannot be loaded or unloaded; the text is a name of `wire.rws.codes`."""
+
+
+@dataclass(slots=True)
+class UnlinkedModule:
+    """A module that lies in a task and is not linked."""
+
+    file: ModuleFile
+    faults: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ModuleState:
+    """A module of a task. `is_system`: it stays when a program is taken out."""
+
+    name: str
+    file: ModuleFile
+    is_system: bool
+    faults: tuple[Diagnostic, ...] = field(default=())
+
+
+class Programs:
+    """The modules in the tasks of one controller."""
+
+    def __init__(self, controller: VirtualController) -> None:
+        self._controller = controller
+        self.broken: dict[str, dict[str, UnlinkedModule]] = {
+            name: {} for name in controller.rapid_tasks
+        }
+        """By task, by lower-case name."""
+
+    @property
+    def is_stopped(self) -> bool:
+        """Whether no task executes anything: background tasks, too [real 7.21]."""
+        return all(t.state != "running" for t in self._controller.rapid_tasks.values())
+
+    def modules(self, task: Task) -> list[ModuleState]:
+        """What lies in a task, in loading order."""
+        linked = [
+            ModuleState(module.name, module.file, _is_system(module))
+            for module in task.program.modules.values()
+        ]
+        return linked + [
+            ModuleState(b.file.name, b.file, _named_system(b.file), b.faults)
+            for b in self.broken[task.name].values()
+        ]
+
+    def text(self, task: Task, name: str) -> str | None:
+        """The source of a module, with initial values as they were written [VC 7.21]; None: there
+        is none."""
+        module = task.program.modules.get(name.lower())
+        if module is not None:
+            return module.tree.source.text
+        broken = self.broken[task.name].get(name.lower())
+        return None if broken is None else broken.file.data.decode("latin-1")
+
+    def load(self, task: Task, path: Path, words: str, *, replaced: bool) -> str:
+        """Load a module file into a task; its name. CannotLoad."""
+        if not self.is_stopped:
+            raise CannotLoad("E_EXEC_STATE")
+        try:
+            data = path.read_bytes()
+        except OSError as error:
+            raise CannotLoad("E_FILE_NOT_FOUND") from error
+        if len(data) > LARGEST_MODULE:
+            raise CannotLoad("E_TOO_BIG_MODULE")
+        name = path.stem
+        tree = self._controller.parse_module(ModuleFile(name, words, data))
+        name = tree.name or name
+        file = ModuleFile(name, words, data)
+        wrong = tuple(d for d in tree.diagnostics if d.severity is Severity.ERROR)
+        here = self.broken[task.name]
+        if name.lower() in task.program.modules or name.lower() in here:
+            if not replaced:
+                raise CannotLoad("E_MOD_AMBNAME")
+            self.unload(task, name)
+        if not wrong and tree.name:
+            known = len(task.program.faults)
+            task.program.load([(tree, file)])
+            wrong = tuple(task.program.faults[known:])
+            del task.program.faults[known:]
+            if wrong:
+                self._take_out(task, name)
+                here[name.lower()] = UnlinkedModule(file, wrong)
+            self.put_clashes_aside(task)
+        elif wrong:
+            here[name.lower()] = UnlinkedModule(file, wrong)
+        self._find_entry(task)
+        return name
+
+    def unload(self, task: Task, name: str) -> None:
+        """Take a module out of a task. CannotLoad."""
+        if not self.is_stopped:
+            raise CannotLoad("E_EXEC_STATE")
+        if self.broken[task.name].pop(name.lower(), None) is not None:
+            return
+        module = task.program.modules.get(name.lower())
+        if module is None:
+            raise CannotLoad("E_NO_SUCH_SYMBOL")
+        if module.installed:
+            raise CannotLoad("E_MOD_WRITE_PROTECTED")
+        if any(place.module.lower() == name.lower() for place in task.stack()):
+            raise CannotLoad("E_EXEC_STATE")
+        self._take_out(task, name)
+        self._find_entry(task)
+
+    def _take_out(self, task: Task, name: str) -> None:
+        """Unlink a module. A persistent that nobody declares any more loses its value."""
+        gone = {
+            key
+            for key, node in task.program.modules[name.lower()].declarations.items()
+            if node.kind == "PERS" and not node.scope
+        }
+        task.program.unload(name)
+        programs = [other.program for other in self._controller.rapid_tasks.values()]
+        left = {key for p in programs for m in p.modules.values() for key in m.declarations}
+        for key in gone - left:
+            self._controller.shared.cells.pop(key, None)
+
+    def put_clashes_aside(self, task: Task) -> None:
+        """Unlink modules that declare what another one has declared: a second `main`."""
+        clashes = task.program.names.clashes
+        for _, second in clashes:
+            if second.module is None or second.module.tree.name.lower() not in task.program.modules:
+                continue
+            module = task.program.modules[second.module.tree.name.lower()]
+            at = module.span(second.node) if second.node is not None else None
+            fault = error("RG401", at, f"Global routine name {second.name} ambiguous")
+            self._take_out(task, module.name)
+            self.broken[task.name][module.name.lower()] = UnlinkedModule(module.file, (fault,))
+        clashes.clear()
+
+    def faults(self, task: Task) -> list[Diagnostic]:
+        """What is wrong with the program of a task: broken modules, and names that are nowhere."""
+        broken = [d for b in self.broken[task.name].values() for d in b.faults]
+        missing = missing_routines(task.program)
+        return broken + [d for d in missing if d.severity is Severity.ERROR]
+
+    def _find_entry(self, task: Task) -> None:
+        """A task without its entry routine is empty; with it, it can be started."""
+        entry = task.program.find_routine(None, task.spec.entry.lower())
+        found = isinstance(entry, Routine) and entry.kind == "PROC" and not entry.parameters
+        if not found:
+            task.state = "empty"
+        elif task.state == "empty":
+            task.state = "ready"
+
+    def kept(self) -> Mapping[str, tuple[ModuleFile, ...]]:
+        """Modules of each task with the present values of their persistents: what a restart
+        finds."""
+        return {
+            task.name: (
+                *(_as_it_is(task, module) for module in task.program.modules.values()),
+                *(b.file for b in self.broken[task.name].values()),
+            )
+            for task in self._controller.rapid_tasks.values()
+        }
+
+
+def _is_system(module: LoadedModule) -> bool:
+    named = {attribute.upper() for attribute in module.tree.attributes}
+    return "SYSMODULE" in named or _named_system(module.file)
+
+
+def _named_system(file: ModuleFile) -> bool:
+    return file.path.lower().endswith(SYSTEM_ENDINGS)
+
+
+def _as_it_is(task: Task, module: LoadedModule) -> ModuleFile:
+    if module.installed or module.file.shared:
+        return module.file
+    text = module_text(task, module)
+    if text == module.tree.source.text:
+        return module.file
+    return replace(module.file, data=text.encode(module.tree.source.encoding, "replace"))

@@ -1,0 +1,225 @@
+"""Configuration: read, single instances, whole files. What is changed counts after a restart."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from rapidgen.diagnostics import DiagnosticError
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.disks import disk_path
+from rapidgen.faces.rws.paging import page
+from rapidgen.faces.rws.routing import serves
+from rapidgen.system.adding import Addition, Loaded, add, identity_text
+from rapidgen.system.cfg import Attribute, CfgText, Instance, Scalar, Section, parse_cfg, write_cfg
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+from rapidgen.wire.rws.codes import OK
+
+if TYPE_CHECKING:
+    from rapidgen.faces.rws.office import Office
+
+
+def _domain(office: "Office", asked: Asked) -> CfgText:
+    name = asked.names["domain"].upper()
+    for text in office.cabinet.cfg.domains:
+        if text.domain == name:
+            return text
+    raise Denied(400 if asked.is_one else 404, "E_CFG_DOMAIN_INVALID", name)
+
+
+def _title(section: str, instance: Instance) -> str:
+    return " ".join(part for part in identity_text(section, instance) if part)
+
+
+@serves(ops.CFG)
+def get_domains(office: "Office", asked: Asked) -> Served:
+    """The domains."""
+    return show(
+        *(Item("cfg-domain-li", text.domain) for text in office.cabinet.cfg.domains),
+        collection=True,
+    )
+
+
+@serves(ops.CFG_DOMAIN)
+def get_types(office: "Office", asked: Asked) -> Served:
+    """Types of a domain."""
+    names = dict.fromkeys(section.name for section in _domain(office, asked).sections)
+    return show(*(Item("cfg-dt-li", name) for name in names), collection=True)
+
+
+@serves(ops.CFG_INSTANCES)
+def get_instances(office: "Office", asked: Asked) -> Served:
+    """Instances of a type with their attributes: by seventy in RWS 2.0 [VC 7.21]."""
+    found = [_item(asked, i) for i in _instances(office, asked)]
+    return page(asked, found, 70, "instances", always=True)
+
+
+@serves(ops.CFG_INSTANCE)
+def get_instance(office: "Office", asked: Asked) -> Served:
+    """One instance."""
+    return show(_item(asked, _one(office, asked)))
+
+
+def _instances(office: "Office", asked: Asked) -> Iterator[Instance]:
+    return _domain(office, asked).instances(asked.names["type"])
+
+
+def _one(office: "Office", asked: Asked) -> Instance:
+    name, section = asked.names["instance"], asked.names["type"]
+    for instance in _instances(office, asked):
+        if _title(section, instance).casefold() == name.casefold():
+            return instance
+    raise Denied(400 if asked.is_one else 404, "E_CFG_INSTANCE_INVALID", name)
+
+
+def _item(asked: Asked, instance: Instance) -> Item:
+    kind = asked.kind("cfg-ia-t-li", "cfg-ia-t")
+    within = tuple(
+        Item(kind, a.name, {"value": _value(a), "rdonly": "false"}) for a in instance.attributes
+    )
+    title = _title(asked.names["type"], instance)
+    return Item("cfg-dt-instance-li", title, {"rdonly": "false"}, within=within)
+
+
+def _value(attribute: Attribute) -> str:
+    """A flag is true; several values stand behind each other."""
+    return " ".join(map(str, attribute.values)) if attribute.values else "true"
+
+
+# -- single instances ----------------------------------------------------------------------------
+
+
+def _with(office: "Office", asked: Asked, instances: tuple[Instance, ...]) -> None:
+    """The database with these instances of a type, in place of those that it has."""
+    text, name = _domain(office, asked), asked.names["type"]
+    others = tuple(s for s in text.sections if s.name.casefold() != name.casefold())
+    known = next((s.name for s in text.sections if s.name.casefold() == name.casefold()), name)
+    changed = replace(text, sections=(*others, Section(known, instances)))
+    cfg = office.cabinet.cfg
+    domains = tuple(changed if d is text else d for d in cfg.domains)
+    office.cabinet.cfg = replace(cfg, domains=domains)
+
+
+def _scalar(text: str) -> Scalar:
+    """A value as a cfg file holds it."""
+    for kind in (int, float):
+        try:
+            return kind(text)
+        except ValueError:
+            continue
+    return text
+
+
+def _attribute(name: str, value: str, *, is_one: bool) -> Attribute | None:
+    """`Attr=v` in RWS 1.0, `Attr=[v,1]` in 2.0; None: a flag that is false."""
+    if not is_one:
+        if not (value.startswith("[") and value.endswith("]") and "," in value):
+            raise Denied(400, "E_CFG_ATTRIBUTE_INVALID", f"{name}={value}: [value,1]")
+        value = value[1:-1].rpartition(",")[0]
+    if value.lower() in ("true", "false"):
+        return Attribute(name) if value.lower() == "true" else None
+    return Attribute(name, (_scalar(value),))
+
+
+@serves(ops.CFG_SET)
+def set_instance(office: "Office", asked: Asked) -> None:
+    """Give attributes of an instance new values."""
+    if not asked.is_one:  # RobotWare 6 takes mastership by itself [VC 6.16]
+        office.masters.need(asked, "cfg")
+    old = _one(office, asked)
+    attributes = {a.name.casefold(): a for a in old.attributes}
+    for name, value in asked.pairs:
+        made = _attribute(name, value, is_one=asked.is_one)
+        attributes.pop(name.casefold(), None)
+        if made is not None:
+            attributes[name.casefold()] = made
+    new = replace(old, attributes=tuple(attributes.values()))
+    _with(office, asked, tuple(new if i is old else i for i in _instances(office, asked)))
+
+
+@serves(ops.CFG_CREATE)
+def create_instance(office: "Office", asked: Asked) -> Served:
+    """A new instance with a name and nothing else."""
+    if not asked.is_one:
+        office.masters.need(asked, "cfg")
+    name, section = asked.field("name"), asked.names["type"]
+    present = tuple(_instances(office, asked))
+    if any(_title(section, i).casefold() == name.casefold() for i in present):
+        raise Denied(400, "E_CFG_NAME_EXIST", name)
+    _with(office, asked, (*present, Instance((Attribute("Name", (name,)),))))
+    return Served(201)
+
+
+@serves(ops.CFG_DELETE)
+def delete_instance(office: "Office", asked: Asked) -> None:
+    """Take an instance out."""
+    if not asked.is_one:
+        office.masters.need(asked, "cfg")
+    old = _one(office, asked)
+    _with(office, asked, tuple(i for i in _instances(office, asked) if i is not old))
+
+
+# -- whole files ---------------------------------------------------------------------------------
+
+
+def _load(office: "Office", asked: Asked) -> Loaded:
+    """The database with a file loaded; with `add` any conflict refuses it whole. Denied."""
+    mode = asked.field("action-type", ("add", "replace", "add-with-reset"))
+    words = asked.field("filepath")
+    if words.startswith("/fileservice"):
+        raise Denied(400, "E_INVALID_PATH", f"{words}: a bare path is wanted")
+    path = disk_path(office, words, asked)
+    try:
+        data = path.read_bytes()
+        text = parse_cfg(data, path=words)
+    except OSError as error:
+        raise Denied(400 if asked.is_one else 404, "E_FILE_NOT_FOUND", words) from error
+    except DiagnosticError as error:
+        raise Denied(400, "E_CFG_DATA_INCORRECT", str(error)) from error
+    base = office.cabinet.cfg
+    if mode == "add-with-reset":
+        kept = tuple(d for d in base.domains if d.domain != text.domain)
+        base = replace(base, domains=(*kept, CfgText(text.domain, text.version, ())))
+    addition = Addition(text, replace=mode == "replace", ascii=data.isascii())
+    return add(base, [addition], open_words=True)
+
+
+def _why(loaded: Loaded) -> tuple[str, str]:
+    first = loaded.faults[0]
+    exists = first.code == "RG721"
+    return ("E_CFG_NAME_EXIST" if exists else "E_CFG_DATA_INCORRECT"), first.message
+
+
+@serves(ops.CFG_LOAD)
+def load(office: "Office", asked: Asked) -> Served | None:
+    """Load a file; RWS 2.0 says where the job's end is told."""
+    office.masters.need(asked, "cfg")
+    loaded = _load(office, asked)
+    if loaded.faults:
+        for fault in loaded.faults:
+            office.controller.log.error(120_003, "Configuration file not loaded", fault.message)
+        name, why = _why(loaded)
+        if asked.is_one:
+            raise Denied(400, name, why)
+        return office.started(name)
+    office.cabinet.cfg = loaded.cfg
+    return None if asked.is_one else office.started("")
+
+
+@serves(ops.CFG_VALIDATE)
+def validate(office: "Office", asked: Asked) -> Served:
+    """What a load would say; nothing is changed."""
+    loaded = _load(office, asked)
+    if loaded.faults:
+        raise Denied(400, *_why(loaded))
+    return show(Item("cfg-validate", "validate", {"code": str(OK)}))
+
+
+@serves(ops.CFG_SAVE)
+def save(office: "Office", asked: Asked) -> None:
+    """Write a domain to a file, whose path begins with /fileservice."""
+    words = asked.field("filepath")
+    if not words.startswith("/fileservice/"):
+        raise Denied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
+    data = write_cfg(_domain(office, asked)).encode()
+    office.write_file(disk_path(office, words, asked), data)

@@ -1,0 +1,98 @@
+"""Panel: motors, mode, speed."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.routing import serves
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.controller.controller import VirtualController
+    from rapidgen.controller.operation import OperatingMode
+    from rapidgen.faces.rws.office import Office
+
+_MODES: dict[str, "OperatingMode"] = {
+    "auto": "auto", "man": "manual_reduced", "manfs": "manual_full", "manf": "manual_full",
+}  # fmt: skip
+_WORDS = {"auto": "AUTO", "manual_reduced": "MANR", "manual_full": "MANF"}
+
+
+def ctrl_state(controller: "VirtualController") -> str:
+    """The controller's state in the words of Robot Web Services."""
+    if controller.failed:
+        return "sysfail"
+    if controller.e_stop:
+        return "emergencystop"
+    return "motoron" if controller.motors_on else "motoroff"
+
+
+def opmode(controller: "VirtualController") -> str:
+    """The operating mode in the words of Robot Web Services."""
+    return _WORDS[controller.mode]
+
+
+def speed(controller: "VirtualController") -> int:
+    """The override in percent; of several robots the slowest one's."""
+    return round(100 * min((g.override for g in controller.motion.groups.values()), default=1.0))
+
+
+@serves(ops.CTRL_STATE)
+def get_ctrl_state(office: "Office", asked: Asked) -> Served:
+    """Motors, emergency stop, system failure."""
+    return show(Item("pnl-ctrlstate", "ctrlstate", {"ctrlstate": ctrl_state(office.controller)}))
+
+
+@serves(ops.SET_CTRL_STATE)
+def set_ctrl_state(office: "Office", asked: Asked) -> None:
+    """Motors on or off."""
+    on = asked.field("ctrl-state", ("motoron", "motoroff")) == "motoron"
+    controller = office.controller
+    if on and controller.mode != "auto":
+        raise Denied(403, "E_MODE_REJECT", "motors on only in automatic mode", -2)
+    if on and controller.failed:
+        raise Denied(403, "E_SYSFAIL_REJECT", "system failure", -2)
+    controller.set_motors(on)
+    if controller.motors_on != on:
+        raise Denied(403, "E_REJECT", "motors on refused", -2)
+
+
+@serves(ops.OPMODE)
+def get_opmode(office: "Office", asked: Asked) -> Served:
+    """The operating mode."""
+    return show(Item("pnl-opmode", "opmode", {"opmode": opmode(office.controller)}))
+
+
+@serves(ops.SET_OPMODE)
+def set_opmode(office: "Office", asked: Asked) -> None:
+    """The key of a virtual controller; a real one's cannot be turned from afar."""
+    words = ("auto", "man", "manfs" if asked.is_one else "manf")
+    office.controller.set_mode(_MODES[asked.field("opmode", words)])
+
+
+@serves(ops.SPEED)
+def get_speed(office: "Office", asked: Asked) -> Served:
+    """The override."""
+    return show(Item("pnl-speedratio", "speedratio", {"speedratio": str(speed(office.controller))}))
+
+
+@serves(ops.SET_SPEED)
+def set_speed(office: "Office", asked: Asked) -> None:
+    """The override in percent, in automatic mode."""
+    text = asked.field("speed-ratio")
+    if not text.isdecimal() or not 0 <= int(text) <= 100:
+        raise Denied(400, "E_INVALIDARG", f"speed-ratio {text}")
+    if office.controller.mode != "auto":
+        raise Denied(403, "E_MODE_REJECT", "only in automatic mode", -2)
+    if not asked.is_one:
+        office.masters.need(asked, "rapid")
+    for group in office.controller.motion.groups.values():
+        group.override = int(text) / 100
+    office.controller.operation.changed.notify()
+
+
+@serves(ops.COLLISION)
+def get_collision(office: "Office", asked: Asked) -> Served:
+    """Collision detection; RobotWare 6 writes the class with a blank behind it."""
+    name = asked.kind("coldetstate ", "coldetstate")
+    return show(Item("pnl-coldetstate", "coldetstate", {name: "INIT"}))

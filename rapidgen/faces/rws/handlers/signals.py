@@ -1,0 +1,141 @@
+"""Signals: read, set, looked for. Their access level says who may set them."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.paging import page
+from rapidgen.faces.rws.routing import serves
+from rapidgen.machine.io import Signal
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.faces.rws.office import Office
+
+_WRITABLE = ("all",)
+"""Access levels that let a remote client write: `Default` is RAPID and local manual [VC 6.16]."""
+
+
+def value_of(signal: Signal) -> str:
+    """A signal's value as text."""
+    return f"{signal.value:g}" if signal.spec.type[0] == "A" else str(int(signal.value))
+
+
+def title_of(signal: Signal) -> str:
+    """Network, device and name, or the name of a signal without a device."""
+    device = signal.spec.device
+    return f"{network_of(device)}/{device}/{signal.name}" if device else signal.name
+
+
+def network_of(device: str) -> str:
+    """Networks are not modelled: DRV_1 and PANEL are Local, the rest stands on one of its own."""
+    return "Local" if device.upper().startswith(("DRV_", "PANEL")) else "Virtual1"
+
+
+def find(office: "Office", path: str) -> Signal:
+    """The signal at the end of a path. Denied: there is none, or not on that device."""
+    parts = path.split("/")
+    signal = office.controller.io.get(parts[-1])
+    if signal is None or len(parts) not in (1, 3):
+        raise Denied(404, "E_UNRESOLVED_URL", f"no signal {path}")
+    device = signal.spec.device
+    if len(parts) == 3 and device and parts[1].lower() != device.lower():
+        raise Denied(404, "E_UNRESOLVED_URL", f"no signal {path}")
+    return signal
+
+
+def item(signal: Signal, kind: str, asked: Asked) -> Item:
+    """A signal as an item."""
+    told = {
+        "name": signal.name,
+        "type": signal.spec.type,
+        "category": "",
+        "lvalue": value_of(signal),
+        "lstate": "not simulated",
+    }
+    if not asked.is_one:
+        told["write-access"] = (
+            "Rapid|LocalManual|LocalAuto|RemoteAuto"
+            if _is_writable(signal)
+            else "Rapid|LocalManual"
+        )
+    return Item(kind, title_of(signal), told)
+
+
+def _is_writable(signal: Signal) -> bool:
+    return signal.spec.access.lower() in _WRITABLE
+
+
+@serves(ops.SIGNALS)
+def get_signals(office: "Office", asked: Asked) -> Served:
+    """All signals: whole in RWS 1.0, by the hundred in 2.0 [VC 7.21]."""
+    found = office.controller.io.signals.values()
+    return page(asked, [item(s, "ios-signal-li", asked) for s in found], 100, "signals")
+
+
+@serves(ops.SIGNAL)
+def get_signal(office: "Office", asked: Asked) -> Served:
+    """One signal."""
+    signal = find(office, asked.names["signal"])
+    return show(item(signal, asked.kind("ios-signal", "ios-signal-li"), asked))
+
+
+@serves(ops.SET_SIGNAL)
+def set_signal(office: "Office", asked: Asked) -> None:
+    """Set a signal, or pulse or invert it."""
+    signal = find(office, asked.names["signal"])
+    mode = asked.form.get("mode", "value")
+    if office.strict and not _is_writable(signal):
+        raise Denied(403, "E_REJECT", f"access level of {signal.name}", -2)
+    io = office.controller.io
+    try:
+        if mode in ("invert", "toggle"):
+            io.set(signal, 1 - signal.value)
+        elif mode == "pulse":
+            io.pulse(signal, float(asked.form.get("ActivePulse", "200")) / 1000)
+        elif mode in ("value", "delay"):
+            delay = float(asked.form.get("Delay", "0")) / 1000 if mode == "delay" else 0.0
+            io.set(signal, float(asked.field("lvalue")), delay=delay)
+        else:
+            raise Denied(400, "E_INVALIDARG", f"mode {mode}")
+    except ValueError as error:
+        raise Denied(400, "E_INVALIDARG", str(error)) from error
+
+
+@serves(ops.SEARCH_SIGNALS)
+def search(office: "Office", asked: Asked) -> Served:
+    """Signals whose name holds a text, of a type, of a device [VC 7.21]."""
+    name, kind, device = (asked.form.get(k, "").lower() for k in ("name", "type", "device"))
+    found = [
+        item(s, "ios-signal-li", asked)
+        for s in office.controller.io.signals.values()
+        if name in s.name.lower()
+        and kind in ("", s.spec.type.lower())
+        and device in ("", s.spec.device.lower())
+    ]
+    return page(asked, found, 100, "signals")
+
+
+@serves(ops.NETWORKS)
+def get_networks(office: "Office", asked: Asked) -> Served:
+    """Networks that signals stand on."""
+    names = dict.fromkeys(map(network_of, _devices(office)))
+    state = {"pstate": "running", "lstate": "started"}
+    return show(*(Item("ios-network-li", n, {"name": n, **state}) for n in names), collection=True)
+
+
+@serves(ops.DEVICES)
+def get_devices(office: "Office", asked: Asked) -> Served:
+    """Devices that signals stand on."""
+    state = {"lstate": "enabled", "pstate": "running", "address": "-"}
+    found = [
+        Item("ios-device-li", f"{network_of(d)}/{d}", {"name": d, **state})
+        for d in _devices(office)
+        if asked.query.get("network", network_of(d)) == network_of(d)
+    ]
+    return show(*found, collection=True)
+
+
+def _devices(office: "Office") -> list[str]:
+    found = (s.spec.device for s in office.controller.io.signals.values())
+    return [device for device in dict.fromkeys(found) if device]

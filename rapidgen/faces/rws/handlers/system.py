@@ -1,0 +1,146 @@
+"""The controller itself: identity, system, clock, variables, restart, jobs."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.controller.backing_up import back_up
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.disks import disk_path
+from rapidgen.faces.rws.routing import serves
+from rapidgen.machine.calendar import date_time
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Generation, Item
+
+if TYPE_CHECKING:
+    from rapidgen.faces.rws.office import Office
+
+_VARIABLES = {"$HOME": "HOME", "$TEMP": "TEMP", "$RAMDISK": "RAMDISK", "$BACKUP": "BACKUP"}
+_MODES = ("restart", "istart", "pstart", "bstart")
+
+
+def version(office: "Office") -> tuple[int, int]:
+    """RobotWare's release, of the generation that is spoken."""
+    major, minor = office.controller.system.robotware
+    least = {Generation.ONE: 6, Generation.TWO: 7, Generation.EIGHT: 8}[office.generation]
+    return (major, minor) if major == least else (least, 0)
+
+
+@serves(ops.CONTROLLER, ops.IDENTITY)
+def identity(office: "Office", asked: Asked) -> Served:
+    """Who this controller is; it says that it is a virtual one."""
+    told = {
+        "ctrl-name": office.controller.system.name,
+        "ctrl-id": office.cabinet.id,
+        "ctrl-type": "Virtual Controller",
+        "ctrl-mac": "",
+    }
+    return show(Item("ctrl-identity-info", "identity", told))
+
+
+@serves(ops.SYSTEM)
+def get_system(office: "Office", asked: Asked) -> Served:
+    """Name and RobotWare."""
+    (major, minor), name = version(office), office.controller.system.name
+    if asked.is_one:
+        told = {
+            "name": name,
+            "rwversion": f"{major}.{minor:02}.0.0",
+            "sysid": office.cabinet.id,
+            "starttm": "",
+            "rwversionname": f"{major}.{minor:02}.00.00",
+        }
+        return show(Item("sys-system-li", "system", told), *_options("sys-option-li"))
+    told = {
+        "major": str(major),
+        "minor": str(minor),
+        "build": "0",
+        "name": name,
+        "rwversion": f"{major}.{minor}.0+0",
+        "rwversionname": f"{major}.{minor}.0",
+        "sysid": office.cabinet.id,
+    }
+    return show(Item("sys-system", "system", told))
+
+
+def _options(kind: str) -> list[Item]:
+    return [Item(kind, str(i), {"option": "616-1 PC Interface"}) for i in (1,)]
+
+
+@serves(ops.OPTIONS)
+def get_options(office: "Office", asked: Asked) -> Served:
+    """What is installed."""
+    return show(*_options("sys-option"), collection=True)
+
+
+@serves(ops.PRODUCTS)
+def get_products(office: "Office", asked: Asked) -> Served:
+    """Products: RobotWare alone."""
+    major, minor = version(office)
+    told = {"version": f"{major}.{minor}", "version-name": f"{major}.{minor}.0"}
+    return show(Item("sys-product-li", "RobotWare", told), collection=True)
+
+
+@serves(ops.ROBOT_TYPE)
+def get_robot_type(office: "Office", asked: Asked) -> Served:
+    """The robot's type, where a backup tells it."""
+    types = office.controller.system.robot_types
+    return show(Item("sys-robottype", "robottype", {"robot-type": types[0][1] if types else ""}))
+
+
+@serves(ops.CLOCK)
+def get_clock(office: "Office", asked: Asked) -> Served:
+    """Date and time."""
+    now = date_time(office.controller.scheduler)
+    told = {"datetime": now.strftime("%Y-%m-%d T %H:%M:%S")}
+    return show(Item("ctrl-clock-info", "clock", told))
+
+
+@serves(ops.VARIABLE)
+def get_variable(office: "Office", asked: Asked) -> Served:
+    """Where a variable points to: here to the volume of that name."""
+    name = asked.names["variable"]
+    folder = _VARIABLES.get(name.upper())
+    if folder is None:
+        raise Denied(404, "E_UNRESOLVED_URL", name)
+    return show(Item("ctrl-env", name, {"_value": folder, "value": folder}))
+
+
+@serves(ops.RESTART, ops.RESTART_AT_CTRL)
+def restart(office: "Office", asked: Asked) -> None:
+    """A warm start: everybody is logged out. Other kinds are not offered here."""
+    office.masters.need(asked, "cfg")
+    mode = asked.field("restart-mode", (*_MODES, "xstart", "shutdown"))
+    if mode != "restart":
+        raise Denied(403, "E_REJECT", f"{mode}: only warm starts here", -2)
+    office.cabinet.ask_restart()
+
+
+@serves(ops.PROGRESS)
+def get_progress(office: "Office", asked: Asked) -> Served:
+    """How far a job is: all are done at once here."""
+    code = office.progress.get(asked.names["id"])
+    if code is None:
+        raise Denied(404, "E_UNRESOLVED_URL", asked.path)
+    return show(Item("progress", asked.names["id"], {"state": "ready", "code": str(code)}))
+
+
+@serves(ops.BACKUP)
+def back_up_now(office: "Office", asked: Asked) -> Served:
+    """A backup into a new folder: done when it is answered."""
+    words = asked.field("backup")
+    if not words.startswith("/fileservice/"):
+        raise Denied(400, "E_INVALID_PATH", f"{words}: /fileservice/... is wanted")
+    path, cabinet = disk_path(office, words, asked), office.cabinet
+    if path.exists():
+        raise Denied(400, "E_DIR_EXIST", words)
+    try:
+        back_up(cabinet.controller, cabinet.programs, cabinet.cfg, path)
+    except OSError as error:
+        raise Denied(400, "E_DIR_NOT_EXIST", words) from error
+    office.controller.log.info(10_230, "Backup finished", words)
+    return office.started("")
+
+
+@serves(ops.BACKUP_STATE)
+def backup_state(office: "Office", asked: Asked) -> Served:
+    """Whether a backup is under way: never, here."""
+    return show(Item("ctrl-backup", "state", {"state": "0", "backup-state": "idle"}))

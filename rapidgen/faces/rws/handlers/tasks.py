@@ -1,0 +1,240 @@
+"""Tasks, their modules and program pointers."""
+
+from typing import TYPE_CHECKING
+
+from rapidgen.controller.programs import CannotLoad
+from rapidgen.faces.rws.asking import Asked, Denied, Served, show
+from rapidgen.faces.rws.disks import disk_path
+from rapidgen.faces.rws.routing import serves
+from rapidgen.runtime.loading import module_text
+from rapidgen.runtime.task.pointer import CannotStep
+from rapidgen.runtime.task.task import Task
+from rapidgen.wire.rws import operations as ops
+from rapidgen.wire.rws.bodies import Item
+
+if TYPE_CHECKING:
+    from rapidgen.faces.rws.office import Office
+
+_EXECUTION = {
+    "running": "started", "stopped": "stopped", "error": "stopped", "finished": "stopped",
+    "ready": "ready", "empty": "uninitialized",
+}  # fmt: skip
+# RobotWare 6 answers by other statuses than 7 [VC 6.16, VC 7.21].
+_STATUS = {
+    "E_EXEC_STATE": (400, 403), "E_NO_SUCH_SYMBOL": (400, 404), "E_FILE_NOT_FOUND": (400, 404),
+    "E_MOD_AMBNAME": (400, 400), "E_MOD_WRITE_PROTECTED": (403, 403),
+    "E_TOO_BIG_MODULE": (400, 400),
+}  # fmt: skip
+
+
+def find_task(office: "Office", name: str, asked: Asked) -> Task:
+    """A task by name. Denied: there is none (400 on RobotWare 6, 404 on 7)."""
+    for task in office.controller.rapid_tasks.values():
+        if task.name.lower() == name.lower():
+            return task
+    raise Denied(400 if asked.is_one else 404, "E_INVALIDARG", f"no task {name}")
+
+
+def execution_state(task: Task, asked: Asked) -> str:
+    """A task's execution state; RobotWare 6 cuts the words to four letters [code: librws]."""
+    word = _EXECUTION[task.state]
+    return word[:4] if asked.is_one else word
+
+
+def _item(office: "Office", task: Task, kind: str, asked: Asked) -> Item:
+    kind_of_task = task.spec.type.lower()
+    modules = office.cabinet.programs.modules(task)
+    state = "linked" if task.state != "empty" else "loaded" if modules else "empty"
+    told = {
+        "name": task.name,
+        "type": kind_of_task[:4] if asked.is_one else kind_of_task,
+        "taskstate": state,
+        "excstate": execution_state(task, asked),
+    }
+    if task.spec.type == "NORMAL":
+        told["active"] = "On"
+        told["motiontask"] = "TRUE" if task.spec.motion else "FALSE"
+    if kind == "rap-task":
+        told |= {"trust": task.spec.trust, "prodentrypt": task.spec.entry}
+    return Item(kind, task.name, told, {"self": f"tasks/{task.name}"})
+
+
+@serves(ops.TASKS)
+def get_tasks(office: "Office", asked: Asked) -> Served:
+    """All tasks."""
+    tasks = office.controller.rapid_tasks.values()
+    return show(*(_item(office, t, "rap-task-li", asked) for t in tasks), collection=True)
+
+
+@serves(ops.TASK)
+def get_task(office: "Office", asked: Asked) -> Served:
+    """One task."""
+    return show(_item(office, find_task(office, asked.names["task"], asked), "rap-task", asked))
+
+
+@serves(ops.ACTIVATE, ops.DEACTIVATE)
+def activate(office: "Office", asked: Asked) -> None:
+    """The task selection panel: here all tasks are selected, and none can be left out."""
+    find_task(office, asked.names.get("task") or asked.field("task"), asked)
+    if "deactivate" in (asked.query.get("action"), asked.path.rpartition("/")[2]):
+        raise Denied(403, "E_REJECT", "a task cannot be left out here", -2)
+
+
+# -- modules -------------------------------------------------------------------------------------
+
+
+def _task_asked(office: "Office", asked: Asked) -> Task:
+    name = asked.names.get("task") or asked.query.get("task", "")
+    return find_task(office, name, asked)
+
+
+@serves(ops.MODULES)
+def get_modules(office: "Office", asked: Asked) -> Served:
+    """Modules of a task; they stand in `state` in HAL, though they are many [VC 7.21]."""
+    found = office.cabinet.programs.modules(_task_asked(office, asked))
+    return show(
+        *(
+            Item(
+                "rap-module-info-li",
+                module.name,
+                {"name": module.name, "type": "SysMod" if module.is_system else "ProgMod"},
+            )
+            for module in found
+        )
+    )
+
+
+@serves(ops.MODULE)
+def get_module(office: "Office", asked: Asked) -> Served:
+    """One module: its file; in RWS 1.0 with `resource=module-text` its text."""
+    task, name = _task_asked(office, asked), asked.names["module"]
+    found = [m for m in office.cabinet.programs.modules(task) if m.name.lower() == name.lower()]
+    if not found:
+        raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
+    if asked.query.get("resource") == "module-text":
+        return _text(office, asked, task, name)
+    file = found[0].file
+    told = {"modname": found[0].name, "filename": file.target or file.path, "attribute": ""}
+    return show(Item("rap-module", found[0].name, told))
+
+
+@serves(ops.MODULE_TEXT)
+def get_text(office: "Office", asked: Asked) -> Served:
+    """The source of a module."""
+    return _text(office, asked, _task_asked(office, asked), asked.names["module"])
+
+
+def _text(office: "Office", asked: Asked, task: Task, name: str) -> Served:
+    text = office.cabinet.programs.text(task, name)
+    if text is None:
+        raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
+    kind = "rap-module-text"
+    return show(Item(kind, name, {"change-count": "0", "module-text": text}))
+
+
+@serves(ops.LOAD_MODULE)
+def load_module(office: "Office", asked: Asked) -> Served | None:
+    """Load a module; what is wrong in it is told by `builderror`, not here [VC 7.21]."""
+    office.masters.need(asked, "rapid")
+    task = find_task(office, asked.names["task"], asked)
+    words = asked.field("modulepath")
+    replaced = asked.form.get("replace", "false").lower() == "true"
+    path = disk_path(office, words, asked)
+    try:
+        name = office.cabinet.programs.load(task, path, words, replaced=replaced)
+    except CannotLoad as fault:
+        raise _refused(asked, fault, words) from fault
+    if asked.is_one:
+        return None
+    return show(Item("rap-task-module-li", name, {"name": name}))
+
+
+@serves(ops.UNLOAD_MODULE)
+def unload_module(office: "Office", asked: Asked) -> None:
+    """Take a module out of a task."""
+    office.masters.need(asked, "rapid")
+    task = find_task(office, asked.names["task"], asked)
+    name = asked.field("module")
+    try:
+        office.cabinet.programs.unload(task, name)
+    except CannotLoad as fault:
+        raise _refused(asked, fault, name) from fault
+
+
+def _refused(asked: Asked, fault: CannotLoad, what: str) -> Denied:
+    name = str(fault)
+    return Denied(_STATUS[name][0 if asked.is_one else 1], name, what, -507)
+
+
+@serves(ops.SAVE_MODULE)
+def save_module(office: "Office", asked: Asked) -> None:
+    """Write a module with the present values of its persistents; an ending is put behind."""
+    task, name = _task_asked(office, asked), asked.names["module"]
+    module = task.program.modules.get(name.lower())
+    if module is None:
+        raise Denied(400 if asked.is_one else 404, "E_NO_SUCH_SYMBOL", f"no module {name}", -517)
+    folder = asked.field("path")
+    if not asked.is_one and not folder.endswith(":"):
+        raise Denied(400, "E_INVALID_PATH", folder)  # the root of a volume only [VC 7.21]
+    ending = ".mod" if asked.is_one else ".modx"
+    path = disk_path(office, f"{folder.rstrip('/')}/{asked.field('name')}{ending}", asked)
+    text = module_text(task, module)
+    office.write_file(path, text.encode(module.tree.source.encoding, "replace"))
+
+
+@serves(ops.PROGRAM)
+def get_program(office: "Office", asked: Asked) -> Served | None:
+    """The program of a task; nothing where there is none."""
+    task = find_task(office, asked.names["task"], asked)
+    if not office.cabinet.programs.modules(task):
+        return None
+    return show(Item("rap-program", "program", {"name": "", "entrypoint": task.spec.entry}))
+
+
+@serves(ops.BUILD_ERRORS)
+def get_build_errors(office: "Office", asked: Asked) -> Served:
+    """What is wrong with the program of a task."""
+    task = find_task(office, asked.names["task"], asked)
+    names = {m.file.path: m.name for m in office.cabinet.programs.modules(task)}
+    found = []
+    for fault in office.cabinet.programs.faults(task):
+        span = fault.span
+        told = {
+            "ModuleName": names.get(span.path, "") if span else "",
+            "row": str(span.line if span else 0),
+            "column": str(span.column if span else 0),
+            "error": fault.message,
+        }
+        found.append(Item("rap-builderrs", "builderror", told))
+    return show(*found)
+
+
+@serves(ops.POINTER)
+def get_pointer(office: "Office", asked: Asked) -> Served:
+    """Program pointer of a task."""
+    task = find_task(office, asked.names["task"], asked)
+    stack = task.stack()
+    place = task.pointer.stands_before() or (stack[-1] if stack else None)
+    if place is None:
+        return show(Item("pcp-info", "progpointer", {"modulemame": "", "routinename": ""}))
+    at = f"{place.span.line},{place.span.column}"
+    told = {
+        "beginposition": at,
+        "endposition": at,
+        "modulemame": place.module,
+        "routinename": place.routine,
+        "changecount": "0",
+        "executiontype": "normal",
+    }
+    return show(Item("pcp-info", "progpointer", told))
+
+
+@serves(ops.POINTER_TO_ROUTINE)
+def pointer_to_routine(office: "Office", asked: Asked) -> None:
+    """Program pointer of one task to a routine."""
+    office.masters.need(asked, "rapid")
+    task = find_task(office, asked.names["task"], asked)
+    try:
+        office.controller.tasks[task.name].pp_to_routine(asked.field("routine"))
+    except CannotStep as error:
+        raise Denied(400, "E_ILLEGAL_ENTRYPOINT", str(error)) from error

@@ -1,0 +1,64 @@
+"""Which handler serves which operation: `@serves(...)` puts it into the one table."""
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from typing import TYPE_CHECKING
+
+from rapidgen.faces.rws.asking import Asked, Served
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.operations import Route, RwsOperation
+
+if TYPE_CHECKING:
+    from rapidgen.faces.rws.office import Office
+
+Handler = Callable[["Office", Asked], Served | None]
+_TABLE: list[tuple[RwsOperation, Handler]] = []
+
+
+def serves(*operations: RwsOperation) -> Callable[[Handler], Handler]:
+    """The decorated function carries these operations out."""
+
+    def put(handler: Handler) -> Handler:
+        _TABLE.extend((operation, handler) for operation in operations)
+        return handler
+
+    return put
+
+
+@dataclass(frozen=True, slots=True)
+class _Row:
+    pattern: re.Pattern[str]
+    route: Route
+    handler: Handler
+
+
+@dataclass(frozen=True, slots=True)
+class Lookup:
+    """What a path leads to: a handler, or the methods that there would be."""
+
+    handler: Handler | None
+    names: Mapping[str, str]
+    allowed: tuple[str, ...] = ()
+
+
+@cache
+def _rows(generation: Generation) -> tuple[_Row, ...]:
+    routes = [(operation.route(generation), handler) for operation, handler in _TABLE]
+    rows = [_Row(r.pattern, r, handler) for r, handler in routes if r is not None]
+    # What names more of its path goes first: `/ctrl/identity` before `/ctrl/{variable}`.
+    return tuple(sorted(rows, key=lambda row: (row.route.path.count("{"), "*" in row.route.path)))
+
+
+def find(generation: Generation, method: str, path: str, action: str) -> Lookup:
+    """The handler of a request. With none, `allowed` empty is 404, else 405."""
+    allowed: list[str] = []
+    for row in _rows(generation):
+        match = row.pattern.fullmatch(path)
+        if match is None:
+            continue
+        if row.route.method == method and row.route.action == action:
+            return Lookup(row.handler, match.groupdict())
+        allowed.append(row.route.method)
+    return Lookup(None, {}, tuple(dict.fromkeys(allowed)))

@@ -1,0 +1,227 @@
+"""The face on a port: aiohttp takes requests, the desk answers them on the controller's thread.
+
+RWS 1.0 is plain HTTP, 2.0 is HTTPS with a certificate that the controller signed itself.
+"""
+
+import asyncio
+import threading
+from collections.abc import Callable
+from itertools import count
+
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from rapidgen.controller.cabinet import Cabinet
+from rapidgen.faces.rws.asking import Denied, HttpReply, Received
+from rapidgen.faces.rws.certificate import Certificate, self_signed
+from rapidgen.faces.rws.desk import Desk
+from rapidgen.faces.rws.office import Accounts
+from rapidgen.faces.service import Service, in_use, loopback
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.events import PROTOCOLS
+
+KNOWN = "robotics"
+"""The password that controllers are delivered with."""
+LARGEST_BODY = 64 * 1024 * 1024
+_RESTARTING = HttpReply(503, (("Retry-After", "1"),))
+_UNREAD = 1000
+"""Events that may wait for a client that does not read."""
+
+
+def serve_rws(
+    cabinet: Cabinet,
+    generation: Generation,
+    host: str = "127.0.0.1",
+    port: int = 0,
+    accounts: Accounts | None = None,
+    *,
+    strict: bool = True,
+) -> Service:
+    """Serve Robot Web Services of a cabinet in a thread.
+
+    Without accounts they are ABB's own, which everybody knows: on loopback only. `host_key` of the
+    handle is the certificate's fingerprint. Raises DiagnosticError RG560 (not loopback), RG561.
+    """
+    if accounts is None or KNOWN in accounts.users.values():
+        host = loopback(host)
+    accounts = accounts or Accounts({"Default User": KNOWN, "Admin": KNOWN})
+    certificate = None if generation is Generation.ONE else self_signed(host)
+    server = _Server(Desk(cabinet, generation, accounts, strict=strict), certificate)
+    server.start(host, port)
+    user, password = next(iter(accounts.users.items()))
+    fingerprint = certificate.fingerprint if certificate else ""
+    return Service(host, server.port, user, password, fingerprint, server.stop)
+
+
+class _Server:
+    """One port, and the thread with its loop."""
+
+    def __init__(self, desk: Desk, certificate: Certificate | None) -> None:
+        self._desk = desk
+        self._certificate = certificate
+        self._loop = asyncio.new_event_loop()
+        self._connections = count(1)
+        self._numbers: dict[asyncio.BaseTransport, int] = {}
+        self._pending: set[asyncio.Future[HttpReply]] = set()
+        self._runner = web.AppRunner(self._app(), access_log=None, shutdown_timeout=0.05)
+        self._thread: threading.Thread | None = None
+        self.port = 0
+        desk.office.cabinet.on_restart.append(self._restarting)
+
+    def _app(self) -> web.Application:
+        app = web.Application(client_max_size=LARGEST_BODY)
+        app.router.add_get("/poll/{number}", self._poll)
+        app.router.add_route("*", "/{path:.*}", self._request)
+        return app
+
+    # -- the thread ------------------------------------------------------------------------------
+
+    def start(self, host: str, port: int) -> None:
+        """Open the port. Raises DiagnosticError RG561."""
+        try:
+            self._loop.run_until_complete(self._open(host, port))
+        except OSError as error:
+            self._loop.run_until_complete(self._runner.cleanup())
+            self._loop.close()
+            raise in_use(host, port, error) from error
+        self._thread = threading.Thread(
+            target=self._loop.run_forever, name=f"rws:{self.port}", daemon=True
+        )
+        self._thread.start()
+
+    async def _open(self, host: str, port: int) -> None:
+        await self._runner.setup()
+        context = self._certificate.context() if self._certificate else None
+        site = web.TCPSite(self._runner, host, port, ssl_context=context)
+        await site.start()
+        self.port = self._runner.addresses[0][1]
+
+    def stop(self) -> None:
+        """Close the port and every connection; a second call does nothing."""
+        thread, self._thread = self._thread, None
+        if thread is None:
+            return
+        asyncio.run_coroutine_threadsafe(self._close(), self._loop).result()
+        self._loop.call_soon_threadsafe(self._loop.stop)
+        thread.join()
+        self._loop.close()
+
+    async def _close(self) -> None:
+        self._give_up()
+        await self._runner.cleanup()
+
+    def _restarting(self) -> None:
+        self._loop.call_soon_threadsafe(self._give_up)
+
+    def _give_up(self) -> None:
+        """Nobody will answer what was asked: the controller restarts."""
+        for future in tuple(self._pending):
+            if not future.done():
+                future.set_result(_RESTARTING)
+
+    # -- requests --------------------------------------------------------------------------------
+
+    async def _request(self, request: web.Request) -> web.Response:
+        try:
+            body = await request.read()
+        except web.HTTPRequestEntityTooLarge:
+            return web.Response(status=413)
+        got = self._received(request, body)
+        reply = await self._on_controller(lambda: self._desk.handle(got))
+        return _response(reply)
+
+    def _received(self, request: web.Request, body: bytes = b"") -> Received:
+        transport = request.transport
+        number = 0
+        if transport is not None:
+            number = self._numbers.get(transport, 0) or next(self._connections)
+            self._numbers[transport] = number
+            for gone in [t for t in self._numbers if t.is_closing()]:
+                del self._numbers[gone]
+        headers = {name.lower(): value for name, value in request.headers.items()}
+        return Received(request.method, request.raw_path, headers, body, number)
+
+    async def _on_controller(self, function: Callable[[], HttpReply]) -> HttpReply:
+        """The outcome of a function on the controller's thread; 503 while it restarts."""
+        future: asyncio.Future[HttpReply] = self._loop.create_future()
+
+        def settle(reply: HttpReply) -> None:
+            if not future.done():
+                future.set_result(reply)
+
+        def run() -> None:
+            reply = HttpReply(500)
+            try:
+                reply = function()
+            finally:
+                self._loop.call_soon_threadsafe(settle, reply)
+
+        self._pending.add(future)
+        try:
+            if not self._desk.office.cabinet.post(run):
+                return _RESTARTING
+            return await future
+        finally:
+            self._pending.discard(future)
+
+    # -- websockets ------------------------------------------------------------------------------
+
+    async def _poll(self, request: web.Request) -> web.StreamResponse:
+        number = request.match_info["number"]
+        got = self._received(request)
+        protocol = PROTOCOLS[self._desk.generation]
+        asked = [p.strip() for p in got.headers.get("sec-websocket-protocol", "").split(",")]
+        if got.headers.get("upgrade", "").lower() != "websocket" or protocol not in asked:
+            return web.Response(status=400)
+        events: asyncio.Queue[bytes | None] = asyncio.Queue()
+
+        def send(event: bytes | None) -> None:
+            self._loop.call_soon_threadsafe(events.put_nowait, event)
+
+        def listen() -> HttpReply:
+            session = self._desk.session_of(got)
+            if session is None:
+                return HttpReply(403)
+            try:
+                group = self._desk.groups.find(number, session)
+                self._desk.groups.listen(group, send, lambda: send(None))
+            except Denied as refused:
+                return HttpReply(refused.status)
+            return HttpReply(101)
+
+        reply = await self._on_controller(listen)
+        if reply.status != 101:
+            return _response(reply)
+        socket = web.WebSocketResponse(
+            protocols=(protocol,), autoping=self._desk.is_one, autoclose=True, max_msg_size=4096
+        )
+        await socket.prepare(request)
+        sender = asyncio.ensure_future(self._send(socket, events))
+        try:
+            await self._hear(socket)
+        finally:
+            sender.cancel()
+            self._desk.office.cabinet.post(lambda: self._desk.groups.leave(number))
+        return socket
+
+    async def _send(
+        self, socket: web.WebSocketResponse, events: "asyncio.Queue[bytes | None]"
+    ) -> None:
+        while (event := await events.get()) is not None:
+            if events.qsize() > _UNREAD:
+                break
+            await socket.send_str(event.decode())
+        await socket.close(code=WSCloseCode.GOING_AWAY)
+
+    async def _hear(self, socket: web.WebSocketResponse) -> None:
+        """RWS 2.0: a client that sends anything is cut off, pings are not answered [VC 7.21]."""
+        async for message in socket:
+            if message.type in (WSMsgType.TEXT, WSMsgType.BINARY) and not self._desk.is_one:
+                await socket.close(code=WSCloseCode.POLICY_VIOLATION)
+                return
+
+
+def _response(reply: HttpReply) -> web.Response:
+    response = web.Response(status=reply.status, body=reply.body or None)
+    for name, value in reply.headers:
+        response.headers.add(name, value)
+    return response

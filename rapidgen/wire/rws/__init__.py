@@ -1,0 +1,1 @@
+"""Robot Web Services as data: operations, bodies, forms, codes, events. No I/O."""

@@ -1,0 +1,97 @@
+"""Subscriptions on the wire: what is asked for, what the answer says, and events."""
+
+import re
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+from html import escape
+
+from rapidgen.wire.rws import xhtml
+from rapidgen.wire.rws.bodies import Body, Generation, Item
+
+PROTOCOLS = {
+    Generation.ONE: "robapi2_subscription",
+    Generation.TWO: "rws_subscription",
+    Generation.EIGHT: "rws_subscription",
+}
+"""Names of the websocket's sub-protocol."""
+
+_TWINS = {"rap-value-ev": ("rap-data",)}
+"""An event of a persistent comes with the datum [code: abb_robot_client]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Wanted:
+    """A resource and its priority: 0 each 5 s, 1 each 200 ms, 2 at once."""
+
+    resource: str
+    priority: int = 1
+
+
+def write_wanted(wanted: Sequence[Wanted]) -> list[tuple[str, str]]:
+    """The form that asks for a subscription."""
+    fields: list[tuple[str, str]] = []
+    for i, one in enumerate(wanted, 1):
+        fields += [("resources", str(i)), (str(i), one.resource), (f"{i}-p", str(one.priority))]
+    return fields
+
+
+def read_wanted(pairs: Iterable[tuple[str, str]]) -> list[Wanted]:
+    """What a form asks for. Indices may begin at 0, `resources` may come once for all.
+
+    ValueError: nothing is asked for, or at no priority.
+    """
+    found = dict(pairs)
+    numbers = sorted(int(key) for key in found if key.isdecimal())
+    wanted = []
+    for number in numbers:
+        priority = found.get(f"{number}-p", "1")
+        if priority not in ("0", "1", "2"):
+            raise ValueError(f"priority {priority}")
+        wanted.append(Wanted(found[str(number)], int(priority)))
+    if not wanted:
+        raise ValueError("no resources")
+    return wanted
+
+
+def write_opened(number: int, poll: str, items: Iterable[Item]) -> bytes:
+    """The body of 201: the group, the websocket's address, what everything is now.
+
+    The address stands in an open and a close tag, which a client's regular expression wants.
+    """
+    inside = "".join(_event(item) for item in items)
+    return (
+        '<?xml version="1.0" encoding="utf-8"?><html xmlns="http://www.w3.org/1999/xhtml"><head>'
+        '<title>Event</title></head><body><div class="state">'
+        f'<a href="subscription/{number}" rel="group"/><a href="{escape(poll)}" rel="self"></a>'
+        f"<ul>{inside}</ul></div></body></html>"
+    ).encode()
+
+
+def write_events(items: Iterable[Item]) -> bytes:
+    """An event as it comes over the websocket: one line."""
+    inside = "".join(_event(item) for item in items)
+    return (
+        '<?xml version="1.0" encoding="utf-8"?><html xmlns="http://www.w3.org/1999/xhtml"><head>'
+        f'<title>Event</title></head><body><div class="state"><ul>{inside}</ul></div></body></html>'
+    ).encode()
+
+
+def _event(item: Item) -> str:
+    kinds = (item.kind, *_TWINS.get(item.kind, ()))
+    return "".join(xhtml.write_item(replace(item, kind=kind)) for kind in kinds)
+
+
+def read_events(data: bytes) -> tuple[Item, ...]:
+    """Events of a message. Unreadable: it is none."""
+    return xhtml.read(data).items
+
+
+def read_opened(body: Body, location: str) -> tuple[str, str]:
+    """(group, path of the websocket) of a 201; ValueError: it tells neither.
+
+    Only paths are taken: a controller's idea of its own address is not followed.
+    """
+    found = re.search(r"/poll/([\w-]{1,64})$", location or body.here)
+    if found is None:
+        raise ValueError("no subscription")
+    return found[1], found[0]

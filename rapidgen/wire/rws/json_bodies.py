@@ -1,0 +1,123 @@
+"""Bodies as JSON of RWS 1.0 and as HAL of RWS 2.0, both ways."""
+
+import json
+from collections.abc import Callable, Mapping
+
+from rapidgen.wire.rws.bodies import Body, Fault, Item, Unreadable
+from rapidgen.wire.rws.codes import OK
+from rapidgen.wire.rws.xhtml import LARGEST
+
+_WITHIN = {"elog-message": "argv", "elog-message-li": "argv", "sys-options": "sys-options-li"}
+"""Under which name items within an item stand; else `attrib` [mem]."""
+_Object = dict[str, object]
+
+
+def write_json(body: Body) -> bytes:
+    """A body as JSON of RWS 1.0: all items are in `_embedded._state`."""
+    embedded: _Object = {"_state": [_item(item) for item in body.items]}
+    if body.fault is not None:
+        embedded["status"] = {"code": body.fault.code, "msg": body.fault.message}
+    return json.dumps({"_links": _links(body), "_embedded": embedded}).encode()
+
+
+def write_hal(body: Body) -> bytes:
+    """A body as HAL: single things are in `state`, collections embedded as `resources`."""
+    links = _links(body)
+    if body.fault is not None:
+        status: _Object = {"code": body.fault.code, "msg": body.fault.message}
+        return json.dumps({"_links": {"base": links.get("base", {})}, "status": status}).encode()
+    whole: _Object = {"_links": links, "status": {"code": OK}}
+    items = [_item(item) for item in body.items]
+    if body.collection:
+        whole["_embedded"] = {"resources": items}
+    else:
+        whole["state"] = items
+    return json.dumps(whole).encode()
+
+
+def _links(body: Body) -> dict[str, object]:
+    links = {"base": body.base, "self": body.here, "next": body.next, **body.links}
+    # `&amp;` really stands in these texts [VC 7.21].
+    return {rel: {"href": to.replace("&", "&amp;")} for rel, to in links.items() if to}
+
+
+def _item(item: Item) -> _Object:
+    told: _Object = {}
+    if item.links:
+        told["_links"] = {rel: {"href": to} for rel, to in item.links.items()}
+    told |= {"_type": item.kind, "_title": item.title, **item.fields}
+    if item.within:
+        told[_WITHIN.get(item.kind, "attrib")] = [_item(one) for one in item.within]
+    return told
+
+
+def read(data: bytes) -> Body:
+    """A body from JSON of either generation. Unreadable: it is none."""
+    if len(data) > LARGEST:
+        raise Unreadable(f"{len(data)} bytes")
+    try:
+        whole = json.loads(data)
+    except (ValueError, RecursionError) as error:
+        raise Unreadable(f"no JSON: {error}") from error
+    if not isinstance(whole, dict):
+        raise Unreadable("no object")
+    embedded = _object(whole.get("_embedded"))
+    # Some resources of RWS 1.0 have their state at the top [VC 6.16].
+    lists = (whole.get("state"), embedded.get("_state"), embedded.get("resources"))
+    items = [_read_item(one, 0) for found in lists for one in _objects(found)]
+    links = _hrefs(whole.get("_links"))
+    base, here, following = (links.pop(rel, "") for rel in ("base", "self", "next"))
+    return Body(
+        tuple(items), "", base, here, following, links=links,
+        collection="resources" in embedded,
+        fault=_fault(whole.get("status") or embedded.get("status")),
+    )  # fmt: skip
+
+
+def _fault(status: object) -> Fault | None:
+    told = _object(status)
+    if not told:
+        return None
+    try:
+        code = int(str(told.get("code", "")))
+    except ValueError as error:
+        raise Unreadable("a refusal without a code") from error
+    return Fault(code, _text(told.get("msg", ""))) if code < 0 else None
+
+
+def _object(data: object) -> Mapping[str, object]:
+    return data if isinstance(data, dict) else {}
+
+
+def _objects(data: object) -> list[Mapping[str, object]]:
+    return [one for one in data if isinstance(one, dict)] if isinstance(data, list) else []
+
+
+def _hrefs(data: object) -> dict[str, str]:
+    return {
+        rel: _text(_object(link).get("href", "")).replace("&amp;", "&")
+        for rel, link in _object(data).items()
+    }
+
+
+def _read_item(data: Mapping[str, object], depth: int) -> Item:
+    if depth > 8:
+        raise Unreadable("items within items without end")
+    fields: dict[str, str] = {}
+    within: list[Item] = []
+    for name, value in data.items():
+        if isinstance(value, list):
+            within += [_read_item(one, depth + 1) for one in _objects(value)]
+        elif isinstance(value, str | int | float) and name not in ("_type", "_title"):
+            fields[name.strip()] = _text(value)
+    kind, title = _text(data.get("_type", "")), _text(data.get("_title", ""))
+    return Item(kind, title, fields, _hrefs(data.get("_links")), tuple(within))
+
+
+def _text(value: object) -> str:
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    return value if isinstance(value, str) else str(value)
+
+
+WRITERS: dict[str, Callable[[Body], bytes]] = {"json": write_json, "hal": write_hal}

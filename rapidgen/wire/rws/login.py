@@ -1,0 +1,74 @@
+"""How users prove who they are: HTTP's digest (RFC 7616 with MD5 and qop=auth), and Basic."""
+
+import base64
+import hashlib
+import hmac
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+REALM = "validusers@robapi.abb"
+_PART = re.compile(r'(\w+)=(?:"((?:[^"\\]|\\.)*)"|([^\s,"]+))')
+
+
+@dataclass(frozen=True, slots=True)
+class Digest:
+    """What a client sends."""
+
+    user: str
+    nonce: str
+    uri: str
+    nc: str
+    cnonce: str
+    response: str
+
+
+def challenge(nonce: str, *, stale: bool = False) -> str:
+    """WWW-Authenticate."""
+    again = ", stale=true" if stale else ""
+    return (
+        f'Digest realm="{REALM}", domain="/", nonce="{nonce}", qop="auth", algorithm="MD5"{again}'
+    )
+
+
+def parse(header: str) -> Digest | None:
+    """An Authorization header; None: it is no digest with qop=auth."""
+    scheme, _, rest = header.partition(" ")
+    found = {key.lower(): quoted or bare for key, quoted, bare in _PART.findall(rest)}
+    if scheme.lower() != "digest" or found.get("qop") != "auth" or found.get("realm") != REALM:
+        return None
+    try:
+        return Digest(
+            # A quoted string escapes quotes and backslashes, and nothing else.
+            re.sub(r"\\(.)", r"\1", found["username"]), found["nonce"], found["uri"],
+            found["nc"], found["cnonce"], found["response"],
+        )  # fmt: skip
+    except KeyError:
+        return None
+
+
+def is_right(sent: Digest, method: str, password: str) -> bool:
+    """Whether the response is that of this password. The user goes into it as it is."""
+    ha1 = _md5(f"{sent.user}:{REALM}:{password}")
+    ha2 = _md5(f"{method}:{sent.uri}")
+    wanted = _md5(f"{ha1}:{sent.nonce}:{sent.nc}:{sent.cnonce}:auth:{ha2}")
+    return hmac.compare_digest(wanted, sent.response.lower())
+
+
+def _md5(text: str) -> str:
+    return hashlib.md5(text.encode(), usedforsecurity=False).hexdigest()
+
+
+def basic_user(header: str, users: Mapping[str, str]) -> str | None:
+    """Who an `Authorization: Basic` header names with the right password; None: nobody."""
+    scheme, _, rest = header.partition(" ")
+    if scheme.lower() != "basic":
+        return None
+    try:
+        user, colon, password = base64.b64decode(rest, validate=True).decode().partition(":")
+    except ValueError:
+        return None
+    known = users.get(user)
+    if not colon or known is None:
+        return None
+    return user if hmac.compare_digest(known.encode(), password.encode()) else None

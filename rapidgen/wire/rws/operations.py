@@ -1,0 +1,246 @@
+"""What can be asked of a controller: each operation once, as every generation spells it.
+
+`METHOD /path[?action=name]`; `{name}` is one segment, `{name*}` several. RWS 1.0 has verbs as
+`?action=`, RWS 2.0 as a last segment, with few exceptions. "-" is what a generation does not have.
+"""
+
+import re
+from dataclasses import dataclass
+from functools import cache
+
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.forms import path_of, segment
+
+
+@dataclass(frozen=True, slots=True)
+class Route:
+    """How one generation spells an operation."""
+
+    method: str
+    path: str
+    action: str = ""
+
+    def fill(self, names: dict[str, str]) -> str:
+        """The request target for these names."""
+        target = self.path
+        for name, value in names.items():
+            target = target.replace(f"{{{name}}}", segment(value))
+            target = target.replace(f"{{{name}*}}", path_of(value))
+        return f"{target}?action={self.action}" if self.action else target
+
+    @property
+    def pattern(self) -> re.Pattern[str]:
+        """What decoded paths of this operation look like."""
+        return re.compile(
+            re.sub(
+                r"\\\{(\w+)(\\\*)?\\\}",
+                lambda m: f"(?P<{m[1]}>{'.+' if m[2] else '[^/]+'})",
+                re.escape(self.path),
+            )
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class RwsOperation:
+    """One thing that can be asked; `eight` where RobotWare 8 differs from 7."""
+
+    one: str
+    two: str
+    eight: str = ""
+
+    def route(self, generation: Generation) -> Route | None:
+        """How a generation spells it; None: it has no such thing."""
+        return _route(self, generation)
+
+
+@cache
+def _route(operation: RwsOperation, generation: Generation) -> Route | None:
+    text = operation.one if generation is Generation.ONE else operation.two
+    if generation is Generation.EIGHT and operation.eight:
+        text = operation.eight
+    if text == "-":
+        return None
+    method, _, target = text.partition(" ")
+    path, _, action = target.partition("?action=")
+    return Route(method, path, action)
+
+
+def _same(text: str) -> RwsOperation:
+    return RwsOperation(text, text)
+
+
+# -- session, users
+LOGOUT = _same("GET /logout")
+REGISTER_USER = RwsOperation("POST /users", "POST /users/register")
+LOGIN_INFO = RwsOperation("-", "GET /users/login-info")
+GRANTS = RwsOperation("GET /users/grants", "GET /uas/user/grants")
+GRANT_EXISTS = RwsOperation("-", "GET /users/grant-exists")
+RMMP = _same("GET /users/rmmp")
+RMMP_POLL = _same("GET /users/rmmp/poll")
+ASK_RMMP = _same("POST /users/rmmp")
+CANCEL_RMMP = RwsOperation("POST /users/rmmp?action=cancel", "POST /users/rmmp/cancel")
+RETCODE = _same("GET /rw/retcode")
+
+# -- mastership, write access
+MASTERSHIPS = RwsOperation("GET /rw/mastership", "GET /rw/mastership")
+MASTERSHIP = RwsOperation("GET /rw/mastership/{domain}", "GET /rw/mastership/{domain}")
+REQUEST_ALL = RwsOperation("POST /rw/mastership?action=request", "POST /rw/mastership/request")
+REQUEST_PLAIN = RwsOperation("POST /rw/mastership", "-")
+RELEASE_ALL = RwsOperation("POST /rw/mastership?action=release", "POST /rw/mastership/release")
+REQUEST = RwsOperation(
+    "POST /rw/mastership/{domain}?action=request", "POST /rw/mastership/{domain}/request"
+)
+RELEASE = RwsOperation(
+    "POST /rw/mastership/{domain}?action=release", "POST /rw/mastership/{domain}/release"
+)
+STATION_REGISTER = RwsOperation("-", "-", "POST /rw/controlstation/register/remote")
+WRITE_ACCESS = RwsOperation("-", "-", "GET /rw/controlstation/writeaccess/status")
+WRITE_REQUEST = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/request")
+WRITE_RELEASE = RwsOperation("-", "-", "POST /rw/controlstation/writeaccess/release")
+MOTION_ALLOWED = RwsOperation("-", "-", "GET /rw/controlstation/allowmotioncontrol")
+ALLOW_MOTION = RwsOperation("-", "-", "POST /rw/controlstation/allowmotioncontrol")
+
+# -- panel
+CTRL_STATE = RwsOperation("GET /rw/panel/ctrlstate", "GET /rw/panel/ctrl-state")
+SET_CTRL_STATE = RwsOperation(
+    "POST /rw/panel/ctrlstate?action=setctrlstate", "POST /rw/panel/ctrl-state"
+)
+OPMODE = _same("GET /rw/panel/opmode")
+SET_OPMODE = RwsOperation("POST /rw/panel/opmode?action=setopmode", "POST /rw/panel/opmode")
+SPEED = _same("GET /rw/panel/speedratio")
+SET_SPEED = _same("POST /rw/panel/speedratio?action=setspeedratio")
+COLLISION = _same("GET /rw/panel/coldetstate")
+
+# -- execution
+EXECUTION = _same("GET /rw/rapid/execution")
+START = RwsOperation("POST /rw/rapid/execution?action=start", "POST /rw/rapid/execution/start")
+STOP = RwsOperation("POST /rw/rapid/execution?action=stop", "POST /rw/rapid/execution/stop")
+RESET_PP = RwsOperation(
+    "POST /rw/rapid/execution?action=resetpp", "POST /rw/rapid/execution/resetpp"
+)
+SET_CYCLE = RwsOperation(
+    "POST /rw/rapid/execution?action=setcycle", "POST /rw/rapid/execution/cycle"
+)
+
+# -- tasks, modules, program
+TASKS = _same("GET /rw/rapid/tasks")
+TASK = _same("GET /rw/rapid/tasks/{task}")
+ACTIVATE = RwsOperation(
+    "POST /rw/rapid/tasks/{task}?action=activate", "POST /rw/rapid/tasks/activate"
+)
+DEACTIVATE = RwsOperation(
+    "POST /rw/rapid/tasks/{task}?action=deactivate", "POST /rw/rapid/tasks/deactivate"
+)
+MODULES = RwsOperation("GET /rw/rapid/modules", "GET /rw/rapid/tasks/{task}/modules")
+MODULE = RwsOperation(
+    "GET /rw/rapid/modules/{module}", "GET /rw/rapid/tasks/{task}/modules/{module}"
+)
+MODULE_TEXT = RwsOperation("-", "GET /rw/rapid/tasks/{task}/modules/{module}/text")
+LOAD_MODULE = RwsOperation(
+    "POST /rw/rapid/tasks/{task}?action=loadmod", "POST /rw/rapid/tasks/{task}/loadmod"
+)
+UNLOAD_MODULE = RwsOperation(
+    "POST /rw/rapid/tasks/{task}?action=unloadmod", "POST /rw/rapid/tasks/{task}/unloadmod"
+)
+SAVE_MODULE = RwsOperation(
+    "POST /rw/rapid/modules/{module}?action=save",
+    "POST /rw/rapid/tasks/{task}/modules/{module}/save",
+)
+PROGRAM = _same("GET /rw/rapid/tasks/{task}/program")
+BUILD_ERRORS = _same("GET /rw/rapid/tasks/{task}/program/builderror")
+POINTER = _same("GET /rw/rapid/tasks/{task}/pcp")
+POINTER_TO_ROUTINE = RwsOperation(
+    "POST /rw/rapid/tasks/{task}/pcp?action=set-pp-routine",
+    "POST /rw/rapid/tasks/{task}/pcp/routine",
+)
+
+# -- symbols
+SYMBOL = RwsOperation(
+    "GET /rw/rapid/symbol/data/RAPID/{symbol*}", "GET /rw/rapid/symbol/RAPID/{symbol*}/data"
+)
+SET_SYMBOL = RwsOperation(
+    "POST /rw/rapid/symbol/data/RAPID/{symbol*}?action=set",
+    "POST /rw/rapid/symbol/RAPID/{symbol*}/data",
+)
+SYMBOL_PROPERTIES = RwsOperation(
+    "GET /rw/rapid/symbol/properties/RAPID/{symbol*}",
+    "GET /rw/rapid/symbol/RAPID/{symbol*}/properties",
+)
+SEARCH_SYMBOLS = RwsOperation(
+    "POST /rw/rapid/symbols?action=search-symbols", "POST /rw/rapid/symbols/search"
+)
+
+# -- signals
+NETWORKS = _same("GET /rw/iosystem/networks")
+DEVICES = _same("GET /rw/iosystem/devices")
+SIGNALS = _same("GET /rw/iosystem/signals")
+SIGNAL = _same("GET /rw/iosystem/signals/{signal*}")
+SET_SIGNAL = RwsOperation(
+    "POST /rw/iosystem/signals/{signal*}?action=set",
+    "POST /rw/iosystem/signals/{signal*}/set-value",
+)
+SEARCH_SIGNALS = RwsOperation(
+    "POST /rw/iosystem/signals?action=signal-search", "POST /rw/iosystem/signals/signal-search"
+)
+
+# -- motion
+MECHUNITS = _same("GET /rw/motionsystem/mechunits")
+MECHUNIT = _same("GET /rw/motionsystem/mechunits/{unit}")
+JOINT_TARGET = _same("GET /rw/motionsystem/mechunits/{unit}/jointtarget")
+ROB_TARGET = _same("GET /rw/motionsystem/mechunits/{unit}/robtarget")
+CARTESIAN = _same("GET /rw/motionsystem/mechunits/{unit}/cartesian")
+
+# -- cfg
+CFG = _same("GET /rw/cfg")
+CFG_DOMAIN = _same("GET /rw/cfg/{domain}")
+CFG_INSTANCES = _same("GET /rw/cfg/{domain}/{type}/instances")
+CFG_INSTANCE = _same("GET /rw/cfg/{domain}/{type}/instances/{instance}")
+CFG_SET = RwsOperation(
+    "POST /rw/cfg/{domain}/{type}/instances/{instance}?action=set",
+    "POST /rw/cfg/{domain}/{type}/instances/{instance}",
+)
+CFG_CREATE = RwsOperation(
+    "POST /rw/cfg/{domain}/{type}/instances?action=create-default",
+    "POST /rw/cfg/{domain}/{type}/instances/create-default",
+)
+CFG_DELETE = _same("DELETE /rw/cfg/{domain}/{type}/instances/{instance}")
+CFG_LOAD = RwsOperation("POST /rw/cfg?action=load", "POST /rw/cfg/load")
+CFG_VALIDATE = RwsOperation("POST /rw/cfg?action=validate", "POST /rw/cfg/validate")
+CFG_SAVE = RwsOperation("POST /rw/cfg/{domain}?action=saveas", "POST /rw/cfg/{domain}/saveas")
+
+# -- files
+VOLUMES = _same("GET /fileservice")
+READ_FILE = _same("GET /fileservice/{path*}")
+WRITE_FILE = _same("PUT /fileservice/{path*}")
+DELETE_FILE = _same("DELETE /fileservice/{path*}")
+# RWS 1.0 tells create, copy and rename apart by the form's `fs-action`.
+FILE_ACTION = RwsOperation("POST /fileservice/{path*}", "-")
+CREATE_FOLDER = RwsOperation("-", "POST /fileservice/{path*}/create")
+COPY_FILE = RwsOperation("-", "POST /fileservice/{path*}/copy")
+RENAME_FILE = RwsOperation("-", "POST /fileservice/{path*}/rename")
+
+# -- controller, system, log
+CONTROLLER = _same("GET /ctrl")
+VARIABLE = _same("GET /ctrl/{variable}")
+IDENTITY = _same("GET /ctrl/identity")
+CLOCK = _same("GET /ctrl/clock")
+SYSTEM = _same("GET /rw/system")
+OPTIONS = RwsOperation("-", "GET /rw/system/options")
+PRODUCTS = _same("GET /rw/system/products")
+ROBOT_TYPE = _same("GET /rw/system/robottype")
+RESTART = RwsOperation("POST /rw/panel?action=restart", "POST /ctrl/restart")
+RESTART_AT_CTRL = RwsOperation("POST /ctrl", "-")
+BACKUP = RwsOperation("POST /ctrl/backup?action=backup", "POST /ctrl/backup/create")
+BACKUP_STATE = _same("GET /ctrl/backup/state")
+PROGRESS = _same("GET /progress/{id}")
+ELOGS = _same("GET /rw/elog")
+ELOG = _same("GET /rw/elog/{domain}")
+ELOG_EVENT = _same("GET /rw/elog/{domain}/{number}")
+CLEAR_ELOG = RwsOperation("POST /rw/elog/{domain}?action=clear", "POST /rw/elog/{domain}/clear")
+
+# -- subscriptions
+SUBSCRIBE = _same("POST /subscription")
+ADD_SUBSCRIPTION = _same("PUT /subscription/{group}")
+UNSUBSCRIBE = _same("DELETE /subscription/{group}")
+UNSUBSCRIBE_ONE = _same("DELETE /subscription/{group}/{resource*}")
+POLL = _same("GET /poll/{group}")

@@ -1,0 +1,92 @@
+"""status, log, start, halt, io, symbols and backup as a user calls them."""
+
+import json
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "faces" / "rws"))
+
+from served import make_cabinet
+
+from rapidgen.cli.app import main
+from rapidgen.faces.rws.server import serve_rws
+from rapidgen.system import read_backup
+from rapidgen.wire.rws.bodies import Generation
+
+
+@pytest.fixture(params=[Generation.ONE, Generation.TWO], ids=["rws1", "rws2"])
+def host(request, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_STATE_HOME", str(tmp_path / "state"))
+    monkeypatch.setenv("RAPIDGEN_PASSWORD", "robotics")
+    with make_cabinet(tmp_path, request.param, clock="real", speed=60) as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, request.param)
+        where = f"rws://{service.host}:{service.port}"
+        first = ["status", where]
+        if service.host_key:
+            assert main(first) == 1  # a certificate that nobody has agreed to
+            first += ["--fingerprint", service.host_key]
+        assert main(first) == 0
+        yield where
+        service.close()
+
+
+def said(capsys):
+    output = capsys.readouterr()
+    assert "robotics" not in output.out + output.err
+    return output.out
+
+
+def test_a_controller_is_shown_started_and_halted(host, capsys):
+    assert main(["status", host, "--json"]) == 0
+    told = json.loads(said(capsys))
+    assert (told["state"], told["mode"], told["running"]) == ("motoron", "AUTO", False)
+    assert main(["start", host]) == 1  # nobody is there to answer
+    assert main(["start", host, "--yes", "--main"]) == 0
+    assert f"{host}: the program runs" in said(capsys)
+    assert main(["halt", host, "--motors-off"]) == 0
+    assert main(["status", host]) == 0
+    assert "motoroff" in said(capsys)
+    assert main(["log", host, "--count", "3"]) == 0
+    assert "Motors OFF state" in said(capsys)
+
+
+def test_signals_and_symbols_are_shown_and_set(host, capsys):
+    assert main(["io", host, "do x;1", "1"]) == 0
+    assert main(["io", host, "doDefault", "1"]) == 1
+    assert main(["io", host, "do x;1", "one"]) == 2
+    assert main(["io", host]) == 0
+    assert "do x;1               DO  1" in said(capsys)
+    assert main(["symbols", host, "T_ROB1/MainModule/list", "[4,5,6]"]) == 0
+    assert "[4,5,6]" in said(capsys)
+    assert main(["symbols", host, "T_ROB1/MainModule/list", "[4,5"]) == 2
+    assert main(["symbols", host]) == 0
+    assert "T_ROB1/MainModule/list  per  num{3}" in said(capsys)
+
+
+def test_a_backup_comes_here_and_boots(host, capsys, tmp_path):
+    folder = tmp_path / "backup"
+    assert main(["backup", host, "-o", str(folder)]) == 0
+    system = read_backup(folder)
+    assert [module.name for module in system.tasks[0].modules] == ["MainModule"]
+    assert main(["backup", host, "-o", str(folder)]) == 2
+    assert not list(tmp_path.glob("*.part"))
+    assert "files" in said(capsys)
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "exit_code"),
+    [
+        (["status", "ftp://h"], "RG657", 2),
+        (["status", "rws://u:p@h"], "RG657", 2),
+        (["status", "rws://127.0.0.1:1"], "RG651", 1),
+    ],
+)
+def test_wrong_words_are_explained(words, code, exit_code, capsys, monkeypatch):
+    monkeypatch.delenv("RAPIDGEN_PASSWORD", raising=False)
+    assert main(words) == exit_code
+    told = capsys.readouterr().err
+    assert code in told
+    assert ":p@" not in told

@@ -1,0 +1,67 @@
+"""Controllers with web services, one for each generation, on ports of this machine."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "faces" / "rws"))
+
+from served import make_cabinet
+
+from rapidgen.faces.rws.server import serve_rws
+from rapidgen.wire.rws.bodies import Generation
+
+SPEED = 60
+"""Simulated seconds in a second: the controller's limit of requests is on its own clock."""
+
+
+class Served:
+    """A cabinet, its service and what a client needs to reach it."""
+
+    def __init__(self, cabinet, service, generation, folder):
+        self.cabinet = cabinet
+        self.service = service
+        self.generation = generation
+        self.pins = folder / "known"
+
+    @property
+    def address(self):
+        return f"rws://{self.service.host}:{self.service.port}"
+
+    @property
+    def keywords(self):
+        """How a client is made."""
+        return {
+            "password": self.service.password,
+            "fingerprint": self.service.host_key,
+            "pin_file": self.pins,
+        }
+
+    def on_controller(self, function):
+        """The outcome of a function on the controller's thread."""
+        import threading
+
+        done, found = threading.Event(), []
+        assert self.cabinet.post(lambda: (found.append(function()), done.set()))
+        assert done.wait(60)
+        return found[0]
+
+
+@pytest.fixture(params=list(Generation), ids=lambda g: f"rws{g.value}")
+def served(request, tmp_path):
+    generation = request.param
+    with make_cabinet(tmp_path, generation, clock="real", speed=SPEED) as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, generation)
+        yield Served(cabinet, service, generation, tmp_path)
+        service.close()
+
+
+@pytest.fixture
+def served_two(tmp_path):
+    with make_cabinet(tmp_path, Generation.TWO, clock="real", speed=SPEED) as cabinet:
+        cabinet.start()
+        service = serve_rws(cabinet, Generation.TWO)
+        yield Served(cabinet, service, Generation.TWO, tmp_path)
+        service.close()

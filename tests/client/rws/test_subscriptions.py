@@ -1,0 +1,84 @@
+"""Subscriptions as iterators, over restarts, on three generations."""
+
+import asyncio
+
+import pytest
+
+from rapidgen.client import RobotTimeout
+from rapidgen.client.rws import AsyncController, Controller, topics
+from rapidgen.client.rws.errors import RwsError
+
+CHOSEN = (
+    topics.execution(),
+    topics.ctrl_state(),
+    topics.signal("do x;1"),
+    topics.symbol("T_ROB1/MainModule/x"),
+    topics.log(),
+)
+
+
+def until(events, wanted):
+    """Events up to one of (resource, value)."""
+    heard = []
+    while (heard[-1].resource, heard[-1].value) != wanted if heard else True:
+        heard.append(events.next(60))
+    return [(event.resource, event.value) for event in heard]
+
+
+def test_events_come_as_things_change_and_go_on_over_a_restart(served):
+    with (
+        Controller(served.address, **served.keywords) as controller,
+        controller.subscribe(*CHOSEN) as events,
+    ):
+        now = [events.next(60) for _ in range(4)]
+        assert [(e.resource, e.value) for e in now] == [
+            ("execution", "stopped"),
+            ("ctrlstate", "motoron"),
+            ("do x;1", "0"),
+            ("T_ROB1/MainModule/x", "1"),
+        ]
+        for value in (1, 0, 1):
+            controller.set_signal("do x;1", value)
+        heard = [events.next(60).value for _ in range(3)]
+        assert heard == ["1", "0", "1"]
+        controller.set_symbol("T_ROB1/x", 5)
+        until(events, ("T_ROB1/MainModule/x", "5"))
+        controller.start()
+        heard = until(events, ("execution", "running"))
+        assert any(name == "log 0" for name, _ in heard)
+        controller.restart()
+        assert ("execution", "stopped") in until(events, ("ctrlstate", "motoroff"))
+        until(events, ("T_ROB1/MainModule/x", "5"))
+        controller.set_symbol("T_ROB1/x", 6)
+        until(events, ("T_ROB1/MainModule/x", "6"))
+        with controller.subscribe(topics.mode()) as quiet:
+            assert quiet.next(60).value == "AUTO"
+            with pytest.raises(RobotTimeout):
+                quiet.next(0.01)
+
+
+def test_the_asynchronous_client_is_told_the_same(served):
+    async def run():
+        async with (
+            AsyncController(served.address, **served.keywords) as controller,
+            controller.subscribe(topics.symbol("T_ROB1/x")) as events,
+        ):
+            assert (await events.next(60)).value == "1"
+            await controller.set_symbol("T_ROB1/x", 2)
+            async for event in events:
+                assert event.value == "2"
+                break
+
+    asyncio.run(run())
+
+
+def test_what_cannot_be_subscribed_is_refused(served):
+    with Controller(served.address, **served.keywords) as controller:
+        for topic in (topics.signal("none"), topics.symbol("T_ROB1/count"), topics.task("T_NONE")):
+            with pytest.raises(RwsError):
+                controller.subscribe(topic)
+        held = [controller.subscribe(topics.mode()) for _ in range(2)]
+        with pytest.raises(Exception, match="503"):
+            controller.subscribe(topics.mode())
+        for one in held:
+            one.close()

@@ -1,0 +1,302 @@
+"""A success is true: it shows in the running task, in a backup, after a restart."""
+
+import pytest
+from served import STARTED, Caller, code_of, make_cabinet, make_desk
+
+from rapidgen.system import read_backup
+from rapidgen.wire.rws import media
+from rapidgen.wire.rws.bodies import Generation
+from rapidgen.wire.rws.codes import CODES
+
+BACK = b"""MODULE Back
+    PERS num k := 0;
+    PROC main()
+        WHILE TRUE DO
+            k := k + 1;
+            WaitTime 1;
+        ENDWHILE
+    ENDPROC
+ENDMODULE
+"""
+TASK = """SYS:CFG_1.0:{0}:0::
+#
+CAB_TASKS:
+
+      -Name "T_BACK" -Type "SEMISTATIC" -Entry "main"
+#
+CAB_TASK_MODULES:
+
+      -File "HOME:/{1}.mod" -ModName "Back" -Task "T_BACK"
+"""
+SIGNAL = 'EIO:CFG_1.0::\n#\nEIO_SIGNAL:\n\n      -Name "doNew" -SignalType "DO" -Access "All"\n'
+
+
+def restart(caller):
+    """A warm start on the virtual clock; a new session of the same desk."""
+    one = caller.desk.generation is Generation.ONE
+    target = "/rw/panel?action=restart" if one else "/ctrl/restart?mastership=implicit"
+    if one:
+        caller.post("/rw/mastership/cfg?action=request")
+    assert caller.post(target, {"restart-mode": "restart"}) == 204
+    cabinet = caller.desk.office.cabinet
+    before = cabinet.restarts
+    cabinet.run(lambda: cabinet.restarts > before)
+    assert caller.send("GET", "/rw/panel/opmode").status == 401
+    cabinet.controller.run_for(1.1)
+    return Caller(caller.desk)
+
+
+def put(caller, path, data):
+    dollar = "$" if caller.desk.generation is Generation.ONE else ""
+    kind = None if dollar else "text/plain;v=2.0"
+    reply = caller.send("PUT", f"/fileservice/{dollar}{path}", body=data, content_type=kind)
+    assert reply.status in (200, 201)
+
+
+def test_what_is_written_is_what_the_running_task_sees(one):
+    controller = one.desk.office.controller
+    assert one.post("/rw/rapid/execution?action=start", STARTED) == 204
+    controller.run_for(1.0)
+    first = controller.tasks["T_ROB1"]["MainModule:count"]
+    assert first == pytest.approx(10, abs=1)
+    path = "/rw/rapid/symbol/data/RAPID/T_ROB1/MainModule"
+    assert one.post(f"{path}/x?action=set", {"value": "100"}) == 204
+    controller.run_for(1.0)
+    assert controller.tasks["T_ROB1"]["MainModule:count"] > first + 900
+    assert one.post(f"{path}/list%7B2%7D?action=set", {"value": "7"}) == 204
+    assert one.get(f"{path}/list?json=1")[0].text("value") == "[1,7,3]"
+    assert one.get(f"{path}/list%7B2%7D;value?json=1")[0].text("value") == "7"
+    for bad, value in (("list", "[1,2]"), ("x", "TRUE"), ("name", "a"), ("list%7B4%7D", "1")):
+        assert one.post(f"{path}/{bad}?action=set", {"value": value}) == 400
+    assert one.post(f"{path}/c?action=set", {"value": "5"}) == 403
+    assert one.get(f"{path}/list?json=1")[0].text("value") == "[1,7,3]"
+
+
+def test_signals_have_names_with_blanks_and_semicolons_and_levels_of_access(one):
+    controller = one.desk.office.controller
+    assert one.post("/rw/iosystem/signals/do%20x%3B1?action=set", {"lvalue": "1"}) == 204
+    assert controller.signals["do x;1"] == 1
+    refused = one.send("POST", "/rw/iosystem/signals/doDefault?action=set", {"lvalue": "1"})
+    assert (refused.status, code_of(refused)) == (403, CODES["E_REJECT"])
+    assert one.post("/rw/iosystem/signals/Local/DRV_1/diStart?action=set", {"lvalue": "1"}) == 204
+    assert one.post("/rw/iosystem/signals/aoSpeed?action=set", {"lvalue": "2.5"}) == 204
+    assert [s.text("lvalue") for s in one.get("/rw/iosystem/signals")] == ["1", "0", "1", "2.5"]
+    assert one.post("/rw/iosystem/signals/diStart?action=set", {"lvalue": "2"}) == 400
+    assert one.send("GET", "/rw/iosystem/signals/none").status == 404
+
+
+def test_motors_speed_and_stops_are_those_of_the_controller(two):
+    controller = two.desk.office.controller
+    assert two.post("/rw/panel/ctrl-state", {"ctrl-state": "motoroff"}) == 204
+    assert not controller.motors_on
+    assert two.post("/rw/rapid/execution/start", STARTED) == 204  # and it does not run
+    assert two.get("/rw/rapid/execution")[0].text("ctrlexecstate") == "stopped"
+    assert two.post("/rw/panel/ctrl-state", {"ctrl-state": "motoron"}) == 204
+    speed = "/rw/panel/speedratio?action=setspeedratio&mastership=implicit"
+    assert two.post(speed, {"speed-ratio": "25"}) == 204
+    assert {group.override for group in controller.motion.groups.values()} == {0.25}
+    assert two.post("/rw/rapid/execution/start", STARTED) == 204
+    assert controller.tasks["T_ROB1"].state == "running"
+    assert two.post("/rw/rapid/execution/stop", {"stopmode": "stop", "usetsp": "alltsk"}) == 204
+    assert controller.tasks["T_ROB1"].state == "stopped"
+
+
+def test_a_module_is_loaded_replaced_and_taken_out(one):
+    tasks = "/rw/rapid/tasks/T_ROB1"
+    put(one, "HOME/a.mod", b"MODULE Helper\n    PERS num h := 5;\nENDMODULE\n")
+    form = {"modulepath": "$HOME/a.mod", "replace": "false"}
+    assert one.post(f"{tasks}?action=loadmod", form) == 403  # mastership
+    one.post("/rw/mastership/rapid?action=request")
+    assert one.post(f"{tasks}?action=loadmod", form) == 204
+    assert one.get("/rw/rapid/symbol/data/RAPID/T_ROB1/Helper/h?json=1")[0].text("value") == "5"
+    assert one.post(f"{tasks}?action=loadmod", form) == 400
+    put(one, "HOME/a.mod", b"MODULE Helper\n    PERS num h := 6;\nENDMODULE\n")
+    assert one.post(f"{tasks}?action=loadmod", {**form, "replace": "true"}) == 204
+    assert one.get("/rw/rapid/symbol/data/RAPID/T_ROB1/h?json=1")[0].text("value") == "6"
+    one.desk.office.controller.run_for(1.1)
+    names = [i.title for i in one.get("/rw/rapid/modules?task=T_ROB1")]
+    assert names == ["MainModule", "Helper"]
+    one.desk.office.controller.start_program()
+    running = one.send("POST", f"{tasks}?action=unloadmod", {"module": "Helper"})
+    assert (running.status, code_of(running)) == (400, CODES["E_EXEC_STATE"])
+    one.desk.office.controller.stop_program()
+    assert one.post(f"{tasks}?action=unloadmod", {"module": "Helper"}) == 204
+    assert one.post(f"{tasks}?action=unloadmod", {"module": "Helper"}) == 400
+
+
+def test_a_broken_module_is_loaded_and_told_of_when_it_is_asked(two):
+    put(two, "HOME/a.mod", b"MODULE Bad\n    PROC p()\n        x := ;\n    ENDPROC\nENDMODULE\n")
+    load = "/rw/rapid/tasks/T_ROB1/loadmod?mastership=implicit"
+    assert two.post(load, {"modulepath": "HOME/a.mod"}) == 200
+    fault = two.get("/rw/rapid/tasks/T_ROB1/program/builderror")[0]
+    assert (fault.text("ModuleName"), fault.text("row")) == ("Bad", "3")
+    pp = two.send("POST", "/rw/rapid/execution/resetpp?mastership=implicit")
+    assert (pp.status, code_of(pp)) == (403, CODES["E_RAPID_SYNTAX_ERROR"])
+    assert two.post("/rw/rapid/execution/start", STARTED) == 403
+    # A second main: told at PP to main, as on a controller.
+    put(two, "HOME/b.mod", b"MODULE Two\n    PROC main()\n    ENDPROC\nENDMODULE\n")
+    unload = "/rw/rapid/tasks/T_ROB1/unloadmod?mastership=implicit"
+    assert two.post(unload, {"module": "Bad"}) == 204
+    assert two.post(load, {"modulepath": "HOME/b.mod"}) == 200
+    pp = two.send("POST", "/rw/rapid/execution/resetpp?mastership=implicit")
+    assert (pp.status, code_of(pp)) == (403, CODES["E_RAPID_SEMANTIC_ERROR"])
+    assert two.post(unload, {"module": "Two"}) == 204
+    assert two.post("/rw/rapid/execution/resetpp?mastership=implicit") == 204
+
+
+@pytest.mark.parametrize("generation", [Generation.ONE, Generation.TWO])
+def test_cfg_counts_after_a_restart_which_keeps_persistents(tmp_path, generation):
+    with make_cabinet(tmp_path, generation) as cabinet:
+        caller = Caller(make_desk(cabinet, generation))
+        one = generation is Generation.ONE
+        put(caller, "HOME/Back.mod", BACK)
+        put(caller, "TEMP/a.cfg", TASK.format(6 if one else 7, "Back").encode())
+        form = {"filepath": f"{'$' if one else ''}TEMP/a.cfg", "action-type": "add"}
+        load = "/rw/cfg?action=load" if one else "/rw/cfg/load?mastership=implicit"
+        if one:
+            caller.post("/rw/mastership/cfg?action=request")
+        reply = caller.send("POST", load, form)
+        assert reply.status == (204 if one else 202)
+        cabinet.controller.tasks["T_ROB1"]["MainModule:x"] = 42
+        cabinet.controller.motion.group("rob1").jump((0.1, 0.2, 0, 0, 0.3, 0))
+        assert list(cabinet.controller.tasks) == ["T_ROB1"]
+        again = caller.send("POST", load, form)
+        if one:
+            assert (again.status, code_of(again)) == (400, CODES["E_CFG_NAME_EXIST"])
+        else:
+            told = caller.get(again.header("location"))[0]
+            assert told.text("code") == str(CODES["E_CFG_NAME_EXIST"])
+        caller = restart(caller)
+        controller = cabinet.controller
+        assert {t.name: t.state for t in controller.tasks.values()} == {
+            "T_ROB1": "ready",
+            "T_BACK": "running",
+        }
+        assert controller.tasks["T_ROB1"]["MainModule:x"] == 42
+        assert controller.motion.group("rob1").positions() == (0.1, 0.2, 0, 0, 0.3, 0)
+        assert not controller.motors_on
+        assert not controller.failed
+        controller.run_for(3)
+        assert controller.tasks["T_BACK"]["Back:k"] >= 3
+
+
+def test_a_task_without_its_module_is_a_system_failure_and_a_restart_mends_it(one):
+    cabinet = one.desk.office.cabinet
+    put(one, "TEMP/a.cfg", TASK.format(6, "Back").encode())
+    one.post("/rw/mastership/cfg?action=request")
+    load = {"filepath": "$TEMP/a.cfg", "action-type": "add"}
+    assert one.post("/rw/cfg?action=load", load) == 204
+    one.post("/rw/mastership/cfg?action=release")
+    caller = restart(one)
+    assert caller.get("/rw/panel/ctrlstate")[0].text("ctrlstate") == "sysfail"
+    titles = [e.text("title") for e in caller.get("/rw/elog/0?lang=en&json=1")]
+    assert {"System failure state", "Module not loaded"} <= set(titles)
+    assert caller.post("/rw/panel/ctrlstate?action=setctrlstate", {"ctrl-state": "motoron"}) == 403
+    put(caller, "HOME/Back.mod", BACK.replace(b"k + 1", b"k + "))
+    caller = restart(caller)
+    assert cabinet.controller.failed
+    assert any(e.text("code") == "40160" for e in caller.get("/rw/elog/0?lang=en"))
+    put(caller, "HOME/Back.mod", BACK)
+    caller = restart(caller)
+    assert not cabinet.controller.failed
+    assert cabinet.controller.tasks["T_BACK"].state == "running"
+
+
+def test_single_instances_are_made_changed_and_deleted(two):
+    instances = "/rw/cfg/EIO/EIO_SIGNAL/instances"
+    edit = "?mastership=implicit"
+    assert two.post(f"{instances}/create-default{edit}", {"name": "doNew"}) == 201
+    assert two.post(f"{instances}/create-default{edit}", {"name": "doNew"}) == 400
+    raw = two.send("POST", f"{instances}/doNew{edit}", body=b"SignalType=[DO,1]&Access=[All,1]")
+    assert raw.status == 204
+    assert two.post(f"{instances}/doNew{edit}", {"Access": "All"}) == 400
+    told = two.get(f"{instances}/doNew")[0]
+    assert {i.title: i.text("value") for i in told.within} == {
+        "Name": "doNew",
+        "SignalType": "DO",
+        "Access": "All",
+    }
+    assert two.desk.office.controller.io.get("doNew") is None
+    caller = restart(two)
+    assert caller.post("/rw/iosystem/signals/doNew/set-value", {"lvalue": "1"}) == 204
+    assert caller.send("DELETE", f"{instances}/doNew{edit}").status == 204
+    assert caller.send("GET", f"{instances}/doNew").status == 404
+    caller = restart(caller)
+    assert caller.send("GET", "/rw/iosystem/signals/doNew").status == 404
+
+
+def test_add_with_reset_wipes_a_domain_and_replace_only_what_has_the_name(one):
+    one.post("/rw/mastership/cfg?action=request")
+    put(one, "TEMP/e.cfg", SIGNAL.encode())
+    form = {"filepath": "$TEMP/e.cfg", "action-type": "add"}
+    assert one.post("/rw/cfg?action=load", form) == 204
+    assert one.post("/rw/cfg?action=load", {**form, "action-type": "replace"}) == 204
+    names = [i.title for i in one.get("/rw/cfg/EIO/EIO_SIGNAL/instances")]
+    assert names == ["do x;1", "doDefault", "diStart", "aoSpeed", "doNew"]
+    assert one.post("/rw/cfg?action=load", {**form, "action-type": "add-with-reset"}) == 204
+    assert [i.title for i in one.get("/rw/cfg/EIO/EIO_SIGNAL/instances")] == ["doNew"]
+    for bad in ("/fileservice/$TEMP/e.cfg", "$TEMP/none.cfg", "$HOME/../e.cfg"):
+        assert one.post("/rw/cfg?action=load", {**form, "filepath": bad}) == 400
+
+
+def test_a_backup_holds_what_the_controller_is_and_boots(one):
+    controller = one.desk.office.controller
+    put(one, "HOME/notes.txt", b"n")
+    controller.tasks["T_ROB1"]["MainModule:x"] = 7
+    form = {"backup": "/fileservice/$BACKUP/b"}
+    reply = one.send("POST", "/ctrl/backup?action=backup", form)
+    assert reply.status == 202
+    assert one.get(f"{reply.header('location')}?json=1")[0].text("state") == "ready"
+    assert one.post("/ctrl/backup?action=backup", form) == 400
+    system = read_backup(controller.files.path("BACKUP:b"))
+    assert [task.name for task in system.tasks] == ["T_ROB1"]
+    assert b"PERS num x := 7;" in system.tasks[0].modules[0].data
+    assert [signal.name for signal in system.signals] == [
+        "do x;1",
+        "doDefault",
+        "diStart",
+        "aoSpeed",
+    ]
+    assert (system.home / "notes.txt").read_bytes() == b"n"
+    assert system.robotware == (6, 15)
+
+
+def test_files_stay_within_their_volumes(one):
+    put(one, "HOME/a%20b.mod", b"x")
+    assert one.send("GET", "/fileservice/$HOME/a%20b.mod").body == b"x"
+    assert one.post("/fileservice/$HOME", {"fs-action": "create", "fs-newname": "d"}) == 201
+    assert one.post("/fileservice/$HOME", {"fs-action": "create", "fs-newname": "../d"}) == 400
+    copy = {"fs-action": "copy", "fs-newname": "c.mod"}
+    assert one.post("/fileservice/$HOME/a%20b.mod", copy) == 204
+    assert one.post("/fileservice/$HOME/a%20b.mod", copy) == 403
+    assert one.post("/fileservice/$HOME/c.mod", {"fs-action": "rename", "fs-newname": "r"}) == 204
+    entries = {i.title: i.kind for i in one.get("/fileservice/$home")}
+    entries.pop("MainModule.mod", None)
+    assert entries == {"a b.mod": "fs-file", "d": "fs-dir", "r": "fs-file"}
+    for path in (
+        "$HOME/../../etc/passwd",
+        "$HOME/%2e%2e/%2e%2e/x",
+        "none/x",
+        "C:/x",
+        "$HOME/a/../../..",
+    ):
+        assert one.send("GET", f"/fileservice/{path}").status in (400, 404)
+    one.desk.office.controller.run_for(1.1)
+    assert one.send("DELETE", "/fileservice/$HOME").status == 403
+    assert one.send("DELETE", "/fileservice/$HOME/d").status == 204
+    assert one.send("DELETE", "/fileservice/$HOME/d").status == 404
+
+
+def test_collections_come_by_the_page_on_robotware_7(tmp_path):
+    with make_cabinet(tmp_path, Generation.TWO) as cabinet:
+        two = Caller(make_desk(cabinet, Generation.TWO))
+        for number in range(120):
+            cabinet.controller.log.info(80_001, f"event {number}")
+        reply = two.send("GET", "/rw/elog/0?lang=en&limit=500")
+        body = media.read(reply.body, reply.header("content-type"))
+        assert len(body.items) == 50
+        assert body.next == "0?start=50&limit=50"
+        assert body.items[0].text("title") == "event 119"
+        reply = two.send("GET", "/rw/elog/0?start=100&limit=50")
+        assert 0 < len(media.read(reply.body, "").items) < 50
+        assert two.send("GET", "/rw/elog/0?start=-1").status == 400
