@@ -92,10 +92,10 @@ class Cabinet:
                 self._restart()
 
     def _restart(self) -> None:
-        for tell in tuple(self.on_restart):
-            tell()
         with self._lock:
             self._up = False
+        for tell in tuple(self.on_restart):
+            tell()
         old, programs = self.controller, self.programs
         self._restart_asked = False
         self._before += old.scheduler.now
@@ -103,7 +103,7 @@ class Cabinet:
         old.close()
         self.restarts += 1
         self.controller, self.programs = boot(old, kept, self.cfg, self._options)
-        self.controller.scheduler.rebase()
+        self._set_going()
         with self._lock:
             self._up = True
         for tell in tuple(self.on_boot):
@@ -114,11 +114,25 @@ class Cabinet:
     def start(self) -> None:
         """Run in a thread of its own from now on."""
         self._ended = False
-        self.controller.scheduler.rebase()
-        self._thread = threading.Thread(
-            target=lambda: self.run(lambda: self._ended), name="cabinet", daemon=True
-        )
+        self._set_going()
+        self._thread = threading.Thread(target=self._run_alone, name="cabinet", daemon=True)
         self._thread.start()
+
+    def _run_alone(self) -> None:
+        try:
+            self.run(lambda: self._ended)
+        finally:
+            if not self._ended:
+                # A fault has ended the thread: nobody shall wait for what it will not do.
+                with self._lock:
+                    self._up = False
+
+    def _set_going(self) -> None:
+        """Time begins to pass, and what is posted wakes the scheduler from now on."""
+        scheduler = self.controller.scheduler
+        if scheduler.clock == "real":
+            scheduler.rebase()
+            assert scheduler.selector is not None
 
     def stop(self) -> None:
         """End that thread."""

@@ -4,6 +4,7 @@ Flows without a network: what they ask for is answered by whatever hypothesis dr
 """
 
 import random
+from itertools import count
 from pathlib import Path
 
 import pytest
@@ -119,7 +120,7 @@ def run(core, flow, seed):
 def test_hostile_answers_end_in_a_result_or_an_error(name, generation, seed):
     core = RwsCore(
         parse_address("rws://h"), Login(password="SECRET"), pins=NOWHERE, generation=generation,
-        connected=True,
+        connected=True, clock=count(0.0, 0.5).__next__,
     )  # fmt: skip
     run(core, FLOWS[name](core), seed)
 

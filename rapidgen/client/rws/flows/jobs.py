@@ -30,8 +30,8 @@ def finish(
     number = response.headers.get("location", "").rpartition("/progress/")[2]
     if response.status != 202 or not number.isalnum():
         return
-    left = _LONGEST
-    while left > 0:
+    until = core.clock() + _LONGEST
+    while core.clock() < until:
         body, _ = yield from ask(core, ops.PROGRESS, {"id": number})
         told = body.first("progress")
         if told is not None and told.text("state") == "ready":
@@ -40,7 +40,6 @@ def finish(
                 raise RwsError(response.status, operation.two, Fault(code, "the job failed"))
             return
         yield Pause(_LOOK)
-        left -= _LOOK
     raise RobotTimeout.because("RG602", f"{operation.two} did not end within {_LONGEST:g} s")
 
 
@@ -61,6 +60,8 @@ def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     yield from take(core, "cfg")
     try:
         yield from ask(core, ops.RESTART, form={"restart-mode": "restart"})
+    except ConnectionLost:
+        pass  # it was quicker than its answer; whether it restarts is looked at below
     except RwsError:
         if not own:
             yield from give(core, "cfg")
@@ -74,8 +75,8 @@ def restart(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
 
 def _gone(core: RwsCore, wait: float) -> Flow[None]:
     """Wait until the mastership of this session is gone: with it the old run of the controller."""
-    left = wait
-    while left > 0:
+    until = core.clock() + wait
+    while core.clock() < until:
         try:
             who = yield from holder(core, "cfg")
         except (ConnectionLost, ConnectionFailed, Busy, RwsError):
@@ -83,14 +84,13 @@ def _gone(core: RwsCore, wait: float) -> Flow[None]:
         if who is None or not who.mine:
             return
         yield Pause(_LOOK)
-        left -= _LOOK
 
 
 def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
     """Wait s until the controller answers, lets in and has tasks. Raises RobotTimeout (RG602)."""
-    left = wait
+    until = core.clock() + wait
     last: Exception | None = None
-    while left > 0:
+    while core.clock() < until:
         try:
             yield from connect(core)
             if (yield from tasks(core)):
@@ -101,5 +101,4 @@ def wait_ready(core: RwsCore, *, wait: float = 180.0) -> Flow[None]:
             last = error
         core.connected = False
         yield Pause(_LOOK)
-        left -= _LOOK
     raise RobotTimeout.because("RG602", f"{core.where} did not come back within {wait:g} s: {last}")
