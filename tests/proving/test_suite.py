@@ -109,8 +109,8 @@ DEFECTS = {
     "padding": ("ROS_download", "IF NOT (padding = 0) ROS_object", "IF FALSE ROS_object"),
     "newest-takes-over": (
         "ROS_motionServer",
-        "ELSEIF quiet >= PATIENCE THEN\n            taken_over := TRUE;",
-        "ELSEIF quiet >= PATIENCE THEN",
+        "taken_over := (quiet >= PATIENCE);",
+        "taken_over := FALSE;",
     ),
     "leaves-moving": (
         "ROS_motionServer",
