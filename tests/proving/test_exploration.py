@@ -88,7 +88,7 @@ def test_a_schedule_is_the_same_when_it_is_traced(seed):
     story = io.StringIO()
     traced = explore(SIX_AXES, system, seed, trace=story)
     assert traced == explore(SIX_AXES, system, seed)
-    assert " T_ROB1 ROS_motion:" in story.getvalue()
+    assert " T_ROB1 ROS_motion/" in story.getvalue()
 
 
 def test_every_step_alone_leaves_a_good_driver_good():
@@ -103,6 +103,6 @@ def test_replay_tells_the_story(tmp_path, capsys):
     out = capsys.readouterr().out
     assert "connect" in out
     assert "seed 3: the invariant held" in out
-    assert "ROS_motionServer:" in trace.read_text(encoding="utf-8")
+    assert "ROS_motionServer/" in trace.read_text(encoding="utf-8")
     assert main(["test", "irb120", "--replay", "3", "--trace", str(tmp_path / "no" / "f")]) == 2
     assert "RG803" in capsys.readouterr().err
