@@ -15,6 +15,9 @@ from rapidgen.deploy.keep import (
     new_manifest,
     now,
 )
+from rapidgen.deploy.live.carry import Live, after_files, before_files, check
+from rapidgen.deploy.live.plan import InMemory
+from rapidgen.deploy.live.proof import Proof
 from rapidgen.deploy.neighbour import Neighbour
 from rapidgen.deploy.plan import DAMAGED, FileChange, Plan
 from rapidgen.deploy.planning import make_plan
@@ -36,22 +39,41 @@ from rapidgen.diagnostics import Diagnostic, DiagnosticError, error
 
 
 def apply(
-    transport: Transport, plan: Plan, *, overwrite: bool = False, say: Say = lambda _: None
+    transport: Transport,
+    plan: Plan,
+    *,
+    overwrite: bool = False,
+    restart: bool = False,
+    proof: Proof = Proof(),  # noqa: B008 - frozen
+    say: Say = lambda _: None,
 ) -> None:
-    """Do exactly what `plan` says; nothing when it is empty.
+    """Do exactly what `plan` says; nothing when it is empty. `restart`: the controller may be
+    restarted, warm, and `proof` says how it is looked whether the driver serves then.
 
-    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537 (conflicts), RG522
-    (the controller moved on), RG527 (cut while switching); TransportFault before that: then
-    nothing old was changed.
+    Raises DiagnosticError: RG520, RG521, RG531, RG534, RG535, RG537, RG541 (conflicts), RG522,
+    RG540 (the controller moved on, is another one), RG527, RG543 (cut), RG542 (not in this
+    state), RG544 (not what was deployed); TransportFault before that: then nothing old was changed.
     """
     conflicts = conflicts_of(plan, overwrite=overwrite)
     if conflicts:
         raise DiagnosticError(conflicts, exit_code=1)
+    run = None
+    if transport.services is not None and plan.live is not None:
+        work = Work(transport, plan, "none", say)
+        run = Live(transport.services, work, plan.live, restart, proof)
+        check(run)
     now_there = make_plan(transport, plan.wanted, verb=plan.verb, loaded=plan.cfg_present)
     if now_there.fingerprint != plan.fingerprint:
         raise moved_on(plan.target)
-    if plan.is_empty:
-        return
+    if run is not None:
+        before_files(run)
+    if not plan.files_are_done:
+        _apply_files(transport, plan, say)
+    if run is not None:
+        after_files(run)
+
+
+def _apply_files(transport: Transport, plan: Plan, say: Say) -> None:
     work = _begin(transport, plan, say)
     if plan.interrupted:
         _clean(work)
@@ -87,6 +109,8 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
                 notes=plan.in_memory,
             )
         )
+    if plan.live is not None and plan.live.clash and not overwrite:
+        found += [_in_the_way(module) for module in plan.live.clash]
     found += [
         error(
             "RG535",
@@ -98,6 +122,16 @@ def conflicts_of(plan: Plan, *, overwrite: bool = False) -> list[Diagnostic]:
         if change.action == "clash"
     ]
     return found
+
+
+def _in_the_way(module: InMemory) -> Diagnostic:
+    return error(
+        "RG541",
+        None,
+        f"{module.shown} is loaded, and {module.why}",
+        "unload it, or --overwrite: it is saved with its persistents, and `rapidgen uninstall` "
+        "loads it again",
+    )
 
 
 def _beside(plan: Plan, other: Neighbour) -> Diagnostic:

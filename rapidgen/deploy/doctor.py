@@ -129,7 +129,7 @@ def _default_login(target: Target, access: Access) -> Iterator[Check]:
     if used.is_default:
         yield _open_door(used)
         return
-    known = Credentials("Default User", Secret("robotics"), known_hosts=used.known_hosts)
+    known = replace(used, user="Default User", password=Secret("robotics"))
     attempt = replace(target, user=known.user)
     try:
         attempt.open(known, access.timeout).close()

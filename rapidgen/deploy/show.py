@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from rapidgen.deploy.cfg import CfgChange
 from rapidgen.deploy.fleet import TargetOutcome
+from rapidgen.deploy.live.plan import BY_SERVICES
 from rapidgen.deploy.plan import FileChange, Plan
 
 _SIGNS = {
@@ -23,7 +24,8 @@ def plan_text(plan: Plan) -> str:
     """The plan in lines: files, cfg instances, what people do (`!`), what is not seen (`?`)."""
     ware = f"RobotWare {plan.robotware[0]}.{plan.robotware[1]:02d}" if plan.wanted else "uninstall"
     build = f", build {plan.build_id}" if plan.build_id else ""
-    out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}"]
+    where = f": {plan.live.shown}" if plan.live else ""
+    out = [f"{plan.name or 'driver'} ({ware}{build})  via {plan.target}{where}"]
     if plan.interrupted:
         out.append(f"  * {plan.interrupted}: this run puts it right")
     if plan.damaged:
@@ -45,9 +47,14 @@ def plan_text(plan: Plan) -> str:
     out += [f"  x {path}: would be restored in the place of ours" for path in plan.in_memory]
     for domain in sorted({c.domain for c in plan.cfg}):
         out += _cfg_lines(plan, domain)
+    if plan.is_pending:
+        out.append("  * everything is loaded, and counts after a restart: restart pending")
     for step in plan.steps:
         stop = " (stops motion)" if step.stops_motion else ""
-        out.append(f"  ! {step.who}: {step.what}{stop}")
+        if step.who == BY_SERVICES:
+            out.append(f"  > {step.what}")
+        else:
+            out.append(f"  ! {step.who}: {step.what}{stop}")
     if not plan.steps and not plan.is_empty:
         out.append("  = no restart: no module and nothing that is loaded changes")
     out.append(f"  ? switching: {plan.rename}")

@@ -1,0 +1,186 @@
+"""Carry out what is not files, in an order in which a cut leaves the old set, the new, or neither.
+
+Files before cfg: a new task without its module is a system failure. What goes is deleted from cfg
+before its files go. Program memory comes last, right before the restart. All of it is found again
+by the next plan, which looks at the controller and not at notes.
+"""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+from rapidgen.client.errors import RobotError
+from rapidgen.client.rws import Controller, RwsError
+from rapidgen.deploy.live.memory import forget_saved, rearrange
+from rapidgen.deploy.live.plan import LivePlan
+from rapidgen.deploy.live.proof import Proof, prove, way_back
+from rapidgen.deploy.live.view import Row
+from rapidgen.deploy.plan import Plan
+from rapidgen.deploy.transports.transport import TransportFault, refused
+from rapidgen.deploy.work import Work
+from rapidgen.diagnostics import DiagnosticError, error
+from rapidgen.system import CfgText, write_cfg
+
+_SCRATCH = "TEMP/rapidgen_{}.cfg"
+
+
+@dataclass(frozen=True, slots=True)
+class Live:
+    """One run over web services."""
+
+    services: Controller
+    work: Work
+    live: LivePlan
+    restart: bool
+    """Whether the controller may be restarted, warm."""
+    proof: Proof
+
+    @property
+    def plan(self) -> Plan:
+        return self.work.plan
+
+    @property
+    def rearranges(self) -> bool:
+        """Whether memory is changed now: what that stops comes back by a restart, or belongs to
+        the driver that goes."""
+        live = self.live
+        stops = set(live.started) - (set(live.owned) if self.plan.wanted is None else set())
+        return live.touches_memory and (self.restart or not stops)
+
+
+def check(run: Live) -> None:
+    """Raises DiagnosticError RG540 (another controller), RG542 (not in this state)."""
+    target, live = run.plan.target, run.live
+    found = run.services.identity()
+    if found.id != live.id:
+        raise refused(
+            "RG540",
+            f"{target} is {found.name} ({found.id}) now, the plan was made for {live.shown}",
+            "look who answers at this address, then plan again",
+        )
+    if live.is_empty:
+        return
+    mode = run.services.panel().mode
+    if mode != "AUTO":
+        raise refused(
+            "RG542",
+            f"{target} is in mode {mode}, which lets nobody write from afar",
+            "switch it to automatic at the pendant, acknowledge, and run this again",
+        )
+    stops = (run.restart and live.restart) or run.rearranges
+    if stops and run.services.execution().running:
+        raise refused(
+            "RG542",
+            f"the program of {target} runs, and what is planned stops it",
+            f"when the robot may stop: `rapidgen halt {target}`, then run this again",
+        )
+    if run.plan.wanted is None and live.touches_memory and not run.rearranges:
+        others = sorted(set(live.started) - set(live.owned))
+        raise refused(
+            "RG542",
+            f"taking modules out stops {', '.join(others)} on {target}, which is not the driver's",
+            "say --restart: a warm start brings it back",
+        )
+
+
+def before_files(run: Live) -> None:
+    """A backup by the controller; what is in the way of files that go. Raises DiagnosticError."""
+    if run.live.is_empty:
+        return
+    with _steps(run):
+        _back_up(run)
+        if run.plan.wanted is None and run.rearranges:
+            rearrange(run.services, run.work, run.live)
+            forget_saved(run.work, run.live)
+        _delete(run, run.live.delete)
+        if run.plan.wanted is None:
+            _set(run)
+
+
+def after_files(run: Live) -> None:
+    """cfg, program memory, restart, read back. Raises DiagnosticError RG543, RG544."""
+    if run.live.is_empty:
+        return
+    with _steps(run):
+        if run.plan.wanted is not None:
+            _set(run)
+            _delete(run, run.live.again)
+            _load(run)
+            if run.rearranges:
+                rearrange(run.services, run.work, run.live)
+    if not run.live.restart:
+        return
+    if not run.restart:
+        run.work.say("restart pending: what was loaded counts after a warm start (--restart)")
+        return
+    with _steps(run):
+        last = max((event.number for event in run.services.log(count=1)), default=0)
+        run.work.say("restarting (a warm start)")
+        run.services.restart()
+    prove(run.services, run.plan, run.live, last, run.proof, run.work.say)
+
+
+def _back_up(run: Live) -> None:
+    name = f"rapidgen_{datetime.now(UTC):%Y%m%d_%H%M%S}"
+    try:
+        run.work.say(f"the controller's own backup: {run.services.backup(name)}")
+    except RwsError as cause:
+        if cause.symbol not in ("E_DIR_EXIST", "E_ALREADY_EXISTS"):
+            raise
+
+
+def _delete(run: Live, rows: Sequence[Row]) -> None:
+    for row in rows:
+        run.work.say(f"deleting {row.section} {row.title}")
+        run.services.cfg_delete(row.domain, row.section, row.title)
+
+
+def _set(run: Live) -> None:
+    for change in run.live.change:
+        run.work.say(f"setting {change.section} {change.title}")
+        run.services.cfg_set(change.domain, change.section, change.title, change.new)
+
+
+def _load(run: Live) -> None:
+    optional = run.live.optional if run.live.touches_cfg else ()
+    for text in run.live.load:
+        run.work.say(f"loading {_count(text)} instances of {text.domain}")
+        _load_one(run, text)
+    for text in optional:
+        try:
+            _load_one(run, text)
+        except RwsError as cause:
+            run.work.say(f"left out, as the controller refuses it: {text.path} ({cause.symbol})")
+
+
+def _load_one(run: Live, text: CfgText) -> None:
+    path = _SCRATCH.format(text.domain.lower())
+    run.services.write_file(path, write_cfg(text).encode("latin-1", "replace"))
+    run.services.cfg_load(path, mode="add")
+    run.services.delete_file(path)
+
+
+def _count(text: CfgText) -> int:
+    return sum(len(section.instances) for section in text.sections)
+
+
+@contextmanager
+def _steps(run: Live) -> Iterator[None]:
+    """Turns what a step says into a refusal that tells the way on."""
+    try:
+        yield
+    except (RobotError, TransportFault) as cause:
+        plan = run.plan
+        raise DiagnosticError(
+            [
+                *cause.diagnostics,
+                error(
+                    "RG543",
+                    None,
+                    f"{plan.verb} of {plan.target} ended before it was done",
+                    f"run `rapidgen {plan.verb}` again to finish, or {way_back(plan)} to undo",
+                ),
+            ],
+            exit_code=1,
+        ) from cause
