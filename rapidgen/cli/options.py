@@ -56,6 +56,10 @@ Overwrite = Annotated[
     bool, typer.Option("--overwrite", help="Replace hand edits and strangers' files.")
 ]
 
+Restart = Annotated[
+    bool, typer.Option("--restart", help="Restart the controller (warm) where that is needed.")
+]
+
 # Of the verbs that talk to a controller's Robot Web Services.
 WebServices = Annotated[
     str,

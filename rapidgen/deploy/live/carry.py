@@ -52,13 +52,8 @@ class Live:
 def check(run: Live) -> None:
     """Raises DiagnosticError RG540 (another controller), RG542 (not in this state)."""
     target, live = run.plan.target, run.live
-    found = run.services.identity()
-    if found.id != live.id:
-        raise refused(
-            "RG540",
-            f"{target} is {found.name} ({found.id}) now, the plan was made for {live.shown}",
-            "look who answers at this address, then plan again",
-        )
+    if run.services.identity().id != live.id:
+        raise another(run.plan, live.id)
     if live.is_empty:
         return
     mode = run.services.panel().mode
@@ -84,6 +79,15 @@ def check(run: Live) -> None:
         )
 
 
+def another(plan: Plan, id: str) -> DiagnosticError:
+    """RG540."""
+    return refused(
+        "RG540",
+        f"the plan was made for controller {id}, and another one answers at {plan.target}",
+        "look who answers at this address, then plan again",
+    )
+
+
 def before_files(run: Live) -> None:
     """A backup by the controller; what is in the way of files that go. Raises DiagnosticError."""
     if run.live.is_empty:
@@ -93,9 +97,12 @@ def before_files(run: Live) -> None:
         if run.plan.wanted is None and run.rearranges:
             rearrange(run.services, run.work, run.live)
             forget_saved(run.work, run.live)
-        _delete(run, run.live.delete)
-        if run.plan.wanted is None:
-            _set(run)
+        if not run.live.touches_cfg:
+            return
+        with run.services.mastership("cfg"):
+            _delete(run, run.live.delete)
+            if run.plan.wanted is None:
+                _set(run)
 
 
 def after_files(run: Live) -> None:
@@ -104,9 +111,11 @@ def after_files(run: Live) -> None:
         return
     with _steps(run):
         if run.plan.wanted is not None:
-            _set(run)
-            _delete(run, run.live.again)
-            _load(run)
+            if run.live.touches_cfg:
+                with run.services.mastership("cfg"):
+                    _set(run)
+                    _delete(run, run.live.again)
+                    _load(run)
             if run.rearranges:
                 rearrange(run.services, run.work, run.live)
     if not run.live.restart:

@@ -1,6 +1,7 @@
 """What a deployment does besides files: cfg, modules in memory, a restart. Made of one look."""
 
 import json
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 
@@ -11,10 +12,9 @@ from rapidgen.deploy.cfg import (
     instance_from,
     is_delivered,
     may_be_refused,
-    shown_key,
 )
 from rapidgen.deploy.driverset import DriverSet
-from rapidgen.deploy.live.view import LiveView, Row
+from rapidgen.deploy.live.view import SECTIONS, LiveView, Row
 from rapidgen.deploy.neighbour import MODULE
 from rapidgen.deploy.steps import ManualStep
 from rapidgen.deploy.tasks import MAIN
@@ -153,8 +153,8 @@ def make_live_plan(
     return LivePlan(
         view.id,
         view.shown,
-        tuple(delete),
-        tuple(again),
+        _dependents_first(delete),
+        _dependents_first(again),
         tuple(change),
         tuple(needful),
         tuple(t for t in load if may_be_refused(t)),
@@ -205,9 +205,9 @@ def find_clashes(
 def live_steps(live: LivePlan, verb: str, host: str) -> tuple[ManualStep, ...]:
     """What the plan says of it: by web services, and by people."""
     by = BY_SERVICES
+    gone = Counter(row.domain for row in (*live.delete, *live.again))
     steps = [
-        ManualStep(by, f"delete {r.section} {shown_key(r.section, r.instance)}")
-        for r in (*live.delete, *live.again)
+        ManualStep(by, f"delete {count} instances of {domain}") for domain, count in gone.items()
     ]
     steps += [
         ManualStep(by, f"set {c.section} {c.title}: {_words(c.new)} (was {_words(c.old)})")
@@ -274,6 +274,16 @@ def _change(row: Row, new: Instance) -> Change:
         return {n: of.get(n, "false" if n in flags else "") for n in names}
 
     return Change(row.domain, row.section, row.title, values(after), values(before))
+
+
+def _dependents_first(rows: list[Row]) -> tuple[Row, ...]:
+    """What names something goes before that: outputs before signals, modules before tasks."""
+    order = [section for _, section in SECTIONS]
+
+    def place(row: Row) -> int:
+        return -order.index(row.section) if row.section in order else 0
+
+    return tuple(sorted(rows, key=place))
 
 
 def _loads(

@@ -13,14 +13,15 @@ from rapidgen.client.rws.model import CfgInstance, TaskState
 from rapidgen.deploy.cfg import Keyed, shown_key
 from rapidgen.system import Attribute, CfgText, Instance, Section
 
-_ALWAYS = (
+SECTIONS = (
     ("SYS", "CAB_TASKS"),
     ("SYS", "CAB_TASK_MODULES"),
     ("SYS", "CAB_EXEC_HOOKS"),
     ("EIO", "EIO_SIGNAL"),
     ("EIO", "SYSSIG_OUT"),
 )
-"""What another driver, a signal of another kind or a missing task is seen by."""
+"""What another driver, a signal of another kind or a missing task is seen by; what names another
+one comes after it."""
 _NONE = ("E_CFG_DOMAIN_INVALID", "E_CFG_TYPE_INVALID", "E_CFG_INSTANCE_INVALID")
 
 
@@ -133,7 +134,7 @@ def build_symbols(
 
 def _rows(services: Controller, references: Keyed) -> Iterator[Row]:
     wanted = [(domain, section) for domain, section, _ in references]
-    for domain, section in dict.fromkeys([*_ALWAYS, *wanted]):
+    for domain, section in dict.fromkeys([*SECTIONS, *wanted]):
         known = [i for key, i in references.items() if key[:2] == (domain, section)]
         try:
             found = services.cfg_instances(domain, section)

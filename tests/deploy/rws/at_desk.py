@@ -2,7 +2,9 @@
 
 import base64
 import hashlib
+import os
 import threading
+from pathlib import Path
 
 from rapidgen.client.errors import ConnectionLost
 from rapidgen.client.rws import Controller
@@ -29,7 +31,9 @@ CERTIFICATE = b"certificate"
 class Line:
     """Where a client's requests go. `cut` says at which one, `how` whether it is still done."""
 
-    def __init__(self, cabinet, generation, *, strict=True, on_thread=False, cut=None, how="before"):
+    def __init__(
+        self, cabinet, generation, *, strict=True, on_thread=False, cut=None, how="before"
+    ):
         self.cabinet, self.generation = cabinet, generation
         accounts = Accounts({"Default User": PASSWORD})
         self.desk = Desk(cabinet, generation, accounts, strict=strict)
@@ -129,9 +133,7 @@ class AtDesk:
                 self.cookies[SESSION] = session.key
         if self.cookies:
             headers["cookie"] = "; ".join(f"{k}={v}" for k, v in self.cookies.items())
-        reply = self.line.request(
-            Received(effect.method, effect.target, headers, effect.body, 1)
-        )
+        reply = self.line.request(Received(effect.method, effect.target, headers, effect.body, 1))
         for name, value in reply.headers:
             if name == "Set-Cookie":
                 key, _, rest = value.partition("=")
@@ -149,7 +151,11 @@ def connect(line) -> RwsTransport:
     """A transport over a line, logged in."""
     carrier = type("AtThisDesk", (AtDesk,), {"line": line})
     kind = type("ControllerAtDesk", (Controller,), {"_carrier_type": carrier})
-    fingerprint = "" if line.generation is Generation.ONE else hashlib.sha256(CERTIFICATE).hexdigest()
-    controller = kind("rws://cell", password=PASSWORD, fingerprint=fingerprint)
+    fingerprint = (
+        "" if line.generation is Generation.ONE else hashlib.sha256(CERTIFICATE).hexdigest()
+    )
+    controller = kind(
+        "rws://cell", password=PASSWORD, fingerprint=fingerprint, pin_file=Path(os.devnull)
+    )
     controller.connect()
     return RwsTransport(controller, "rws://cell")

@@ -6,7 +6,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parent))
 
-from at_desk import Line, connect
+from at_desk import PASSWORD, Line, connect, pass_time
 
 from rapidgen.config import load_config
 from rapidgen.controller.cabinet import Cabinet
@@ -41,8 +41,10 @@ def empty_cabinet(folder, generation, **options):
 def build(generation, *overrides):
     """The driver of an irb120 for a controller of this generation."""
     major, minor = RELEASES[generation]
-    ware = f"controller.robotware={major}.{minor:02d}"
-    return wanted_set("irb120", [ware, *overrides])
+    given = [f"controller.robotware={major}.{minor:02d}"]
+    if major > 6:
+        given.append("controller.type=omnicore")
+    return wanted_set("irb120", [*given, *overrides])
 
 
 def home_of(cabinet):
@@ -61,9 +63,7 @@ def run(transport, wanted, verb="deploy", *, overwrite=True, restart=True, proof
     """Plan and carry out; the plan."""
     plan = make_plan(transport, wanted, verb=verb)
     say = (said if said is not None else []).append
-    apply(
-        transport, plan, overwrite=overwrite, restart=restart, proof=proof or Proof(), say=say
-    )
+    apply(transport, plan, overwrite=overwrite, restart=restart, proof=proof or Proof(), say=say)
     return plan
 
 
@@ -77,6 +77,9 @@ class Kit:
     run = staticmethod(run)
     connect = staticmethod(connect)
     Line = Line
+    PASSWORD = PASSWORD
+    apply = staticmethod(apply)
+    pass_time = staticmethod(pass_time)
 
 
 @pytest.fixture(scope="session")
