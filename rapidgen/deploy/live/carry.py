@@ -128,6 +128,21 @@ def after_files(run: Live) -> None:
         run.work.say("restarting (a warm start)")
         run.services.restart()
     prove(run.services, run.plan, run.live, last, run.proof, run.work.say)
+    with _steps(run):
+        _point(run)
+
+
+def _point(run: Live) -> None:
+    """Program pointers to main in the driver's own motion tasks, and in no other."""
+    for task, module in run.live.mains:
+        try:
+            run.services.set_pointer(task, module, "main")
+        except RwsError as cause:
+            others = ", ".join(run.live.pointers) or "no other task"
+            run.work.say(
+                f"! the program pointer of {task} cannot be set alone ({cause.symbol}): "
+                f"`rapidgen start --main` sets those of all tasks ({others})"
+            )
 
 
 def _back_up(run: Live) -> None:

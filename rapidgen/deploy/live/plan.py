@@ -1,9 +1,8 @@
 """What a deployment does besides files: cfg, modules in memory, a restart. Made of one look."""
 
-import json
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 
 from rapidgen._json import Json, Members
 from rapidgen.client.rws import Controller, RwsError
@@ -80,7 +79,9 @@ class LivePlan:
     owned: tuple[str, ...] = ()
     """Those of them that a deployment brought."""
     pointers: tuple[str, ...] = ()
-    """NORMAL tasks that are not the driver's: `start --main` would reset theirs, too."""
+    """NORMAL tasks that are not the driver's: where no pointer can be set alone, theirs go, too."""
+    mains: tuple[tuple[str, str], ...] = ()
+    """NORMAL tasks whose `main` is ours, with its module."""
     running: bool = False
     mode: str = ""
 
@@ -102,13 +103,13 @@ class LivePlan:
         told: Members = {
             "id": self.id,
             "delete": [r.name for r in (*self.delete, *self.again)],
-            "change": [asdict(c) for c in self.change],
+            "change": [[c.section, c.title, dict(c.new)] for c in self.change],
             "load": [write_cfg(t) for t in (*self.load, *self.optional)],
             "restart": self.restart,
         }
         for name in ("clash", "unload", "replace", "restore"):
             told[name] = [m.shown for m in getattr(self, name)]
-        return json.loads(json.dumps(told))
+        return told
 
 
 def make_live_plan(
@@ -167,6 +168,7 @@ def make_live_plan(
         tuple(t.name for t in background),
         tuple(t.name for t in background if t.name.casefold() in known),
         tuple(t.name for t in view.tasks if t.kind == "normal" and t.name.casefold() not in known),
+        _mains(view, wanted),
         view.running,
         view.mode,
     )
@@ -238,9 +240,9 @@ def live_steps(live: LivePlan, verb: str, host: str) -> tuple[ManualStep, ...]:
         what = f"a warm start: --restart does it, or menu > Restart{beside}"
         steps.append(ManualStep("you", what, stops_motion=True))
     if verb != "uninstall":
-        what = f"motors on and start, at the robot or by `rapidgen start {host} --main`"
-        if live.pointers:
-            what += f", which resets the program pointers of {', '.join(live.pointers)}, too"
+        what = f"motors on and start, at the robot or by `rapidgen start {host}`"
+        if live.mains and not live.restart:
+            what += "; program pointer to main first"
         steps.append(ManualStep("you", what))
     return tuple(steps)
 
@@ -329,6 +331,14 @@ def _memory(
             if real in tasks and low in lying and low not in mine:
                 unload.append(InMemory(real, module))
     return tuple(replace), tuple(unload)
+
+
+def _mains(view: LiveView, wanted: DriverSet | None) -> tuple[tuple[str, str], ...]:
+    found = {}
+    for file in wanted.files if wanted else ():
+        if file.kind == "module" and MAIN.search(file.data):
+            found |= {task: _module_name(file.data) for task in file.tasks if view.normal(task)}
+    return tuple(found.items())
 
 
 def _module_name(data: bytes) -> str:

@@ -56,11 +56,12 @@ class Line:
         if not self.on_thread:
             pass_time(self.cabinet, 0.06)  # 20 requests a second are let through
             return self.desk.handle(got)
-        done, found = threading.Event(), []
+        done, found, restarts = threading.Event(), [], self.cabinet.restarts
         if not self.cabinet.post(lambda: (found.append(self.desk.handle(got)), done.set())):
             return HttpReply(503)
-        if not done.wait(1.0):
-            return HttpReply(503)  # it restarted meanwhile
+        while not done.wait(0.05):
+            if self.cabinet.restarts > restarts:
+                return HttpReply(503)  # nobody will answer any more
         return found[0]
 
     def pause(self, seconds):

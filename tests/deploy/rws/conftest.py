@@ -38,13 +38,21 @@ def empty_cabinet(folder, generation, **options):
     return Cabinet(system, cfg=cfg, **chosen)
 
 
-def build(generation, *overrides):
-    """The driver of an irb120 for a controller of this generation."""
+def overrides_of(generation):
+    """What an irb120 needs for a controller of this generation."""
     major, minor = RELEASES[generation]
-    given = [f"controller.robotware={major}.{minor:02d}"]
-    if major > 6:
-        given.append("controller.type=omnicore")
-    return wanted_set("irb120", [*given, *overrides])
+    ware = f"controller.robotware={major}.{minor:02d}"
+    return [ware, "controller.type=omnicore"] if major > 6 else [ware]
+
+
+def build(generation, *overrides):
+    """The driver of an irb120."""
+    return wanted_set("irb120", [*overrides_of(generation), *overrides])
+
+
+def model(generation):
+    """Its configuration."""
+    return load_config("irb120", overrides=tuple(overrides_of(generation)))
 
 
 def home_of(cabinet):
@@ -72,6 +80,7 @@ class Kit:
 
     empty_cabinet = staticmethod(empty_cabinet)
     build = staticmethod(build)
+    model = staticmethod(model)
     home_of = staticmethod(home_of)
     cfg_of = staticmethod(cfg_of)
     run = staticmethod(run)

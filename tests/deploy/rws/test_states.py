@@ -1,4 +1,4 @@
-"""What a plan says and what is refused: a restart pending, modules in the way, a running program."""
+"""What a plan says and what is refused: a pending restart, modules in the way, a program."""
 
 import json
 from dataclasses import replace
